@@ -21,5 +21,7 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<int> run(const VerifyOptions& request);
 /// Prints a profile that does what was measured.
 [[nodiscard]] base::Result<int> run(const LearnOptions& options);
+/// Writes the page of a run.
+[[nodiscard]] base::Result<int> run(const ReportOptions& options);
 
 } // namespace hapnet::emulator

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/checks.hpp"
 #include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
 #include "emulator/core/emulated_path.hpp"
@@ -23,6 +24,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -34,10 +36,6 @@
 namespace hapnet::emulator {
 
 namespace {
-
-constexpr std::string_view program = "hapnet-emulator";
-
-void say(std::string_view text) { net::say(program, text); }
 
 /// One run, from bound sockets to written files. Everything but the recorder's writing happens on
 /// the thread that constructs it.
@@ -53,7 +51,7 @@ public:
                  .limits = QueueLimits::within(options.in_flight_bytes),
                  .replay = scenario.replay}},
           relay_{endpoints, path_, recorder_},
-          run_{options, scenario_, path_.director(), relay_, recorder_, {}, {}},
+          run_{options, scenario_, path_, relay_, recorder_, {}, {}},
           status_{start_}
     {
         if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
@@ -63,11 +61,12 @@ public:
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
-    void announce() const
+    void announce()
     {
-        if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) say(shortage);
-        if (run_.options.timing == Timing::spin) say(spin_warning);
-        for (const std::string& warning : scenario_.warnings) say(warning);
+        if (const auto shortage = run_.real_time.shortage(); !shortage.empty())
+            status_.say(shortage);
+        if (run_.options.timing == Timing::spin) status_.say(spin_warning);
+        for (const std::string& warning : scenario_.warnings) status_.say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
     }
@@ -81,21 +80,27 @@ public:
         const control::Subject subject = subject_of(emulation);
         Pacer pacer{run_.options.timing, start_};
         auto now = start_;
-        while (!stop.requested() && !base::is_due(end_, now)) {
+        while (!stop.requested() && !is_stopped_ && !base::is_due(end_, now)) {
             pacer.wait(descriptors, next_deadline());
             const bool adopted = relay_.receive() > 0;
             now = net::monotonic_now();
             path_.advance(now);
             relay_.release(now);
             run_.elapsed = now - start_;
-            if (adopted) tell(endpoints_line(relay_));
-            while (const auto notice = relay_.next_notice()) tell(*notice);
+            if (adopted) status_.say(endpoints_line(relay_));
+            while (const auto notice = relay_.next_notice()) status_.say(*notice);
             if (control_) control_->serve(subject, now, path_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
             status_.show([this] { return status_line(run_); }, now);
         }
-        status_.clear();
+        status_.finish();
+    }
+
+    /// The error names a check that no statistics can meet.
+    [[nodiscard]] base::Result<void> ensure_checks() const
+    {
+        return ensure_keys(scenario_.checks, statistics_of(run_));
     }
 
     /// Writes the files and says how it went; gives the exit code. Throws, after that, what kept
@@ -109,20 +114,24 @@ public:
         } catch (const std::system_error&) {
             failure = std::current_exception();
         }
+        run_.is_over = true;
+        const auto statistics = statistics_of(run_);
+        const std::string text = statistics.dump(2) + "\n";
         if (stats_) {
             try {
-                stats_->commit(statistics_json(run_));
+                stats_->commit(text);
             } catch (const std::system_error&) { // they are worth more than their place
                 failure = std::current_exception();
-                fmt::print("{}", statistics_json(run_));
+                fmt::print("{}", text);
             }
         } else if (run_.options.stats) {
-            fmt::print("{}", statistics_json(run_));
+            fmt::print("{}", text);
         }
-        net::tell(summary(run_));
+        const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
+        net::tell(summary(run_) + failed);
         if (failure) std::rethrow_exception(failure);
         const bool is_complete = recorder_.fates_lost() == 0 && recorder_.capture_lost() == 0;
-        return is_complete ? 0 : net::exit_failed;
+        return is_complete && failed.empty() ? 0 : net::exit_failed;
     }
 
 private:
@@ -146,8 +155,10 @@ private:
             return net::text_of_file(path);
         };
         return {.path = path_,
-                .statistics_json = [this] { return statistics_json(run_); },
-                .open = open};
+                .statistics_json = [this] { return statistics_of(run_).dump(); },
+                .open = open,
+                .preset = preset_text,
+                .stop = [this] { is_stopped_ = true; }};
     }
 
     /// Reads the profile again. One that is wrong changes nothing.
@@ -157,11 +168,13 @@ private:
         options.replay.reset(); // stays as it was read; reading it would hold up the relay
         auto scenario = scenario_of(options);
         if (!scenario) {
-            return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
+            return status_.say(
+                fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
-        std::ignore = path_.apply(Apply{scenario->profile}, now); // is never refused
-        tell(fmt::format("SIGHUP: {} is read again, generation {}",
-                         *run_.options.conditions.profile, path_.director().generation()));
+        // Is never refused.
+        std::ignore = path_.apply(Apply{scenario->profile}, now, ChangeCause::reload);
+        status_.say(fmt::format("SIGHUP: {} is read again, generation {}",
+                                *run_.options.conditions.profile, path_.director().generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -169,14 +182,9 @@ private:
     {
         if (has_told_of_files_ || !recorder_.has_failed()) return;
         has_told_of_files_ = true;
-        tell("what this run records cannot be written any more (is the disk full?): the run goes "
-             "on, but its files will end here");
-    }
-
-    void tell(const std::string& line) const
-    {
-        status_.clear();
-        say(line);
+        status_.say(
+            "what this run records cannot be written any more (is the disk full?): the run goes "
+            "on, but its files will end here");
     }
 
     base::TimePoint start_;
@@ -188,6 +196,7 @@ private:
     std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;
     bool has_told_of_files_ = false;
+    bool is_stopped_ = false; // by a client
     Run run_;
     Status status_;
 };
@@ -203,6 +212,7 @@ base::Result<int> run(const Options& options)
     // Without a profile there is nothing to read again, and a closed terminal ends the run.
     net::StopSignal stop{options.conditions.profile ? net::Hangup::reload : net::Hangup::stop};
     Session session{options, *scenario, *endpoints};
+    if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/checks.hpp"
 #include "emulator/commands.hpp"
 #include "emulator/endpoints.hpp"
 #include "emulator/pacer.hpp"
@@ -16,6 +17,7 @@
 
 #include <array>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -47,11 +49,12 @@ public:
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
-    void announce() const
+    void announce()
     {
-        if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) tell(shortage);
-        if (run_.options.run.timing == Timing::spin) tell(std::string{spin_warning});
-        for (const std::string& warning : run_.scenario.warnings) tell(warning);
+        if (const auto shortage = run_.real_time.shortage(); !shortage.empty())
+            status_.say(shortage);
+        if (run_.options.run.timing == Timing::spin) status_.say(spin_warning);
+        for (const std::string& warning : run_.scenario.warnings) status_.say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
     }
@@ -69,32 +72,35 @@ public:
             now = net::monotonic_now();
             port_.release(now);
             run_.elapsed = now - start_;
-            if (const auto notice = port_.next_notice()) tell(*notice);
+            if (const auto notice = port_.next_notice()) status_.say(*notice);
             status_.show([this] { return status_line(run_); }, now);
         }
-        status_.clear();
+        status_.finish();
     }
 
-    /// Writes the statistics and says how it went.
+    /// The error names a check that no statistics can meet.
+    [[nodiscard]] base::Result<void> ensure_checks() const
+    {
+        return ensure_keys(run_.scenario.checks, statistics_of(run_));
+    }
+
+    /// Writes the statistics and says how it went; gives the exit code.
     int finish()
     {
         net::leave_real_time();
-        net::tell(summary(run_));
+        const auto statistics = statistics_of(run_);
+        const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
+        net::tell(summary(run_) + failed);
+        const std::string text = statistics.dump(2) + "\n";
         if (stats_) {
-            stats_->commit(statistics_json(run_));
+            stats_->commit(text);
         } else if (run_.options.run.stats) {
-            fmt::print("{}", statistics_json(run_));
+            fmt::print("{}", text);
         }
-        return 0;
+        return failed.empty() ? 0 : net::exit_failed;
     }
 
 private:
-    void tell(const std::string& line) const
-    {
-        status_.clear();
-        net::say("hapnet-emulator", line);
-    }
-
     base::TimePoint start_;
     Recorder recorder_{Recorder::Files{}}; // of no files
     ports::Upstream port_;
@@ -114,6 +120,7 @@ base::Result<int> run(const UpstreamOptions& options)
     if (!places) return tl::unexpected{places.error()};
     net::StopSignal stop{net::Hangup::stop};
     UpstreamSession session{options, *scenario, *std::move(places)};
+    if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();

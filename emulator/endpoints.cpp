@@ -59,6 +59,11 @@ base::Result<Endpoints> look_up(const Options& options)
     if (!a) return tl::unexpected{a.error()};
     const auto b = look_up_side("b", options.listen_b, options.b);
     if (!b) return tl::unexpected{b.error()};
+    if (a->listen == b->listen && a->listen.port() != 0) {
+        return base::fail(fmt::format("--listen-a and --listen-b are the same address, {}: give "
+                                      "each side its own port",
+                                      a->listen.to_text()));
+    }
     return without_loop({a->listen, b->listen, a->peer, b->peer});
 }
 

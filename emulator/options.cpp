@@ -57,7 +57,7 @@ it listens; port 0 takes any free port. SIGINT or SIGTERM ends the run and write
 reads --profile again; without a profile, or with --upstream, it ends the run.)";
 
 constexpr const char* exit_codes = R"(  0  done
-  1  the run failed
+  1  the run failed, or did not meet a --require or a [[check]] of its profile
   2  bad usage or input
   3  the system refused (port in use, no permission))";
 
@@ -124,6 +124,21 @@ Examples:
 
 constexpr const char* learn_exit_codes = R"(  0  done
   2  bad usage, or a file that cannot be used)";
+constexpr const char* report_description =
+    "Makes one page of a run, for a browser: delay as drawn and as it came out, lateness, losses, "
+    "changes, and the tests of verify.";
+
+constexpr const char* report_footer =
+    R"(RUN is the file that --stats wrote. With --fates in that run, the page has plots.
+
+Examples:
+  hapnet-emulator --listen-a :7001 --listen-b :7002 --profile lte \
+      --duration 30s --stats run.json --fates fates.csv
+  hapnet-emulator report run.json --out run.html)";
+
+constexpr const char* report_exit_codes = R"(  0  done
+  2  bad usage, or a file that cannot be used
+  3  the page cannot be written)";
 
 /// The words of a parameter's description as a sentence: those of profiles.
 template <auto member>
@@ -224,6 +239,17 @@ base::Result<net::HostPort> parse_host(const std::string& text)
     return host;
 }
 
+/// Conditions, one after the other.
+cli::Take require_into(std::vector<base::Condition>& into)
+{
+    return [&into](const std::string& text) -> base::Result<void> {
+        auto condition = base::parse_condition(text);
+        if (!condition) return tl::unexpected{condition.error()};
+        into.push_back(*std::move(condition));
+        return {};
+    };
+}
+
 void add_run_options(cli::Command& program, Options& options)
 {
     program.option("--listen-a", "ADDRESS",
@@ -270,6 +296,12 @@ void add_run_options(cli::Command& program, Options& options)
                    "Capture both sides to FILE, with a comment on each packet (pcapng, for "
                    "Wireshark)",
                    cli::into(options.capture));
+    program
+        .option("--require", "CONDITION",
+                "What the statistics must meet in the end, such as 'up.received>=1000', or the "
+                "run has failed (exit code 1); may be repeated",
+                require_into(options.required))
+        .repeated();
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
@@ -372,6 +404,31 @@ base::Result<base::Duration> parse_even_spacing(const std::string& text)
     });
 }
 
+void add_check(cli::Command& command, CheckOptions& options, bool& is_list)
+{
+    command.describe(check_description);
+    command.add_footer(check_footer);
+    command.add_exit_codes(check_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+}
+
+void add_predict(cli::Command& command, PredictOptions& options, bool& is_list)
+{
+    constexpr std::uint64_t packets_max = 1'000'000'000;
+    command.describe(predict_description);
+    command.add_footer(predict_footer);
+    command.add_exit_codes(predict_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.option(
+        "--packets", "NUMBER",
+        "Number of datagrams, each way (default: 400000, and on up to 6400000 until mean and "
+        "deviation of the delay are known to 1 %)",
+        cli::into(options.stream.packets, base::Count{1, packets_max}));
+    command.flag("--json", "Print one JSON object instead of text", options.as_json);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+}
+
 void add_verify(cli::Command& command, VerifyOptions& options)
 {
     command.describe(verify_description);
@@ -402,6 +459,19 @@ void add_learn(cli::Command& command, LearnOptions& options)
     command.option("--rate", "NUMBER",
                    "Datagrams a second that were sent, where FILE does not say so",
                    cli::into(options.spacing, parse_even_spacing));
+}
+
+void add_report(cli::Command& command, ReportOptions& options)
+{
+    command.describe(report_description);
+    command.add_footer(report_footer);
+    command.add_exit_codes(report_exit_codes);
+    command.positional("RUN", "What --stats of the run has written", cli::into(options.run))
+        .required("run.json");
+    command.option("--fates", "FILE", "The fates of the run (default: those that RUN names)",
+                   cli::into(options.fates));
+    command.option("--out", "FILE", "Where the page goes; - is stdout", cli::into(options.out))
+        .required("run.html");
 }
 
 /// The names of the presets, each followed by `separator`.
@@ -517,33 +587,21 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     add_run_options(program, options);
     UpstreamOptions through;
     add_upstream_options(program, through);
-
-    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
-    check.describe(check_description);
-    check.add_footer(check_footer);
-    check.add_exit_codes(check_exit_codes);
-    CheckOptions checking;
     bool is_list = false;
-    add_dry_run(check, checking.conditions, checking.stream);
-    check.flag("--list", "Print the names of the presets and exit", is_list);
-
+    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
+    CheckOptions checking;
+    add_check(check, checking, is_list);
     cli::Command& predict =
         program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
-    predict.describe(predict_description);
-    predict.add_footer(predict_footer);
-    predict.add_exit_codes(predict_exit_codes);
     PredictOptions predicting;
-    constexpr std::uint64_t packets_max = 1'000'000'000;
-    add_dry_run(predict, predicting.conditions, predicting.stream);
-    predict.option("--packets", "NUMBER", "Number of datagrams, each way (default 400000)",
-                   cli::into(predicting.stream.packets, base::Count{1, packets_max}));
-    predict.flag("--json", "Print one JSON object instead of text", predicting.as_json);
-    predict.flag("--list", "Print the names of the presets and exit", is_list);
-
+    add_predict(predict, predicting, is_list);
     cli::Command& verify =
         program.command("verify", "Tests whether the fates of a run follow its profile");
     VerifyOptions verifying;
     add_verify(verify, verifying);
+    cli::Command& report = program.command("report", "Makes a page of a run");
+    ReportOptions reporting;
+    add_report(report, reporting);
 
     cli::Command& learn = program.command("learn", "Finds the profile of a measured path");
     LearnOptions learning;
@@ -551,6 +609,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (learn.is_chosen()) return AnyOptions{std::move(learning)};
+    if (report.is_chosen()) return AnyOptions{std::move(reporting)};
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
     if (!check.is_chosen() && !predict.is_chosen()) {
@@ -559,6 +618,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
         through.run = std::move(options);
         return AnyOptions{std::move(through)};
     }
+    if (predict.is_given("--packets")) predicting.packets_max.reset();
     const auto fine = check.is_chosen() ? require_conditions(checking.conditions, check)
                                         : require_conditions(predicting.conditions, predict);
     if (!fine) return tl::unexpected{fine.error()};

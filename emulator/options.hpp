@@ -4,6 +4,7 @@
 
 #include "emulator/core/queue_limits.hpp"
 #include "emulator/tools/predict.hpp"
+#include "proto/base/condition.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/address_set.hpp"
@@ -55,7 +56,8 @@ struct Options {
     std::optional<std::string> stats;       // a file, or "-" for stdout
     std::optional<std::string> fates;
     std::optional<std::string> capture;
-    std::optional<std::string> control; // the path of a Unix socket
+    std::optional<std::string> control;      // the path of a Unix socket
+    std::vector<base::Condition> required{}; // besides the profile's checks
 };
 
 /// A run for any client of a server: `hapnet-emulator --listen ... --upstream HOST:PORT`
@@ -78,6 +80,8 @@ struct CheckOptions {
 struct PredictOptions {
     ConditionOptions conditions;
     tools::Stream stream{};
+    /// So many at most, until mean and deviation have settled; nullopt: as many as stream says.
+    std::optional<std::uint64_t> packets_max = 6'400'000;
     bool as_json = false;
 };
 
@@ -97,8 +101,15 @@ struct LearnOptions {
     std::optional<base::Duration> spacing{}; // instead of the one in FILE
 };
 
+/// `hapnet-emulator report RUN`
+struct ReportOptions {
+    std::string run;                  // what --stats wrote
+    std::optional<std::string> fates; // instead of those that RUN names
+    std::string out;                  // "-": stdout
+};
+
 using AnyOptions = std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions,
-                                VerifyOptions, LearnOptions>;
+                                VerifyOptions, ReportOptions, LearnOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -31,6 +31,15 @@ std::string path_beside(const std::string& name, const std::string& beside)
     return (std::filesystem::path{beside}.parent_path() / name).string();
 }
 
+base::Result<std::string> preset_text(const std::string& name)
+{
+    const auto no_file = [](const std::string& path) -> base::Result<std::string> {
+        return base::fail("cannot read " + path);
+    };
+    return base::find_text(meant_name(name), presets(), "a preset", no_file)
+        .map([](const auto& found) { return std::string{found.text}; });
+}
+
 base::Result<Profile> load_profile(const std::string& file_or_name)
 {
     const auto found =

@@ -16,4 +16,7 @@ namespace hapnet::emulator {
 /// Reads the preset of that name, or else a file. The error names the file and the line.
 [[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name);
 
+/// The text of a preset; the error names those that there are.
+[[nodiscard]] base::Result<std::string> preset_text(const std::string& name);
+
 } // namespace hapnet::emulator

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/report.hpp"
 
+#include "emulator/checks.hpp"
 #include "emulator/control/settings.hpp"
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
@@ -9,8 +10,10 @@
 #include "emulator/stream_json.hpp"
 #include "proto/base/version.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <utility>
@@ -26,6 +29,14 @@ DirectionOfRun direction_of(const ports::Relay::Side& side)
 {
     return {side.link.statistics(), &side.link.stream_statistics(), side.strangers,
             side.socket.overflowed()};
+}
+
+/// A run that keeps each fate keeps whole distributions, too.
+nlohmann::ordered_json direction_json(const ports::Relay::Side& side, const Run& run)
+{
+    DirectionOfRun direction = direction_of(side);
+    direction.has_distributions = run.is_over && run.options.fates.has_value();
+    return json_of(direction, run.options.budget);
 }
 
 Json address_of(const ports::Relay::Side& side)
@@ -62,6 +73,26 @@ nlohmann::ordered_json configuration_json(const Path& path)
     return {{"up", of(Direction::up, path.up)}, {"down", of(Direction::down, path.down)}};
 }
 
+nlohmann::ordered_json changes_json(const ChangeLog& changes, std::size_t count_max)
+{
+    Json list = Json::array();
+    const std::span all{changes.entries()};
+    for (const ConditionChange& change : all.last(std::min(all.size(), count_max))) {
+        Json settings = Json::object();
+        for (const auto& [key, value] : texts_of(Direction::up, change.up)) settings[key] = value;
+        for (const auto& [key, value] : texts_of(Direction::down, change.down)) {
+            settings[key] = value;
+        }
+        list.push_back(
+            {{"generation", change.generation},
+             {"elapsed_s", base::to_seconds(change.elapsed)},
+             {"effective_at", {{"up", change.effective_up}, {"down", change.effective_down}}},
+             {"by", to_text(change.by)},
+             {"settings", std::move(settings)}});
+    }
+    return list;
+}
+
 std::string ready_line(const Run& run)
 {
     return fmt::format("ready a={} b={} seed={} timing={}\n",
@@ -79,18 +110,23 @@ std::string endpoints_line(const ports::Relay& relay)
     return fmt::format("a is {}, b is {}", in_words(relay.a()), in_words(relay.b()));
 }
 
-std::string statistics_json(const Run& run)
+nlohmann::ordered_json statistics_of(const Run& run)
 {
     const Options& options = run.options;
     const ports::Relay::Side& a = run.relay.a();
     const ports::Relay::Side& b = run.relay.b();
+    // Clients may ask for them many times a second, and the relay answers.
+    constexpr std::size_t while_it_runs = 20;
+    const ChangeLog& log = run.path.changes();
+    Json changes = changes_json(log, run.is_over ? ChangeLog::entries_max : while_it_runs);
+    const auto omitted = log.omitted() + (log.entries().size() - changes.size());
     std::vector<std::string> reasons;
     for (const auto& [way, side] : {std::pair{"up", &a}, std::pair{"down", &b}}) {
         for (const std::string& reason : reasons_against(direction_of(*side), options.budget)) {
             reasons.push_back(fmt::format("{}: {}", way, reason));
         }
     }
-    const Json json{
+    Json json{
         {"program", "hapnet-emulator"},
         {"version", base::version()},
         {"commit", base::commit()},
@@ -107,8 +143,11 @@ std::string statistics_json(const Run& run)
         {"b", address_of(b)},
         {"strangers", a.strangers + b.strangers},
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
-        {"generation", run.director.generation()},
-        {"configuration", configuration_json(run.scenario.profile.path)},
+        {"generation", run.path.director().generation()},
+        {"configuration_at_start", configuration_json(run.scenario.profile.path)},
+        {"configuration_at_end", configuration_json(run.path.director().path())},
+        {"changes", std::move(changes)},
+        {"changes_omitted", omitted},
         {"profile", to_text(run.scenario.profile)},
         {"fates", or_null(options.fates)},
         {"replay", or_null(options.replay)},
@@ -117,10 +156,11 @@ std::string statistics_json(const Run& run)
         {"capture_lost", run.recorder.capture_lost()},
         {"valid", reasons.empty()},
         {"invalid_because", reasons},
-        {"up", json_of(direction_of(a), options.budget)},
-        {"down", json_of(direction_of(b), options.budget)},
+        {"up", direction_json(a, run)},
+        {"down", direction_json(b, run)},
     };
-    return json.dump(2) + "\n";
+    if (!run.scenario.checks.empty()) json["checks"] = judged(run.scenario.checks, json);
+    return json;
 }
 
 std::string summary(const Run& run)

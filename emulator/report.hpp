@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/director.hpp"
+#include "emulator/core/emulated_path.hpp"
 #include "emulator/endpoints.hpp"
 #include "emulator/options.hpp"
 #include "emulator/ports/relay.hpp"
@@ -19,11 +19,12 @@ namespace hapnet::emulator {
 struct Run {
     const Options& options;
     const Scenario& scenario;
-    const Director& director;
+    const EmulatedPath& path;
     const ports::Relay& relay;
     const Recorder& recorder;
     net::RealTime real_time;
     base::Duration elapsed{}; // since the sockets were bound
+    bool is_over = false;     // nothing waits for the statistics any more: they may be long
 };
 
 /// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
@@ -35,8 +36,11 @@ struct Run {
 /// What of each direction differs from the default, as a profile says it.
 [[nodiscard]] nlohmann::ordered_json configuration_json(const Path& path);
 
+/// The last `count_max` of the changes that a run saw, each with the settings that changed.
+[[nodiscard]] nlohmann::ordered_json changes_json(const ChangeLog& changes, std::size_t count_max);
+
 /// What --stats writes: one JSON object.
-[[nodiscard]] std::string statistics_json(const Run& run);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run);
 
 /// A few lines for a person.
 [[nodiscard]] std::string summary(const Run& run);

@@ -147,6 +147,8 @@ base::Result<Scenario> scenario_of(const Options& options)
     scenario.profile = *std::move(profile);
     scenario.seed = seed_of(options.conditions, scenario.profile);
     scenario.profile.seed = scenario.seed;
+    scenario.checks = scenario.profile.checks;
+    scenario.checks.insert(scenario.checks.end(), options.required.begin(), options.required.end());
     if (options.replay) {
         auto fates = read_fates(*options.replay);
         if (!fates) return tl::unexpected{fates.error()};

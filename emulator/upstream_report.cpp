@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/upstream_report.hpp"
 
+#include "emulator/checks.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/direction_report.hpp"
 #include "emulator/report.hpp"
@@ -75,7 +76,7 @@ std::string ready_line(const UpstreamRun& run)
                        run.scenario.seed.value(), to_text(run.options.run.timing));
 }
 
-std::string statistics_json(const UpstreamRun& run)
+nlohmann::ordered_json statistics_of(const UpstreamRun& run)
 {
     const auto budget = run.options.run.budget;
     const Sums sums{run.port};
@@ -90,7 +91,7 @@ std::string statistics_json(const UpstreamRun& run)
     for (const auto& client : run.port.clients()) {
         if (client) clients.push_back(json_of_client(*client, budget));
     }
-    const nlohmann::ordered_json json{
+    nlohmann::ordered_json json{
         {"program", "hapnet-emulator"},
         {"version", base::version()},
         {"commit", base::commit()},
@@ -106,7 +107,7 @@ std::string statistics_json(const UpstreamRun& run)
         {"clients_seen", run.port.clients_seen()},
         {"clients_forgotten", run.port.clients_forgotten()},
         {"refused", run.port.refused()},
-        {"configuration", configuration_json(run.scenario.profile.path)},
+        {"configuration_at_start", configuration_json(run.scenario.profile.path)},
         {"profile", to_text(run.scenario.profile)},
         {"valid", reasons.empty()},
         {"invalid_because", reasons},
@@ -114,7 +115,8 @@ std::string statistics_json(const UpstreamRun& run)
         {"down", json_of(sums.of_down(), budget)},
         {"clients", std::move(clients)},
     };
-    return json.dump(2) + "\n";
+    if (!run.scenario.checks.empty()) json["checks"] = judged(run.scenario.checks, json);
+    return json;
 }
 
 std::string summary(const UpstreamRun& run)

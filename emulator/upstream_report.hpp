@@ -8,6 +8,7 @@
 #include "proto/base/time.hpp"
 #include "proto/net/real_time.hpp"
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace hapnet::emulator {
@@ -25,7 +26,7 @@ struct UpstreamRun {
 [[nodiscard]] std::string ready_line(const UpstreamRun& run);
 
 /// What --stats writes: one JSON object, with the sums of all clients and each that is there.
-[[nodiscard]] std::string statistics_json(const UpstreamRun& run);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run);
 
 /// A few lines for a person.
 [[nodiscard]] std::string summary(const UpstreamRun& run);

@@ -84,14 +84,17 @@ bool Director::advance(base::TimePoint now)
     const auto before = position();
     now_ = std::max(now, now_);
     if (!base::is_due(next_change_, now_)) return false;
-    let_later_steps_win(before);
-    std::erase_if(overrides_, [&](const Override& one) { return base::is_due(one.until, now_); });
+    const bool has_step = let_later_steps_win(before);
+    const auto ended = std::erase_if(
+        overrides_, [&](const Override& one) { return base::is_due(one.until, now_); });
+    last_reason_ = has_step ? Reason::step : ended > 0 ? Reason::hand : Reason::ramp;
     return update();
 }
 
 base::Result<void> Director::apply(const Command& command, base::TimePoint now)
 {
     advance(now);
+    last_reason_ = Reason::hand;
     if (const auto* set = std::get_if<Set>(&command)) return take(*set);
     if (const auto* other = std::get_if<Apply>(&command)) {
         follow(other->profile, now_);
@@ -136,13 +139,16 @@ void Director::follow(const Profile& profile, base::TimePoint begin)
     if (!update() && !is_the_same) ++generation_;
 }
 
-void Director::let_later_steps_win(base::Duration before)
+/// Whether there were steps since.
+bool Director::let_later_steps_win(base::Duration before)
 {
+    const auto begin = after(profile_.timeline, before);
     const auto end = after(profile_.timeline, position());
-    for (auto step = after(profile_.timeline, before); step < end; ++step) {
+    for (auto step = begin; step < end; ++step) {
         for (Override& one : overrides_) strip(one, step->up, step->down);
     }
     std::erase_if(overrides_, sets_nothing);
+    return begin < end;
 }
 
 bool Director::update()
@@ -172,7 +178,7 @@ std::optional<base::TimePoint> Director::find_next_change() const
 
 Profile Director::remaining() const
 {
-    Profile profile{profile_.name, profile_.seed, path_, {}};
+    Profile profile{profile_.name, profile_.seed, path_, {}, profile_.checks};
     Override by_hand; // as far as no step has taken over yet
     for (const Override& one : overrides_) {
         by_hand.up = merged(std::move(by_hand.up), one.up);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/change_log.hpp"
 #include "emulator/core/director.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/link.hpp"
@@ -37,7 +38,7 @@ public:
     /// Follows the timeline up to `now`. Cheap when nothing changes.
     void advance(base::TimePoint now)
     {
-        if (director_.advance(now)) enact(now);
+        if (director_.advance(now)) enact_timeline(now);
     }
 
     /// Takes the next datagram of a direction, which arrived at `arrival`; see Link::on_packet().
@@ -79,9 +80,12 @@ public:
     }
 
     /// Does what is asked, at once; see Director::apply().
-    base::Result<void> apply(const Command& command, base::TimePoint now);
+    base::Result<void> apply(const Command& command, base::TimePoint now,
+                             ChangeCause by = ChangeCause::hand);
 
     [[nodiscard]] const Director& director() const { return director_; }
+    /// How the conditions have changed since the start.
+    [[nodiscard]] const ChangeLog& changes() const { return changes_; }
     [[nodiscard]] const Link& link(Direction direction) const
     {
         return direction == Direction::up ? up_ : down_;
@@ -94,10 +98,12 @@ private:
     {
         return direction == Direction::up ? up_ : down_;
     }
-    /// Hands the director's conditions to the links.
-    void enact(base::TimePoint now);
+    void enact_timeline(base::TimePoint now);
+    /// Hands the director's conditions to the links, and notes the change.
+    void enact(base::TimePoint now, ChangeCause by);
 
     Director director_;
+    ChangeLog changes_;
     Link up_;
     Link down_;
 };

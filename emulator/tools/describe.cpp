@@ -238,4 +238,32 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
     return list;
 }
 
+std::string why_unsettled(const Conditions& conditions, const Stream& stream,
+                          const DirectionPrediction& prediction, bool changes)
+{
+    if (changes) return "the conditions change: these figures are of all of them together";
+    if (prediction.is_settled()) return "";
+    for (const Variation* variation : {&conditions.delay, &conditions.jitter}) {
+        if (!DelayTheory{variation->law}.sd()) {
+            return fmt::format("the deviation of law {} is infinite: it never settles; read the "
+                               "quantiles",
+                               name_of(variation->law));
+        }
+    }
+    const auto correlation =
+        std::max(conditions.delay.correlation_time, conditions.jitter.correlation_time);
+    const double lasted =
+        base::to_seconds(stream.spacing) * static_cast<double>(prediction.statistics.received);
+    if (correlation > stream.spacing) {
+        return fmt::format("neighbours are correlated over {}, so {:.6g} s are worth only about "
+                           "{:.0f} independent delays: raise --packets",
+                           in_ms(correlation), lasted,
+                           lasted / (2.0 * base::to_seconds(correlation)));
+    }
+    if (conditions.rate.bits_per_second > 0) {
+        return "the queue of the rate fills and empties too slowly: raise --packets";
+    }
+    return "rare long delays, or rare events, decide it: raise --packets, or read the quantiles";
+}
+
 } // namespace hapnet::emulator::tools

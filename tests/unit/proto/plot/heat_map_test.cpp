@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/heat_map.hpp"
-#include "tests/unit/lab/report/plot/holds.hpp"
+#include "proto/plot/heat_map.hpp"
+#include "tests/unit/proto/plot/holds.hpp"
 
 #include <gtest/gtest.h>
 #include <string>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 namespace {
 
 TEST(HeatMap, DrawsEachFieldWithColourSymbolAndWords)
@@ -20,4 +20,4 @@ TEST(HeatMap, DrawsEachFieldWithColourSymbolAndWords)
 }
 
 } // namespace
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/plot.hpp"
+#include "proto/plot/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 namespace {
 
@@ -157,4 +157,4 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
     return out + "</svg>\n";
 }
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/bars.hpp"
+#include "proto/plot/bars.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::string svg_bars(const PlotTitles& titles, const std::vector<BarGroup>& grou
     return out + "</svg>\n";
 }
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

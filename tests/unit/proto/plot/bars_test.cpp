@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/bars.hpp"
-#include "tests/unit/lab/report/plot/holds.hpp"
+#include "proto/plot/bars.hpp"
+#include "tests/unit/proto/plot/holds.hpp"
 
 #include <gtest/gtest.h>
 #include <string>
 #include <utility>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 namespace {
 
 TEST(Bars, StandFromZeroToTheirValue)
@@ -44,4 +44,4 @@ TEST(Bars, OfNothingAreStillAPlot)
 }
 
 } // namespace
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/axis.hpp"
+#include "proto/plot/axis.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::string escaped(std::string_view text)
     return out;
 }
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

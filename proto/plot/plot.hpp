@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/plot/axis.hpp"
+#include "proto/plot/axis.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 struct Point {
     double x = 0.0;
@@ -67,4 +67,4 @@ struct PlotOptions {
 [[nodiscard]] std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
                                    const PlotOptions& options = {});
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

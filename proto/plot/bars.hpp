@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/plot/axis.hpp"
+#include "proto/plot/axis.hpp"
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 /// A bar from zero to a value that is not negative, which its label says in words.
 struct Bar {
@@ -30,4 +30,4 @@ struct BarGroup {
 [[nodiscard]] std::string svg_bars(const PlotTitles& titles, const std::vector<BarGroup>& groups,
                                    const std::vector<LegendEntry>& legend, Size size);
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

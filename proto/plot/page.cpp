@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/page.hpp"
+#include "proto/plot/page.hpp"
 
-#include "lab/report/plot/axis.hpp"
+#include "proto/plot/axis.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::report {
+namespace hapnet::plot {
 
 namespace {
 
@@ -30,7 +30,7 @@ std::string page_head(std::string_view title, std::string_view subject)
                        "<meta name=\"color-scheme\" content=\"light dark\">\n"
                        "<meta name=\"hapnet-subject\" content=\"{1}\">\n"
                        "<title>{0}</title>\n<style>\n{2}</style>\n</head>\n<body>\n<main>\n",
-                       plot::escaped(title), subject, style_sheet());
+                       escaped(title), subject, style_sheet());
 }
 
 std::string page_foot(std::string_view scripts)
@@ -57,4 +57,4 @@ std::string standalone(std::string_view svg)
     return out += svg;
 }
 
-} // namespace hapnet::lab::report
+} // namespace hapnet::plot

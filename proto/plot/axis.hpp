@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 enum class Scale : std::uint8_t { linear, logarithmic };
 
@@ -95,4 +95,4 @@ inline constexpr double legend_beside_title_min_px = 600.0;
 /// Text in which nothing is markup, for elements and for attributes in either quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/plot.hpp"
-#include "tests/unit/lab/report/plot/holds.hpp"
+#include "proto/plot/plot.hpp"
+#include "tests/unit/proto/plot/holds.hpp"
 
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 namespace {
 
 std::string plot_of(const std::vector<Point>& points)
@@ -102,4 +102,4 @@ TEST(Thinned, KeepsEveryPeakAndTheOrder)
 }
 
 } // namespace
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 [[nodiscard]] inline bool holds(const std::string& text, std::string_view part)
 {
     return text.find(part) != std::string::npos;
 }
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

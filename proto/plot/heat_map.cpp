@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/heat_map.hpp"
+#include "proto/plot/heat_map.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 std::string svg_heat_map(const PlotTitles& titles, const HeatMap& map, Size size)
 {
@@ -39,4 +39,4 @@ std::string svg_heat_map(const PlotTitles& titles, const HeatMap& map, Size size
     return out + "</svg>\n";
 }
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot

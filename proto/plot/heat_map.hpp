@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/plot/axis.hpp"
+#include "proto/plot/axis.hpp"
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab::report::plot {
+namespace hapnet::plot {
 
 /// One field of a heat map. The symbol says the same as the colour, for those who see no colours.
 struct HeatCell {
@@ -29,4 +29,4 @@ struct HeatMap {
 /// A heat map as one SVG element.
 [[nodiscard]] std::string svg_heat_map(const PlotTitles& titles, const HeatMap& map, Size size);
 
-} // namespace hapnet::lab::report::plot
+} // namespace hapnet::plot
