@@ -111,7 +111,9 @@ public:
     /// must not end a session.
     static constexpr int refusals_needed = 3;
     static constexpr base::Duration refusal_every{std::chrono::milliseconds{4}};
-    static constexpr base::Duration::rep sequence_slack = 1000; // ticks
+    /// In ticks. A path that is slower one way than the other shifts the two starts by half the
+    /// difference, which nobody can see: as much as the slowest path that is believed.
+    static constexpr base::Duration::rep sequence_slack = 5000;
     /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
     /// damaged. Those that it overtook on its way do not count.
     static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
@@ -174,6 +176,7 @@ private:
     void note(Phase phase, double freshness, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
     void move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand);
+    void keep_within_reach();
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);
