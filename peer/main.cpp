@@ -260,7 +260,8 @@ base::Result<int> run(const Options& options)
     loop::Journal journal;
     Side side{settings};
     loop::Watchdog watchdog{rig.device(), &crash};
-    loop::Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog, gate}};
+    line::Line line{endpoints->remote.packed()};
+    loop::Servo servo{{side, rig, socket, endpoints->remote, line, journal, watchdog, gate}};
     // Last of all that may fail: the file is emptied.
     monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
                              options.id};

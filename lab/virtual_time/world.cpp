@@ -109,12 +109,13 @@ void VirtualWorld::play(std::size_t side)
 {
     Side& here = sides_[side];
     here.player->step(now_);
-    while (const auto datagram = here.player->side->poll()) {
-        if (pairs_[side / 2].is_cut) continue;
-        const auto admission =
-            pairs_[side / 2].path.on_packet(direction_of(side), datagram->bytes(), now_);
-        if (admission.departure) here.undelayed.push_back({*admission.departure, *datagram});
-    }
+    const secure::Place other = place_of(partner_of(side));
+    here.player->send_all([&](std::span<const std::byte> bytes, const secure::Place& to) {
+        if (pairs_[side / 2].is_cut || to != other) return;
+        const auto admission = pairs_[side / 2].path.on_packet(direction_of(side), bytes, now_);
+        if (admission.departure)
+            here.undelayed.push_back({*admission.departure, peer::line::Datagram{bytes}});
+    });
 }
 
 } // namespace hapnet::lab::virtual_time

@@ -72,7 +72,7 @@ private:
     /// Undelayed: it left at once, and waits in the receiver's socket.
     struct Passing {
         emulator::Datagram departure; // but for its bytes
-        wire::Datagram datagram;
+        peer::line::Datagram datagram;
     };
     /// The part of a side that outlives a killed player.
     struct Side {

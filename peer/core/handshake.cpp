@@ -15,18 +15,6 @@ constexpr base::Duration start_away_max{std::chrono::seconds{1'000'001}};
 // By how much a message may overtake the one before.
 constexpr base::Duration ahead_max{std::chrono::seconds{10}};
 
-/// The same number on both sides, another one for every pair of runs; never 0.
-std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
-{
-    std::uint64_t mixed = (static_cast<std::uint64_t>(low_nonce) << 32 | high_nonce);
-    mixed ^= mixed >> 31; // the finalizer of SplitMix64 (Steele, Lea, Flood 2014)
-    mixed *= 0xbf58476d1ce4e5b9U;
-    mixed ^= mixed >> 27;
-    mixed *= 0x94d049bb133111ebU;
-    const auto number = static_cast<std::uint32_t>(mixed >> 32);
-    return number == 0 ? 1 : number;
-}
-
 /// Rounded up, and 0 never: that says nothing.
 std::uint32_t in_milliseconds(base::Duration length)
 {
@@ -88,8 +76,8 @@ bool Handshake::is_left() const { return self_.id < remote_->id; }
 
 std::uint32_t Handshake::number() const
 {
-    return is_left() ? session_number(self_.nonce, remote_->nonce)
-                     : session_number(remote_->nonce, self_.nonce);
+    return is_left() ? wire::session_number(self_.nonce, remote_->nonce)
+                     : wire::session_number(remote_->nonce, self_.nonce);
 }
 
 void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)

@@ -87,6 +87,26 @@ std::string_view describe(Event event)
     return "";
 }
 
+std::string_view describe(line::News news)
+{
+    switch (news) {
+    case line::News::sealed: return "agreed on a key with the other peer";
+    case line::News::other_is_plain:
+        return "the other side plays without a key, and is not heard: give it --key with its file "
+               "of this circle";
+    case line::News::other_is_sealed:
+        return "the other side plays with a key: use --key with this host's file of its circle";
+    case line::News::other_circle:
+        return "handshakes come with keys that are not of this circle, and are refused: compare "
+               "the fingerprints of 'hapnet-peer key show FILE' on both hosts";
+    case line::News::moved: return "the other peer is heard from another address: sending there";
+    case line::News::same_id:
+        return "two programs seem to play with the other peer's key and push each other out: end "
+               "one of them";
+    }
+    return "";
+}
+
 Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
                  std::optional<record::Writer> writer, std::uint16_t peer_id)
     : journal_{journal},
@@ -105,6 +125,8 @@ void Monitor::drain()
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
             if (event->event == Event::met) status_.is_met = true;
             tell(event->at, describe(event->event));
+        } else if (const auto* line = std::get_if<loop::TimedLineNews>(&*entry)) {
+            tell(line->at, describe(line->news));
         } else {
             const auto& [news, at] = std::get<loop::TimedDeviceNews>(*entry);
             tell(at, describe(news));

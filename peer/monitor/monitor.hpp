@@ -88,6 +88,9 @@ private:
 /// Why nothing leaves, in words for a person; "" when it does, or soon will.
 [[nodiscard]] std::string_view describe(net::SendOutcome outcome);
 
+/// News of the line to the other peer in words, with what to do about it.
+[[nodiscard]] std::string_view describe(line::News news);
+
 /// An event in words for a person.
 [[nodiscard]] std::string_view describe(Event event);
 

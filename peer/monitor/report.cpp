@@ -58,7 +58,7 @@ json messages_json(const Run& run)
             {"malformed", c.malformed},
             {"other_version", c.other_version},
             {"implausible", c.implausible},
-            {"strangers", run.status.loop.strangers},
+            {"strangers", run.status.line.strangers},
             {"overflowed", run.status.overflowed},
             {"send_failed", run.status.loop.send_failures}};
 }

@@ -26,11 +26,13 @@ base::Duration thread_processor_time()
     return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
 }
 
-double wall_clock_seconds()
+double wall_clock_seconds() { return 1e-9 * static_cast<double>(wall_clock_nanoseconds()); }
+
+std::int64_t wall_clock_nanoseconds()
 {
     timespec now{};
     base::ensure(clock_gettime(CLOCK_REALTIME, &now) == 0);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    return now.tv_sec * 1'000'000'000 + now.tv_nsec;
 }
 
 void sleep_until(base::TimePoint when)

@@ -47,7 +47,7 @@ Association::Responding::Responding(KeyIndex own_index, const Initiation& initia
     : own{own_index},
       other{initiation.sender},
       noise{Role::responder, keys, prologue, std::move(ephemeral)},
-      cause{mac_of(initiation.mac1)},
+      cause{mac_of(initiation.macs.mac1)},
       to{from}
 {}
 
@@ -93,8 +93,8 @@ Association::Epoch* Association::epoch_of(KeyIndex index)
 
 // --- what comes ---
 
-std::optional<Association::Received> Association::on_datagram(std::span<std::byte> datagram,
-                                                              const Place& from, Moment moment)
+std::optional<Association::Received>
+Association::on_datagram(std::span<std::byte> datagram, const Place& from, base::TimePoint now)
 {
     const auto type = frame_type_of(datagram);
     if (!type) {
@@ -102,9 +102,9 @@ std::optional<Association::Received> Association::on_datagram(std::span<std::byt
         return std::nullopt;
     }
     switch (*type) {
-    case FrameType::initiation: on_initiation(datagram, from, moment.now); return std::nullopt;
+    case FrameType::initiation: on_initiation(datagram, from, now); return std::nullopt;
     case FrameType::response: on_response(datagram); return std::nullopt;
-    case FrameType::cookie: on_cookie_reply(datagram, moment.now); return std::nullopt;
+    case FrameType::cookie: on_cookie_reply(datagram, now); return std::nullopt;
     case FrameType::hello:
     case FrameType::state:
     case FrameType::bye: break;
@@ -114,7 +114,7 @@ std::optional<Association::Received> Association::on_datagram(std::span<std::byt
         ++counts_.unsealed;
         return std::nullopt;
     }
-    return on_message(datagram, *index, from, moment.now);
+    return on_message(datagram, *index, from, now);
 }
 
 std::optional<Association::Received> Association::on_message(std::span<std::byte> datagram,
@@ -155,11 +155,11 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
     const auto initiation = read_initiation(datagram);
     const Ends expected{config_.other_id, config_.own_id};
     if (!initiation || initiation->ends != expected ||
-        !door_.knows_us(initiation->covered_by_mac1, initiation->mac1)) {
+        !door_.knows_us(initiation->macs.covered_by_mac1, initiation->macs.mac1)) {
         ++counts_.other_circle;
         return;
     }
-    const Mac cause = mac_of(initiation->mac1);
+    const Mac cause = mac_of(initiation->macs.mac1);
     if (answered_ && answered_->cause == cause) {
         answered_->to = from;
         return send_answer(now);
@@ -177,7 +177,7 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
 void Association::on_response(Bytes datagram)
 {
     const auto response = read_response(datagram);
-    if (!response || !door_.knows_us(response->covered_by_mac1, response->mac1)) {
+    if (!response || !door_.knows_us(response->macs.covered_by_mac1, response->macs.mac1)) {
         ++counts_.other_circle;
         return;
     }

@@ -67,7 +67,7 @@ public:
     };
     /// Opens a message in place, or takes in a part of a handshake.
     std::optional<Received> on_datagram(std::span<std::byte> datagram, const Place& from,
-                                        Moment moment);
+                                        base::TimePoint now);
     /// Goes on with handshakes, and begins one when it is time.
     void tick(Moment moment);
 

@@ -79,19 +79,24 @@ inline constexpr std::size_t initiation_bytes = 108;
 inline constexpr std::size_t response_bytes = 96;
 inline constexpr std::size_t cookie_bytes = 64;
 
+/// The two MACs at the end of an initiation or response, and the bytes that each covers.
+struct Macs {
+    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+};
+
 /// The handshake's first message, and what it needs to be answered.
 struct Initiation {
     KeyIndex sender{};
     Ends ends;
     Bytes noise;
-    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+    Macs macs;
 };
 [[nodiscard]] std::optional<Initiation> read_initiation(Bytes datagram);
 
 struct Response {
     KeyIndex receiver{}, sender{};
     Bytes noise;
-    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+    Macs macs;
 };
 [[nodiscard]] std::optional<Response> read_response(Bytes datagram);
 

@@ -44,14 +44,15 @@ const std::vector<Folder>& map()
         {"device/omni1394/transport", false, {"device"}},
         {"device", true, {"proto/base"}},
         {"peer/core", true, {"scene", "proto/wire", "proto/record", "device"}},
+        {"peer/line", true, {"proto/wire", "proto/secure"}},
         {"peer/control", true, {"proto/control/core"}},
         {"peer",
          false,
-         {"peer/core", "peer/control", "device/catalogue", "proto/record", "proto/control",
-          "proto/cli"}},
+         {"peer/core", "peer/line", "peer/control", "device/catalogue", "proto/record",
+          "proto/secure/keys", "proto/control", "proto/cli"}},
         {"lab/cli", false, {"lab/runner", "proto/cli"}},
         {"lab/runner", false, {"lab", "proto/net"}},
-        {"lab", true, {"emulator/tools", "peer/core", "proto/record", "device"}},
+        {"lab", true, {"emulator/tools", "peer/core", "peer/line", "proto/record", "device"}},
     };
     return folders;
 }
