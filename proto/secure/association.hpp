@@ -86,6 +86,12 @@ public:
     /// Where to send; nullopt before the other side was heard, when nobody said it.
     [[nodiscard]] const std::optional<Place>& place() const { return place_; }
     [[nodiscard]] std::optional<base::Duration> key_age(base::TimePoint now) const;
+    /// The number of the session that the key is for; nullopt without one.
+    [[nodiscard]] std::optional<std::uint32_t> session() const
+    {
+        if (!current_) return std::nullopt;
+        return current_->session;
+    }
 
     struct Counts {
         std::uint64_t handshakes = 0; // that were finished, rekeying included
@@ -123,7 +129,8 @@ private:
         std::uint32_t other_run;
         std::uint32_t session;
         base::TimePoint made;
-        std::uint32_t controls = 0; // sealed
+        std::uint32_t controls = 0;    // sealed
+        bool has_opened_state = false; // until then hellos tell where the other side is
     };
     struct Initiating {
         Initiating(KeyIndex index, const StaticKeys& keys, Bytes prologue, Secret ephemeral,
@@ -137,6 +144,7 @@ private:
         std::optional<HandshakeFrame> frame; // when it is written
         std::optional<base::TimePoint> last_sent;
         std::optional<KeyIndex> other; // while the response is read
+        Place answered_from{};
     };
     struct Responding {
         Responding(KeyIndex own_index, const Initiation& initiation, const StaticKeys& keys,
@@ -160,7 +168,8 @@ private:
     std::optional<Received> on_message(std::span<std::byte> datagram, KeyIndex index,
                                        const Place& from, base::TimePoint now);
     void on_initiation(Bytes datagram, const Place& from, base::TimePoint now);
-    void on_response(Bytes datagram);
+    void on_response(Bytes datagram, const Place& from);
+    void move_to(const Place& place);
     void on_cookie_reply(Bytes datagram, base::TimePoint now);
     void step_response(base::TimePoint now);
     void step_initiation(Moment moment);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_session FIRST COUNT [DATAGRAMS]: plays the attacked sessions of the seeds FIRST .. FIRST +
-// COUNT - 1, and of more seeds until so many datagrams have reached their sides. Prints every seed
-// in which an invariant broke, and at the end what was played. Exits 0 when none did.
+// soak_session none|keys FIRST COUNT [DATAGRAMS]: plays the attacked sessions of the seeds FIRST ..
+// FIRST + COUNT - 1, without or with keys, and of more seeds until so many datagrams have reached
+// their sides. Prints every seed in which an invariant broke, and at the end what was played. Exits
+// 0 when none did.
 #include "tests/support/session/attacked_session.hpp"
 
 #include <algorithm>
@@ -35,26 +36,28 @@ void report(const Tally& tally)
 int main(int argc, char** argv)
 {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (arguments.size() < 2 || arguments.size() > 3) {
-        fmt::print(stderr, "usage: soak_session FIRST COUNT [DATAGRAMS]\n");
+    const bool keys = !arguments.empty() && arguments[0] == "keys";
+    if (arguments.size() < 3 || arguments.size() > 4 || (!keys && arguments[0] != "none")) {
+        fmt::print(stderr, "usage: soak_session none|keys FIRST COUNT [DATAGRAMS]\n");
         return 2;
     }
+    const auto seal = keys ? hapnet::test::Seal::keys : hapnet::test::Seal::none;
     const auto number = [&](std::size_t index) {
         return index < arguments.size() ? std::strtoull(arguments[index].c_str(), nullptr, 10) : 0;
     };
     constexpr std::uint64_t often = 100;
     Tally tally;
-    for (std::uint64_t seed = number(0); tally.played < number(1) || tally.datagrams < number(2);
+    for (std::uint64_t seed = number(1); tally.played < number(2) || tally.datagrams < number(3);
          ++seed) {
-        const auto session = hapnet::test::play_attacked(seed);
+        const auto session = hapnet::test::play_attacked(seed, seal);
         ++tally.played;
         tally.compared += session.compared ? 1 : 0;
         tally.datagrams += session.datagrams;
         tally.work_5s_max_j = std::max(tally.work_5s_max_j, session.work_5s_max_j);
         if (session.complaint) {
             ++tally.broken;
-            fmt::print("  seed {}: {} (repeat it: build/release/bin/soak_session {} 1)\n", seed,
-                       *session.complaint, seed);
+            fmt::print("  seed {}: {} (repeat it: build/release/bin/soak_session {} {} 1)\n", seed,
+                       *session.complaint, arguments[0], seed);
         }
         if (tally.played % often == 0) report(tally);
     }

@@ -22,7 +22,9 @@ using lab::virtual_time::VirtualPlayer;
 using lab::virtual_time::VirtualWorld;
 using peer::Phase;
 
-constexpr base::Duration length = 10s;               // 7 s hands on
+constexpr base::Duration length = 10s; // 7 s hands on
+// With keys the two may first have to wait for 5 s, when both answered what the other has given up.
+constexpr base::Duration sealed_length = 18s;
 constexpr base::Duration attack_max = 8s;            // over before the hands let go
 constexpr base::Duration agree_within = 1200ms;      // of hands off
 constexpr base::Duration jump_max = 500ms;           // both still let go together for long enough
@@ -99,10 +101,11 @@ Habits drawn_habits(Draws& draw)
     habits.storm = perhaps(0.005);
     habits.silence = perhaps(0.001);
     habits.forge = perhaps(1.0);
+    habits.redirect = perhaps(0.3);
     return habits;
 }
 
-Setting drawn_setting(base::Seed seed, Draws& draw, base::Duration heals_at)
+Setting drawn_setting(base::Seed seed, Draws& draw, base::Duration heals_at, Seal seal)
 {
     constexpr std::array tasks{device::Task::p1, device::Task::t1, device::Task::t3};
     constexpr std::array algorithms{"base", "base", "dead-reckoning", "sep"};
@@ -123,6 +126,12 @@ Setting drawn_setting(base::Seed seed, Draws& draw, base::Duration heals_at)
         player.algorithm = algorithm.value();
         player.phase = draw.up_to(999us);
         player.clock_ahead = draw.up_to(2000s) - 1000s;
+        if (seal == Seal::keys) player.circle = seed;
+    }
+    if (seal == Seal::keys) {
+        setting.length = sealed_length;
+        // Damage is the attacker's alone: he keeps the book.
+        setting.profile.path.up.corrupt = setting.profile.path.down.corrupt = {};
     }
     return setting;
 }
@@ -149,7 +158,7 @@ struct Death {
 
 /// What is followed of one side in one run.
 struct Watch {
-    std::uint64_t given_before = 0; // to its earlier runs
+    std::uint64_t let_in_before = 0; // by its earlier runs
     std::uint64_t states = 0;
     base::TimePoint last_taken;
     WorkOf5s work;
@@ -166,7 +175,7 @@ std::uint64_t heard(const peer::Counters& c)
 
 class Play {
 public:
-    explicit Play(std::uint64_t seed);
+    Play(std::uint64_t seed, Seal seal);
     [[nodiscard]] AttackedSession run() &&;
 
 private:
@@ -200,10 +209,10 @@ private:
     AttackedSession result_;
 };
 
-Play::Play(std::uint64_t seed)
+Play::Play(std::uint64_t seed, Seal seal)
     : draw_{base::Seed{seed}},
       attack_{2s + draw_.up_to(attack_max - 2s)},
-      world_{drawn_setting(base::Seed{seed}, draw_, attack_),
+      world_{drawn_setting(base::Seed{seed}, draw_, attack_, seal),
              {.datagrams_max = 16'384, .bytes_max = 16U << 20}},
       habits_{drawn_habits(draw_)},
       mallory_{world_, base::Seed{seed}, habits_}
@@ -230,8 +239,10 @@ Play::Play(std::uint64_t seed)
     }
     // A hello that this side's former run sent is that of another peer with its id.
     const bool claims_its_id = habits_.reflect > 0.0 && !deaths_.empty();
-    result_.is_forged = claims_its_id || is_damaged(0) || is_damaged(1) ||
-                        habits_.forge + habits_.flip + habits_.splice + habits_.storm > 0.0;
+    const bool is_taken_for_true =
+        claims_its_id || is_damaged(0) || is_damaged(1) ||
+        habits_.forge + habits_.flip + habits_.splice + habits_.storm > 0.0;
+    result_.is_forged = seal == Seal::none && is_taken_for_true;
 }
 
 AttackedSession Play::run() &&
@@ -257,7 +268,7 @@ AttackedSession Play::run() &&
 
 bool Play::is_over() const
 {
-    if (elapsed() > attack_ + length + 10s) return true;
+    if (elapsed() > attack_ + world_.setting().length + 10s) return true;
     if (elapsed() < attack_) return false;
     const auto is_done = [&](std::size_t side) {
         return world_.is_alive(side) && world_.side(side).last().phase == Phase::ended;
@@ -284,7 +295,9 @@ void Play::let_die()
             world_.revive(death.side);
             death.lasts = {};
             watches_.at(death.side) = Watch{};
-            watches_.at(death.side).given_before = mallory_.given(death.side);
+            watches_.at(death.side).let_in_before = mallory_.let_in(death.side);
+            mallory_.note_restart(death.side);
+            world_.side(death.side).date_ahead = draw_.up_to(48h) - 24h;
             watches_.at(death.side).last_taken = world_.now();
             set_clocks();
         }
@@ -300,10 +313,11 @@ void Play::judge(std::size_t index)
     }
     if (world_.side(index).stepped_at != world_.now()) return;
     const peer::Counters& counters = world_.side(index).peer().counters();
-    const std::uint64_t given = mallory_.given(index) - watches_.at(index).given_before;
+    const std::uint64_t given = mallory_.let_in(index) - watches_.at(index).let_in_before;
     if (heard(counters) != given) {
-        complain("side {}: {} datagrams in its counters, {} given", index, heard(counters), given);
+        complain("side {}: {} messages in its counters, {} given", index, heard(counters), given);
     }
+    if (mallory_.breach()) complain("side {}: {}", index, *mallory_.breach());
     judge_forces(index);
 }
 
@@ -363,6 +377,6 @@ void Play::judge_agreement()
 
 } // namespace
 
-AttackedSession play_attacked(std::uint64_t seed) { return Play{seed}.run(); }
+AttackedSession play_attacked(std::uint64_t seed, Seal seal) { return Play{seed, seal}.run(); }
 
 } // namespace hapnet::test

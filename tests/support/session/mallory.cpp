@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/session/mallory.hpp"
 
+#include "proto/secure/frames.hpp"
+#include "tests/support/allocations.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -14,6 +17,18 @@ namespace {
 using namespace std::chrono_literals;
 
 std::span<const std::byte> view(const std::vector<std::byte>& bytes) { return bytes; }
+
+std::string text_of(std::span<const std::byte> bytes)
+{
+    std::string text(bytes.size(), '\0');
+    std::transform(bytes.begin(), bytes.end(), text.begin(),
+                   [](std::byte each) { return static_cast<char>(each); });
+    return text;
+}
+
+/// Of a sealed state: its key, sequence and time; the rest is behind the seal.
+constexpr std::size_t clear_head = 20;
+constexpr std::size_t sequence_at = 8;
 
 } // namespace
 
@@ -28,6 +43,9 @@ void Mallory::on_arrival(std::size_t to, std::span<const std::byte> datagram,
                          base::TimePoint arrived)
 {
     remember(to, datagram);
+    if (is_there_ && happens(habits_.redirect)) {
+        return give_from(to, datagram, secure::Place{std::byte{0xee}}, arrived);
+    }
     if (!is_there_) return give(to, datagram, arrived);
     if (arrived < silent_until_.at(to) || happens(habits_.drop)) return;
     if (happens(habits_.copy)) hold(to, datagram);
@@ -48,6 +66,7 @@ void Mallory::remember(std::size_t to, std::span<const std::byte> datagram)
         if (const auto* state = std::get_if<wire::State>(&*message)) state_.at(to) = *state;
         if (const auto* hello = std::get_if<wire::Hello>(&*message)) hello_.at(to) = *hello;
     }
+    book_.at(to).try_emplace(text_of(datagram), Entry{runs_.at(to), false});
     auto& kept = remembered_.at(to);
     const std::uint64_t number = seen_.at(to)++;
     if (kept.size() < remembered_max) {
@@ -60,9 +79,36 @@ void Mallory::remember(std::size_t to, std::span<const std::byte> datagram)
 
 void Mallory::give(std::size_t to, std::span<const std::byte> datagram, base::TimePoint arrived)
 {
+    give_from(to, datagram, lab::virtual_time::place_of(1 - to), arrived);
+}
+
+void Mallory::give_from(std::size_t to, std::span<const std::byte> datagram,
+                        const secure::Place& from, base::TimePoint arrived)
+{
     if (!world_.is_alive(to)) return;
     ++given_.at(to);
-    world_.side(to).receive(datagram, arrived);
+    lab::virtual_time::VirtualPlayer& victim = world_.side(to);
+    const base::TimePoint at = arrived + victim.clock_ahead;
+    const std::uint64_t taken = allocations();
+    const auto message = victim.line.open(datagram, from, at);
+    if (allocations() != taken) breach_ = "opening a datagram takes memory";
+    if (!message) return;
+    ++let_in_.at(to);
+    if (victim.line.is_sealed()) audit(to, datagram);
+    victim.side->on_datagram(*message, at);
+}
+
+/// What was let in must have come over the path as it is, in this run, and once.
+void Mallory::audit(std::size_t to, std::span<const std::byte> datagram)
+{
+    const auto found = book_.at(to).find(text_of(datagram));
+    if (found == book_.at(to).end()) {
+        breach_ = "a message was accepted that the other side has not sealed";
+        return;
+    }
+    if (found->second.is_accepted) breach_ = "a message was accepted twice";
+    if (found->second.run != runs_.at(to)) breach_ = "a message to an earlier run was accepted";
+    found->second.is_accepted = true;
 }
 
 void Mallory::hold(std::size_t to, std::span<const std::byte> datagram)
@@ -124,15 +170,45 @@ void Mallory::splice(std::size_t to)
 
 void Mallory::forge(std::size_t to)
 {
+    if (!world_.is_alive(to)) return;
+    if (world_.side(to).line.is_sealed() && happens(0.7)) return forge_sealed(to);
+    forge_plain(to);
+}
+
+/// A message under a key that he has seen, with another number, and perhaps noise behind it.
+void Mallory::forge_sealed(std::size_t to)
+{
+    const auto& kept = remembered_.at(to);
+    if (kept.empty()) return;
+    Bytes bytes = kept[below(kept.size())];
+    if (bytes.size() <= clear_head) return;
+    bytes[sequence_at] ^= static_cast<std::byte>(1 + below(255));
+    if (happens(0.5)) bytes[sequence_at + 1] ^= static_cast<std::byte>(below(256));
+    const bool is_noise = happens(0.5);
+    for (std::size_t i = clear_head; is_noise && i < bytes.size(); ++i) {
+        bytes[i] = static_cast<std::byte>(below(256));
+    }
+    give(to, bytes, world_.now());
+}
+
+void Mallory::forge_plain(std::size_t to)
+{
+    const auto& session = world_.side(to).peer().session();
     if (happens(0.1) && hello_.at(to)) {
         give(to, wire::encode(forged(*hello_.at(to))).bytes(), world_.now());
-    } else if (state_.at(to) && happens(0.02)) {
+    } else if (session && happens(0.02)) {
         constexpr std::array reasons{wire::ByeReason::finished, wire::ByeReason::interrupted,
                                      wire::ByeReason::other_scene};
-        const wire::Bye bye{state_.at(to)->session, reasons.at(below(reasons.size()))};
+        const wire::Bye bye{session->number, reasons.at(below(reasons.size()))};
         give(to, wire::encode(bye).bytes(), world_.now());
     } else if (state_.at(to)) {
         give(to, wire::encode(forged(*state_.at(to))).bytes(), world_.now());
+    } else if (session) { // behind a seal he sees no state: he makes one up
+        wire::State state;
+        state.session = session->number;
+        state.sequence = 1 + static_cast<std::uint32_t>(below(10'000));
+        state.sent = world_.now();
+        give(to, wire::encode(forged(state)).bytes(), world_.now());
     }
 }
 
@@ -187,11 +263,13 @@ void Mallory::storm(std::size_t to)
         }
         const auto& kept = remembered_.at(to);
         if (kept.empty()) return;
-        Bytes bytes = kept[below(kept.size())]; // a true head, and noise
-        for (std::size_t at = 3; at < bytes.size(); ++at) {
+        Bytes bytes = kept[below(kept.size())]; // a true handshake, or a true head and noise
+        const bool is_handshake = bytes.size() == secure::initiation_bytes &&
+                                  secure::frame_type_of(bytes) == secure::FrameType::initiation;
+        for (std::size_t at = 4; !is_handshake && at < bytes.size(); ++at) {
             bytes[at] = static_cast<std::byte>(below(256));
         }
-        bytes[3] = static_cast<std::byte>(0x80 + below(16));
+        if (!is_handshake && bytes.size() > 3) bytes[3] = static_cast<std::byte>(0x80 + below(16));
         give(to, bytes, world_.now());
     }
 }

@@ -8,18 +8,26 @@
 namespace hapnet::test {
 namespace {
 
-class Mallory : public testing::TestWithParam<std::uint64_t> {};
-
-TEST_P(Mallory, BringsNoForceBeyondItsLimitsAndIsForgottenOnceHeHasLeft)
+void expect_to_hold(std::uint64_t seed, Seal seal)
 {
-    const AttackedSession session = play_attacked(GetParam());
+    const AttackedSession session = play_attacked(seed, seal);
     EXPECT_FALSE(session.complaint)
-        << *session.complaint << "\nrepeat it: build/release/bin/soak_session " << GetParam()
-        << " 1";
+        << *session.complaint << "\nrepeat it: build/release/bin/soak_session "
+        << (seal == Seal::keys ? "keys " : "none ") << seed << " 1";
     EXPECT_GT(session.datagrams, 0U);
 }
 
+class Mallory : public testing::TestWithParam<std::uint64_t> {};
+TEST_P(Mallory, BringsNoForceBeyondItsLimits) { expect_to_hold(GetParam(), Seal::none); }
 INSTANTIATE_TEST_SUITE_P(Seed, Mallory, testing::Range(std::uint64_t{0}, std::uint64_t{50}));
+
+class MalloryWithoutKey : public testing::TestWithParam<std::uint64_t> {};
+TEST_P(MalloryWithoutKey, HasNothingAcceptedThatTheOtherSideHasNotSealed)
+{
+    expect_to_hold(GetParam(), Seal::keys);
+}
+INSTANTIATE_TEST_SUITE_P(Seed, MalloryWithoutKey,
+                         testing::Range(std::uint64_t{0}, std::uint64_t{30}));
 
 } // namespace
 } // namespace hapnet::test
