@@ -112,8 +112,6 @@ void VirtualPlayer::step(base::TimePoint now)
     while (const auto event = side->event()) events.push_back(*event);
     const base::TimePoint here = now + clock_ahead;
     line.tick({here, (here + date_ahead).time_since_epoch().count()});
-    const auto& session = peer().session();
-    if (session && line.has_key_of_another_than(session->number)) peer().greet();
 }
 
 Sample VirtualPlayer::sample() const

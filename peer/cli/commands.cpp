@@ -25,4 +25,9 @@ base::Result<int> run(const DoctorCommand& command)
     return doctor::has_bad(findings) ? net::exit_environment : 0;
 }
 
+base::Result<int> run(const KeyCommand& command)
+{
+    return std::visit([](const auto& chosen) { return run(chosen); }, command);
+}
+
 } // namespace hapnet::peer

@@ -64,9 +64,6 @@ public:
     /// A state of this session arrived: the other side knows the start.
     void on_state() { acknowledged_ = true; }
 
-    /// A hello is wanted although all seems settled.
-    void greet() { asked_ = true; }
-
     /// The hello that is due, if one is.
     [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now);
 

@@ -131,9 +131,6 @@ public:
     [[nodiscard]] std::optional<wire::Datagram> poll() { return outbox_.take(); }
     [[nodiscard]] std::optional<Event> event() { return events_.take(); }
 
-    /// Says hello with the next tick, or when 20 ms have passed since the last one.
-    void greet() { handshake_.greet(); }
-
     /// Ends the session: byes follow, then finished() holds.
     void leave(wire::ByeReason reason);
     /// Nothing more will come of this peer.

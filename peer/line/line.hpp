@@ -99,15 +99,6 @@ public:
         return sealed_()->news();
     }
 
-    /// Whether the key is for another session than this: the other side is another run. It waits
-    /// for a message under the key before it sends any, and as states are of their session, that
-    /// has to be a hello.
-    [[nodiscard]] bool has_key_of_another_than(std::uint32_t session) const
-    {
-        const Sealed* const here = sealed();
-        return here != nullptr && here->session().value_or(session) != session;
-    }
-
     [[nodiscard]] bool is_sealed() const { return !std::holds_alternative<Plain>(kind_); }
     /// Datagrams from elsewhere; with a key the place says nothing, and the seal does.
     [[nodiscard]] std::uint64_t strangers() const

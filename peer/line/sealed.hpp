@@ -48,7 +48,6 @@ public:
     {
         return association_.key_age(now);
     }
-    [[nodiscard]] std::optional<std::uint32_t> session() const { return association_.session(); }
     [[nodiscard]] const secure::Association::Counts& counts() const
     {
         return association_.counts();

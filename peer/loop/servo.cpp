@@ -200,8 +200,6 @@ bool Servo::is_worth_a_row(std::span<const std::byte> message, base::TimePoint a
 void Servo::tend_line(base::TimePoint now)
 {
     if (parts_.line.is_sealed()) parts_.line.tick({now, net::wall_clock_nanoseconds()});
-    const auto& session = parts_.side.peer().session();
-    if (session && parts_.line.has_key_of_another_than(session->number)) parts_.side.peer().greet();
     while (const auto news = parts_.line.news()) parts_.journal.put(TimedLineNews{*news, now});
 }
 

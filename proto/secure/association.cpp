@@ -132,16 +132,20 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
     if (opened.outcome == Opener::Outcome::replayed) ++counts_.replayed;
     if (opened.size == 0) return std::nullopt;
     last_opened_ = now;
+    if (current_ && epoch == &*current_) confirm_at_.reset();
     if (next_ && epoch == &*next_) { // the other side has it: use it, too
         use(std::move(*std::exchange(next_, std::nullopt)), now);
         epoch = &*current_;
         answered_.reset(); // it has come
     }
+    // A state shows where the other side is now; until there is one under this key, other messages
+    // do, as a peer that was started again elsewhere says hello first.
     epoch->has_opened_state = epoch->has_opened_state || opened.is_state;
     const bool is_newest = opened.outcome == Opener::Outcome::opened_newest &&
                            (opened.is_state || !epoch->has_opened_state);
     const bool has_moved = is_newest && epoch == &*current_ && config_.may_roam;
     if (!place_ || has_moved) move_to(from);
+    if (opened.size == empty_bytes) return std::nullopt;
     if (datagram[type_place] != plain_hello)
         ByteWriter{datagram.subspan(session_place, 4)}.u32(epoch->session);
     return Received{opened.size, epoch->other_run};
@@ -273,12 +277,17 @@ void Association::step_initiation(Moment moment)
     next_.reset();
     last_opened_ = moment.now;
     use(std::move(made), moment.now);
+    confirm_at_ = moment.now;
 }
 
 void Association::use(Epoch epoch, base::TimePoint now)
 {
     ++counts_.handshakes;
-    if (current_ && current_->other_run == epoch.other_run) ++counts_.rekeys;
+    if (current_ && current_->other_run == epoch.other_run) {
+        ++counts_.rekeys;
+    } else {
+        run_since_ = now;
+    }
     previous_.reset();
     if (current_) previous_.emplace(std::move(*current_));
     previous_until_ = now + previous_lasts;
@@ -290,7 +299,7 @@ void Association::step_response(base::TimePoint now)
     const auto progress = responding_->noise.step();
     if (progress == NoiseKk::Progress::working) return;
     const bool goes_on =
-        progress == NoiseKk::Progress::done && (responding_->is_writing || take_initiation());
+        progress == NoiseKk::Progress::done && (responding_->is_writing || take_initiation(now));
     if (!goes_on) {
         responding_.reset();
         return;
@@ -302,14 +311,27 @@ void Association::step_response(base::TimePoint now)
     responding_->noise.write(payload);
 }
 
+/// Whether another run than the one that is heard begins, and too soon after the last change: two
+/// programs with one key would push each other out for ever. A run that has fallen silent may be
+/// followed at once.
+bool Association::pushes_another_out(base::TimePoint now) const
+{
+    return current_ && responding_->other_run != current_->other_run &&
+           now - run_since_ < runs_change_every && now - last_opened_ < silence;
+}
+
 /// Whether an initiation that is proven to be the other side's is new, too.
-bool Association::take_initiation()
+bool Association::take_initiation(base::TimePoint now)
 {
     ByteReader in{responding_->noise.payload()};
     const std::int64_t timestamp = in.i64();
     responding_->other_run = in.u32();
     const bool is_canonical = in.u32() == 0 && in.complete() && responding_->other_run != 0;
     if (!is_canonical) {
+        ++counts_.refused;
+        return false;
+    }
+    if (pushes_another_out(now)) {
         ++counts_.refused;
         return false;
     }
@@ -333,6 +355,7 @@ void Association::answer(base::TimePoint now)
     send_answer(now);
     responding_.reset();
     initiating_.reset(); // what the other side began has come farther
+    confirm_at_.reset();
     unanswered_since_.reset();
 }
 
@@ -344,13 +367,33 @@ void Association::send_answer(base::TimePoint now)
     send(answered_->frame, answered_->to);
 }
 
+void Association::repeat_answer(base::TimePoint now)
+{
+    if (!answered_ || answered_->repeats_left == 0 || now < answered_->repeat_at) return;
+    --answered_->repeats_left;
+    answered_->repeat_at = now + repeat_every;
+    send(answered_->frame, answered_->to);
+}
+
+/// Until the other side is heard under the key that this one began: it waits for that with all that
+/// it has to say, and this side may have nothing to say.
+void Association::confirm(base::TimePoint now)
+{
+    if (!confirm_at_ || now < *confirm_at_ || !place_) return;
+    std::array<std::byte, empty_bytes + control_overhead> room{};
+    ByteWriter out{room};
+    out.u16(magic);
+    out.u8(version);
+    out.u8(std::to_integer<std::uint8_t>(plain_hello));
+    if (const auto size = seal(room, empty_bytes, now))
+        send(HandshakeFrame::confirmation(Bytes{room}.first(*size)), *place_);
+    confirm_at_ = now + repeat_every;
+}
+
 void Association::repeat(base::TimePoint now)
 {
-    if (answered_ && answered_->repeats_left > 0 && now >= answered_->repeat_at) {
-        --answered_->repeats_left;
-        answered_->repeat_at = now + repeat_every;
-        send(answered_->frame, answered_->to);
-    }
+    repeat_answer(now);
+    confirm(now);
     if (!initiating_ || !initiating_->frame || initiating_->other) return;
     if (now - initiating_->began >= fresh_after) {
         // The lower id listens for a while: perhaps the other side can reach us.

@@ -206,6 +206,15 @@ HandshakeFrame HandshakeFrame::cookie(KeyIndex receiver, const WideNonce& nonce,
     return frame;
 }
 
+HandshakeFrame HandshakeFrame::confirmation(Bytes sealed)
+{
+    HandshakeFrame frame;
+    base::ensure(sealed.size() <= frame.bytes_.size());
+    std::ranges::copy(sealed, frame.bytes_.begin());
+    frame.size_ = sealed.size();
+    return frame;
+}
+
 void HandshakeFrame::set_macs(Bytes key_of_mac1, const std::optional<Mac>& cookie)
 {
     const std::span<std::byte> all = std::span{bytes_}.first(size_);

@@ -8,7 +8,10 @@
 #include "peer/line/status.hpp"
 
 #include <algorithm>
+#include <array>
+#include <deque>
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace hapnet::peer::line {
 
@@ -16,6 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
+using Bytes = std::vector<std::byte>;
 using lab::virtual_time::Setting;
 using lab::virtual_time::VirtualWorld;
 
@@ -40,7 +44,133 @@ bool has_event(const VirtualWorld& world, std::size_t side, Event event)
     return std::ranges::count(world.side(side).events, event) > 0;
 }
 
+/// Two players with keys, 3 ms apart, and everything that side 0 ever sent.
+class Wire {
+public:
+    explicit Wire(const Setting& setting)
+        : players_{lab::virtual_time::VirtualPlayer{setting, {0, 11}},
+                   lab::virtual_time::VirtualPlayer{setting, {1, 22}}}
+    {}
+
+    lab::virtual_time::VirtualPlayer& side(std::size_t index) { return players_.at(index); }
+    [[nodiscard]] base::TimePoint now() const { return now_; }
+    [[nodiscard]] const std::vector<Bytes>& seen() const { return seen_; }
+
+    void step()
+    {
+        now_ += 1ms;
+        for (const std::size_t side : {0U, 1U}) {
+            auto& inbox = inboxes_.at(side);
+            while (!inbox.empty() && inbox.front().due <= now_) {
+                players_.at(side).receive(inbox.front().bytes, inbox.front().due);
+                inbox.pop_front();
+            }
+        }
+        for (const std::size_t side : {0U, 1U}) {
+            players_.at(side).step(now_);
+            players_.at(side).send_all([&](std::span<const std::byte> bytes, const auto&) {
+                inboxes_.at(1 - side).push_back({Bytes{bytes.begin(), bytes.end()}, now_ + 3ms});
+                if (side == 0) seen_.emplace_back(bytes.begin(), bytes.end());
+            });
+        }
+    }
+
+private:
+    struct OnTheWay {
+        Bytes bytes;
+        base::TimePoint due;
+    };
+
+    std::array<lab::virtual_time::VirtualPlayer, 2> players_;
+    std::array<std::deque<OnTheWay>, 2> inboxes_;
+    std::vector<Bytes> seen_;
+    base::TimePoint now_{1000s};
+};
+
+/// What an attacker sends to side 1 in a tick, who sees all that it hears and has no key: plain
+/// messages in the name of the other side that push, buzz and throw, end and start sessions, and
+/// sealed ones that are changed or repeated.
+void attack(Wire& world, int tick)
+{
+    constexpr std::size_t victim = 1;
+    const std::vector<Bytes>& heard = world.seen();
+    auto& player = world.side(victim);
+    const auto give = [&](std::span<const std::byte> bytes) { player.receive(bytes, world.now()); };
+    wire::State state;
+    state.session = player.peer().session() ? player.peer().session()->number : 1;
+    state.sequence = static_cast<std::uint32_t>(tick + 500);
+    state.sent = world.now();
+    state.touching = true;
+    const double sign = tick / 7 % 2 == 0 ? 1.0 : -1.0;
+    for (const double force_n : {3.3, 3.3 * sign, 3.4e38}) {
+        state.contact_force = {{force_n, 0.0, 0.0}};
+        state.bodies.clear();
+        wire::BodyState body;
+        body.position = {{0.05 * sign, 0.0, 0.0}};
+        state.bodies.add(body);
+        give(wire::encode(state).bytes());
+    }
+    give(wire::encode(wire::Bye{state.session, wire::ByeReason::finished}).bytes());
+    wire::Hello hello;
+    hello.nonce = static_cast<std::uint32_t>(tick + 1);
+    hello.peer_id = static_cast<std::uint16_t>(2 - victim);
+    hello.tick_rate_hz = 1000;
+    hello.start = world.now();
+    hello.task = wire::TaskName::from_text("P1").value();
+    give(wire::encode(hello).bytes());
+    constexpr std::size_t on_their_way = 5; // at most: genuine, and not heard yet
+    if (heard.size() <= on_their_way) return;
+    Bytes forged = heard.back();
+    forged[static_cast<std::size_t>(tick) % forged.size()] ^= std::byte{0x10};
+    give(forged);
+    give(heard[static_cast<std::size_t>(tick) % (heard.size() - on_their_way)]); // once more
+}
+
 } // namespace
+
+TEST(KeyedSession, IsNotMovedABitByAFloodOfForgedMessages)
+{
+    Setting setting = keyed_setting("");
+    setting.length = 8s;
+    Wire attacked{setting}, left_alone{setting};
+    for (int tick = 0; tick < 9'000; ++tick) {
+        attacked.step();
+        left_alone.step();
+        if (tick > 300) attack(attacked, tick);
+        for (const std::size_t side : {0U, 1U}) {
+            ASSERT_EQ(attacked.side(side).told(), left_alone.side(side).told()) << tick;
+            ASSERT_EQ(attacked.side(side).peer().position(),
+                      left_alone.side(side).peer().position())
+                << tick;
+        }
+    }
+    EXPECT_EQ(attacked.side(1).events, left_alone.side(1).events);
+    EXPECT_EQ(std::ranges::count(attacked.side(1).events, Event::hands_off), 1);
+    const Status::Key key = *status_of(attacked.side(1).line, attacked.now()).key;
+    EXPECT_GT(key.counts.unsealed, 40'000U);
+    EXPECT_GT(key.counts.forged + key.counts.unknown_key, 5'000U);
+    EXPECT_GT(key.counts.replayed, 5'000U);
+}
+
+TEST(KeyedSession, EndsTheForceWhenGenuineMessagesComeLate)
+{
+    // From 3 s on everything is held back for 2 s; then it comes again, 2 s old and genuine.
+    VirtualWorld world{keyed_setting("[[at]]\ntime = \"3s\"\nboth.delay = \"2s\"")};
+    double pressed_n = 0.0;
+    while (world.now() < VirtualWorld::start + 3s) {
+        world.step();
+        pressed_n = std::max(pressed_n, base::norm(world.side(0).told()));
+    }
+    EXPECT_GT(pressed_n, 0.1);
+    world.run_for(400ms);
+    for (int tick = 0; tick < 1500; ++tick) {
+        world.step();
+        for (const std::size_t side : {0U, 1U})
+            ASSERT_EQ(base::norm(world.side(side).told()), 0.0) << tick;
+    }
+    world.run_for(1s);
+    EXPECT_GT(world.side(0).last().freshness, 0.0);
+}
 
 TEST(KeyedSession, GoesThroughLossAndDelayLikeAPlainOne)
 {
