@@ -85,18 +85,24 @@ void VirtualWorld::deliver(std::size_t to)
     const std::size_t from = partner_of(to);
     const Direction direction = direction_of(from);
     emulator::EmulatedPath& path = pairs_[from / 2].path;
-    auto& receiver = sides_[to].player;
     for (const Passing& passing : sides_[from].undelayed) {
         emulator::Datagram datagram = passing.departure;
         datagram.bytes = passing.datagram.bytes();
-        if (receiver) receiver->receive(datagram.bytes, datagram.due);
+        hand_over(to, datagram.bytes, datagram.due);
         path.on_sent(direction, datagram, datagram.due);
     }
     sides_[from].undelayed.clear();
     while (const auto datagram = path.poll(direction, now_)) {
-        if (receiver) receiver->receive(datagram->bytes, datagram->due);
+        hand_over(to, datagram->bytes, datagram->due);
         path.on_sent(direction, *datagram, datagram->due);
     }
+}
+
+void VirtualWorld::hand_over(std::size_t to, std::span<const std::byte> datagram,
+                             base::TimePoint arrived)
+{
+    if (interceptor_) return interceptor_(to, datagram, arrived);
+    if (sides_[to].player) sides_[to].player->receive(datagram, arrived);
 }
 
 void VirtualWorld::play(std::size_t side)

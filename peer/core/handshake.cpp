@@ -39,6 +39,8 @@ std::optional<wire::ByeReason> Handshake::refusal_of(const wire::Hello& hello) c
 std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
                                                    base::TimePoint arrived, Known known)
 {
+    const bool is_our_own = hello.nonce == self_.nonce && hello.peer_id == self_.id;
+    if (is_our_own) return std::nullopt; // somebody sent it back
     if (const auto reason = refusal_of(hello)) return reason;
     const bool is_of_another_run = !remote_ || remote_->nonce != hello.nonce;
     if (is_of_another_run && remote_ && known == Known::heard) return std::nullopt;

@@ -352,10 +352,23 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .force_max_n = force_max_n_};
     const base::Position before = position();
     if (body_known_) move_world(tick, situation, input);
+    keep_within_reach();
     account(tick, position() - before, now);
     // The governor's own fade runs along with the others': zero when one of them counts as lost.
     tick.permitted = usable && body_known_ && are_others_fresh(now) && tick.phase == Phase::running;
     say_states(tick, now, usable ? hand : Hand{});
+}
+
+/// A remote side that lies can drag the body to where the other copy would not believe it to be any
+/// more; then the two would never agree again.
+void Peer::keep_within_reach()
+{
+    const base::Position place = position();
+    if (scene::is_within(place.value, remote_reach_m_)) return;
+    constexpr double inside = 0.99; // whatever is rounded on the wire
+    const glm::dvec3 back =
+        glm::clamp(place.value, -inside * remote_reach_m_, inside * remote_reach_m_);
+    world_.place(body_, {back}, {});
 }
 
 void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand)

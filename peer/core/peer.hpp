@@ -198,6 +198,7 @@ private:
     void take_body_over();
     [[nodiscard]] bool are_others_fresh(base::TimePoint now) const;
     void move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand);
+    void keep_within_reach();
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_states(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);

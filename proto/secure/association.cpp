@@ -103,7 +103,7 @@ Association::on_datagram(std::span<std::byte> datagram, const Place& from, base:
     }
     switch (*type) {
     case FrameType::initiation: on_initiation(datagram, from, now); return std::nullopt;
-    case FrameType::response: on_response(datagram); return std::nullopt;
+    case FrameType::response: on_response(datagram, from); return std::nullopt;
     case FrameType::cookie: on_cookie_reply(datagram, now); return std::nullopt;
     case FrameType::hello:
     case FrameType::state:
@@ -133,26 +133,28 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
     if (opened.size == 0) return std::nullopt;
     last_opened_ = now;
     if (current_ && epoch == &*current_) confirm_at_.reset();
-    const bool is_first = next_ && epoch == &*next_;
-    if (is_first) { // the other side has it: use it, too
+    if (next_ && epoch == &*next_) { // the other side has it: use it, too
         use(std::move(*std::exchange(next_, std::nullopt)), now);
         epoch = &*current_;
         answered_.reset(); // it has come
     }
-    // A state shows where the other side is now; so does the first word under a fresh key, as a
-    // peer that was started again elsewhere says hello before there are states.
-    const bool is_newest = opened.is_state && opened.outcome == Opener::Outcome::opened_newest;
-    const bool has_moved = (is_newest || is_first) && epoch == &*current_ && config_.may_roam;
-    if (!place_) {
-        place_ = from;
-    } else if (has_moved && *place_ != from) {
-        ++counts_.roamed;
-        place_ = from;
-    }
+    // A state shows where the other side is now; until there is one under this key, other messages
+    // do, as a peer that was started again elsewhere says hello first.
+    epoch->has_opened_state = epoch->has_opened_state || opened.is_state;
+    const bool is_newest = opened.outcome == Opener::Outcome::opened_newest &&
+                           (opened.is_state || !epoch->has_opened_state);
+    const bool has_moved = is_newest && epoch == &*current_ && config_.may_roam;
+    if (!place_ || has_moved) move_to(from);
     if (opened.size == empty_bytes) return std::nullopt;
     if (datagram[type_place] != plain_hello)
         ByteWriter{datagram.subspan(session_place, 4)}.u32(epoch->session);
     return Received{opened.size, epoch->other_run};
+}
+
+void Association::move_to(const Place& place)
+{
+    if (place_ && *place_ != place) ++counts_.roamed;
+    place_ = place;
 }
 
 void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoint now)
@@ -179,7 +181,7 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
     responding_->noise.read(initiation->noise);
 }
 
-void Association::on_response(Bytes datagram)
+void Association::on_response(Bytes datagram, const Place& from)
 {
     const auto response = read_response(datagram);
     if (!response || !door_.knows_us(response->macs.covered_by_mac1, response->macs.mac1)) {
@@ -190,6 +192,7 @@ void Association::on_response(Bytes datagram)
         initiating_->other)
         return; // a repetition
     initiating_->other = response->sender;
+    initiating_->answered_from = from;
     initiating_->noise.read(response->noise);
 }
 
@@ -269,6 +272,7 @@ void Association::step_initiation(Moment moment)
     unanswered_since_.reset();
     Epoch made{own.own,   *own.other, own.noise.split(), other_run, session_with(other_run),
                moment.now};
+    if (config_.may_roam) move_to(own.answered_from);
     initiating_.reset();
     next_.reset();
     last_opened_ = moment.now;
@@ -402,6 +406,8 @@ void Association::repeat(base::TimePoint now)
     if (initiating_->last_sent && now - *initiating_->last_sent < every) return;
     initiating_->last_sent = now;
     if (place_) send(*initiating_->frame, *place_);
+    // Somebody on the path may have made both sides look for each other elsewhere.
+    if (config_.place && config_.place != place_) send(*initiating_->frame, *config_.place);
 }
 
 // --- what goes ---

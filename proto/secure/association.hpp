@@ -126,7 +126,8 @@ private:
         std::uint32_t other_run;
         std::uint32_t session;
         base::TimePoint made;
-        std::uint32_t controls = 0; // sealed
+        std::uint32_t controls = 0;    // sealed
+        bool has_opened_state = false; // until then hellos tell where the other side is
     };
     struct Initiating {
         Initiating(KeyIndex index, const StaticKeys& keys, Bytes prologue, Secret ephemeral,
@@ -140,6 +141,7 @@ private:
         std::optional<HandshakeFrame> frame; // when it is written
         std::optional<base::TimePoint> last_sent;
         std::optional<KeyIndex> other; // while the response is read
+        Place answered_from{};
     };
     struct Responding {
         Responding(KeyIndex own_index, const Initiation& initiation, const StaticKeys& keys,
@@ -163,7 +165,8 @@ private:
     std::optional<Received> on_message(std::span<std::byte> datagram, KeyIndex index,
                                        const Place& from, base::TimePoint now);
     void on_initiation(Bytes datagram, const Place& from, base::TimePoint now);
-    void on_response(Bytes datagram);
+    void on_response(Bytes datagram, const Place& from);
+    void move_to(const Place& place);
     void on_cookie_reply(Bytes datagram, base::TimePoint now);
     void step_response(base::TimePoint now);
     void step_initiation(Moment moment);

@@ -128,7 +128,7 @@ bool is_canonical(const HandModel& hand)
 
 void put(ByteWriter& out, const Hello& hello)
 {
-    base::ensure(hello.nonce != 0);
+    base::ensure(hello.nonce != 0 && hello.peer_id != 0);
     put_header(out, type_hello, 0);
     const int flags = flag_if(hello.echo.has_value(), flag_echo) |
                       flag_if(hello.start.has_value(), flag_start) |
@@ -192,7 +192,8 @@ Fault take(ByteReader& in, Hello& hello)
     std::transform(name.begin(), end, std::back_inserter(text),
                    [](std::byte b) { return static_cast<char>(b); });
     const auto task = TaskName::from_text(text);
-    if (!task || hello.nonce == 0 || (flags & ~flags_known) != 0 || !canonical) {
+    canonical = canonical && hello.nonce != 0 && hello.peer_id != 0;
+    if (!task || (flags & ~flags_known) != 0 || !canonical) {
         return "hello: not canonical";
     }
     hello.task = *task;

@@ -68,7 +68,7 @@ struct HandModel {
 struct Hello {
     std::uint32_t nonce = 0;       // this run of the sender; never 0
     std::uint32_t nonce_heard = 0; // the other side's nonce; 0: nothing heard yet
-    std::uint16_t peer_id = 0;
+    std::uint16_t peer_id = 0;     // never 0
     std::uint16_t tick_rate_hz = 0;
     std::uint64_t scene_hash = 0;
     std::uint64_t seed = 0;

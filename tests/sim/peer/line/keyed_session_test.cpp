@@ -222,6 +222,47 @@ TEST(KeyedSession, GoesOnWithAPeerThatWasStartedAgain)
     EXPECT_GT(world.side(1).last().freshness, 0.0);
 }
 
+TEST(KeyedSession, GoesOnWithAPeerThatWasStartedAgainWithAnEarlierDate)
+{
+    for (const std::size_t restarted : {0U, 1U}) {
+        Setting setting = keyed_setting("[both]\ndelay = \"20ms\"");
+        setting.length = 30s;
+        VirtualWorld world{setting};
+        world.run_for(4s);
+        world.kill(restarted);
+        world.run_for(700ms);
+        world.revive(restarted);
+        // Its initiations look old; those of the other side make the key, which says hello under
+        // it.
+        world.side(restarted).date_ahead = -1h;
+        // The lower id asks for 5 s before it listens.
+        world.run_for(restarted == 0 ? 9s : 4s);
+        EXPECT_TRUE(has_event(world, 1 - restarted, Event::restarted)) << restarted;
+        EXPECT_GT(world.side(0).last().freshness, 0.0) << restarted;
+        EXPECT_GT(world.side(1).last().freshness, 0.0) << restarted;
+    }
+}
+
+TEST(KeyedSession, IsFoundAgainAfterBothSidesWereLookedForElsewhere)
+{
+    VirtualWorld world{keyed_setting("[both]\ndelay = \"20ms\"")};
+    bool redirects = false;
+    world.intercept([&](std::size_t to, std::span<const std::byte> bytes, base::TimePoint at) {
+        const secure::Place elsewhere{std::byte{0xee}};
+        const secure::Place from = redirects ? elsewhere : lab::virtual_time::place_of(1 - to);
+        world.side(to).receive(bytes, from, at);
+    });
+    world.run_for(4s);
+    redirects = true;
+    world.run_for(100ms);
+    redirects = false;
+    world.run_for(3s);
+    for (const std::size_t side : {0U, 1U}) {
+        EXPECT_GT(world.side(side).last().freshness, 0.0) << side;
+        EXPECT_FALSE(has_event(world, side, Event::restarted)) << side;
+    }
+}
+
 TEST(KeyedSession, DoesNotNoticeThatItsKeyIsRenewed)
 {
     Setting setting = keyed_setting("[both]\ndelay = \"40ms\"");

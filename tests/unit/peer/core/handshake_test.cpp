@@ -181,6 +181,15 @@ TEST(Handshake, RefusesWhoeverPlaysSomethingElse)
     EXPECT_EQ(objection([](Introduction& i) { i.tick_rate_hz = 500; }), ByeReason::other_tick_rate);
 }
 
+TEST(Handshake, IgnoresItsOwnHelloWhenSomebodySendsItBack)
+{
+    Handshake handshake{introduction(0)};
+    const auto own = handshake.hello(base::TimePoint{1h});
+    ASSERT_TRUE(own);
+    EXPECT_EQ(handshake.on_hello(*own, base::TimePoint{1h} + 1ms), std::nullopt);
+    EXPECT_FALSE(handshake.has_met());
+}
+
 TEST(Handshake, DoesNotBelieveAStartThatNoSessionCanHave)
 {
     for (const base::Duration away : {base::Duration{300h}, base::Duration{-300h}}) {
