@@ -160,6 +160,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     SelfTestCommand testing;
     add_self_test(self_test, testing);
 
+    check.option("--key", "FILE", "Also whether a session would take this key file",
+                 cli::into(checking.key));
     KeyCommands keys{program};
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));

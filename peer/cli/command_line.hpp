@@ -21,9 +21,10 @@ struct ListDevicesCommand {
     bool json = false;
 };
 
-/// `hapnet-peer doctor [--json] [--print-udev-rules]`
+/// `hapnet-peer doctor [--json] [--key FILE] [--print-udev-rules]`
 struct DoctorCommand {
     std::string hd_library;
+    std::optional<std::string> key;
     bool json = false;
 };
 

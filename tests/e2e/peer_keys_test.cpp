@@ -215,6 +215,19 @@ TEST(PeerKeys, AreRefusedWithTheCureWhenTheyDoNotFit)
     refused({"--key", key}, {key, "chmod 600"});
 }
 
+TEST(PeerKeys, AreLookedAtByTheDoctor)
+{
+    const Circle circle;
+    const std::string key = circle.of(1);
+    EXPECT_NE(run("hapnet-peer", {"doctor", "--key", key}).out.find(key + " is readable"),
+              std::string::npos);
+    std::filesystem::permissions(key, std::filesystem::perms::others_read,
+                                 std::filesystem::perm_options::add);
+    const auto outcome = run("hapnet-peer", {"doctor", "--key", key});
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_NE(outcome.out.find("chmod 600 " + key), std::string::npos);
+}
+
 TEST(Keygen, MakesFilesThatShowTheSameFingerprintAndNoSecret)
 {
     const Circle circle;
