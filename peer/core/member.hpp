@@ -21,7 +21,7 @@ public:
     /// In ticks. A path that is slower one way than the other shifts the two starts by half the
     /// difference, which nobody can see: as much as the slowest path that is believed.
     static constexpr base::Duration::rep sequence_slack = 5000;
-    static constexpr std::uint32_t body_every = 64;             // messages
+    static constexpr std::uint32_t body_every = 64; // messages
     /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
     /// damaged. Those that it overtook on its way do not count.
     static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
