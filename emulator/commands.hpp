@@ -19,5 +19,7 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<int> run(const PredictOptions& options);
 /// Tests whether the fates of a run are those that its profile promises; 1 when a test fails.
 [[nodiscard]] base::Result<int> run(const VerifyOptions& request);
+/// Asks and measures until it has the answers, or answers until it is told to stop.
+[[nodiscard]] base::Result<int> run(const ProbeOptions& options);
 
 } // namespace hapnet::emulator

@@ -49,6 +49,7 @@ Examples:
       --down.loss 10% --seed 42 --duration 30s --stats run.json
   hapnet-emulator --listen-a :7001 --listen-b :7002 --profile wifi-busy \
       --control emulator.sock --fates fates.csv --pcap run.pcapng
+  hapnet-emulator probe 127.0.0.1:7001 --count 10
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
 
@@ -514,9 +515,16 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     VerifyOptions verifying;
     add_verify(verify, verifying);
 
+    ProbeOptions probing;
+    const cli::Command& probe = add_probe(program, probing);
+
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
+    if (probe.is_chosen()) {
+        if (auto fine = require_probe(probing, probe); !fine) return tl::unexpected{fine.error()};
+        return AnyOptions{std::move(probing)};
+    }
     if (!check.is_chosen() && !predict.is_chosen()) {
         if (!program.is_given("--upstream")) return checked(std::move(options), program);
         if (auto fine = require_upstream(program); !fine) return tl::unexpected{fine.error()};

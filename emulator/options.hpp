@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/queue_limits.hpp"
+#include "emulator/probe_options.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
@@ -90,8 +91,8 @@ struct VerifyOptions {
     bool as_json = false;
 };
 
-using AnyOptions =
-    std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions, VerifyOptions>;
+using AnyOptions = std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions,
+                                VerifyOptions, ProbeOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.
