@@ -13,6 +13,8 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<int> run(const Options& options);
 /// The same for any client of a server.
 [[nodiscard]] base::Result<int> run(const UpstreamOptions& options);
+/// Runs two commands with the emulator between them; gives the exit code of the first.
+[[nodiscard]] base::Result<int> run(const BetweenOptions& options);
 /// Prints the profile in canonical form, each stage in words, and warnings.
 [[nodiscard]] base::Result<int> run(const CheckOptions& options);
 /// Prints what the profile will do to a stream.

@@ -49,6 +49,7 @@ Examples:
       --down.loss 10% --seed 42 --duration 30s --stats run.json
   hapnet-emulator --listen-a :7001 --listen-b :7002 --profile wifi-busy \
       --control emulator.sock --fates fates.csv --pcap run.pcapng
+  hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
   hapnet-emulator probe 127.0.0.1:7001 --count 10
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
@@ -207,7 +208,7 @@ base::Result<net::HostPort> parse_host(const std::string& text)
     return host;
 }
 
-void add_run_options(cli::Command& program, Options& options)
+void add_relay_ends(cli::Command& program, Options& options)
 {
     program.option("--listen-a", "ADDRESS",
                    "Where A sends to: HOST:PORT; :PORT listens on loopback. Required, as is "
@@ -219,6 +220,11 @@ void add_run_options(cli::Command& program, Options& options)
                    cli::into(options.a, parse_host));
     program.option("--b", "HOST:PORT", "Address of B (default: the first sender)",
                    cli::into(options.b, parse_host));
+}
+
+/// What every run takes, wherever its datagrams come from.
+void add_run_options(cli::Command& program, Options& options)
+{
     program.option("--profile", "FILE|NAME",
                    "Conditions and their timeline from a TOML file, or the name of a preset "
                    "(hapnet-emulator check --list)",
@@ -249,14 +255,18 @@ void add_run_options(cli::Command& program, Options& options)
                    "Apply the fates that --fates wrote to FILE instead of drawing them: the n-th "
                    "datagram gets the n-th fate",
                    cli::into(options.replay));
-    program.option("--pcap", "FILE",
-                   "Capture both sides to FILE, with a comment on each packet (pcapng, for "
-                   "Wireshark)",
-                   cli::into(options.capture));
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
                    cli::into(options.control));
+}
+
+void add_capture(cli::Command& program, Options& options)
+{
+    program.option("--pcap", "FILE",
+                   "Capture both sides to FILE, with a comment on each packet (pcapng, for "
+                   "Wireshark)",
+                   cli::into(options.capture));
 }
 
 constexpr const char* clients_group = "Any client of a server, instead of A and B";
@@ -347,6 +357,33 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools
     add_conditions(command, conditions_from, /*own_rate*/ true);
 }
 
+cli::Command& add_check(cli::Command& program, CheckOptions& options, bool& is_list)
+{
+    cli::Command& command = program.command("check", "Describes a profile, stage by stage");
+    command.describe(check_description);
+    command.add_footer(check_footer);
+    command.add_exit_codes(check_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+    return command;
+}
+
+cli::Command& add_predict(cli::Command& program, PredictOptions& options, bool& is_list)
+{
+    constexpr std::uint64_t packets_max = 1'000'000'000;
+    cli::Command& command =
+        program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
+    command.describe(predict_description);
+    command.add_footer(predict_footer);
+    command.add_exit_codes(predict_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.option("--packets", "NUMBER", "Number of datagrams, each way (default 400000)",
+                   cli::into(options.stream.packets, base::Count{1, packets_max}));
+    command.flag("--json", "Print one JSON object instead of text", options.as_json);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+    return command;
+}
+
 base::Result<base::Duration> parse_even_spacing(const std::string& text)
 {
     constexpr std::uint64_t most = 1'000'000'000;
@@ -355,8 +392,13 @@ base::Result<base::Duration> parse_even_spacing(const std::string& text)
     });
 }
 
-void add_verify(cli::Command& command, VerifyOptions& options)
+cli::Command& add_verify(cli::Command& program, VerifyOptions& options)
 {
+    cli::Command& command =
+        program.command("verify", "Tests whether the fates of a run follow its profile");
+    command.describe(verify_description);
+    command.add_footer(verify_footer);
+    command.add_exit_codes(verify_exit_codes);
     command.positional("RUN", "What a run has written", cli::into(options.run))
         .required("run.json");
     command.option("--profile", "FILE|NAME",
@@ -369,6 +411,7 @@ void add_verify(cli::Command& command, VerifyOptions& options)
                    "in time",
                    cli::into(options.spacing, parse_even_spacing));
     command.flag("--json", "Print one JSON object instead of a table", options.as_json);
+    return command;
 }
 
 /// The names of the presets, each followed by `separator`.
@@ -474,49 +517,35 @@ std::string_view to_text(Timing timing)
     return {};
 }
 
-net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
+net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
 {
+    TypedCommands typed;
+    const auto words = take_commands(all_words, typed);
     cli::Command program{"hapnet-emulator"};
     program.describe(description);
     program.add_footer(footer);
     program.add_exit_codes(exit_codes);
     Options options;
+    add_relay_ends(program, options);
     add_run_options(program, options);
+    add_capture(program, options);
     UpstreamOptions through;
     add_upstream_options(program, through);
 
-    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
-    check.describe(check_description);
-    check.add_footer(check_footer);
-    check.add_exit_codes(check_exit_codes);
     CheckOptions checking;
     bool is_list = false;
-    add_dry_run(check, checking.conditions, checking.stream);
-    check.flag("--list", "Print the names of the presets and exit", is_list);
-
-    cli::Command& predict =
-        program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
-    predict.describe(predict_description);
-    predict.add_footer(predict_footer);
-    predict.add_exit_codes(predict_exit_codes);
+    const cli::Command& check = add_check(program, checking, is_list);
     PredictOptions predicting;
-    constexpr std::uint64_t packets_max = 1'000'000'000;
-    add_dry_run(predict, predicting.conditions, predicting.stream);
-    predict.option("--packets", "NUMBER", "Number of datagrams, each way (default 400000)",
-                   cli::into(predicting.stream.packets, base::Count{1, packets_max}));
-    predict.flag("--json", "Print one JSON object instead of text", predicting.as_json);
-    predict.flag("--list", "Print the names of the presets and exit", is_list);
-
-    cli::Command& verify =
-        program.command("verify", "Tests whether the fates of a run follow its profile");
-    verify.describe(verify_description);
-    verify.add_footer(verify_footer);
-    verify.add_exit_codes(verify_exit_codes);
+    const cli::Command& predict = add_predict(program, predicting, is_list);
     VerifyOptions verifying;
-    add_verify(verify, verifying);
-
+    const cli::Command& verify = add_verify(program, verifying);
     ProbeOptions probing;
     const cli::Command& probe = add_probe(program, probing);
+
+    cli::Command& between = add_between(program);
+    BetweenOptions between_two;
+    add_run_options(between, between_two.run);
+    add_frame_options(between, between_two.frames);
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (is_list) return net::Answer{preset_list('\n')};
@@ -524,6 +553,13 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     if (probe.is_chosen()) {
         if (auto fine = require_probe(probing, probe); !fine) return tl::unexpected{fine.error()};
         return AnyOptions{std::move(probing)};
+    }
+    if (between.is_chosen()) {
+        auto fine = require_two_commands(typed);
+        if (fine) fine = require_own_files(between_two.run);
+        if (!fine) return tl::unexpected{fine.error()};
+        between_two.commands = std::move(typed);
+        return AnyOptions{std::move(between_two)};
     }
     if (!check.is_chosen() && !predict.is_chosen()) {
         if (!program.is_given("--upstream")) return checked(std::move(options), program);

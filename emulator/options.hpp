@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/queue_limits.hpp"
+#include "emulator/frame_options.hpp"
 #include "emulator/probe_options.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/random.hpp"
@@ -69,6 +70,13 @@ struct UpstreamOptions {
     Options run; // its ends and the files of single datagrams are not used
 };
 
+/// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B`
+struct BetweenOptions {
+    FrameOptions frames;
+    TypedCommands commands;
+    Options run; // its ends are not used
+};
+
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
@@ -91,8 +99,8 @@ struct VerifyOptions {
     bool as_json = false;
 };
 
-using AnyOptions = std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions,
-                                VerifyOptions, ProbeOptions>;
+using AnyOptions = std::variant<Options, UpstreamOptions, BetweenOptions, CheckOptions,
+                                PredictOptions, VerifyOptions, ProbeOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -24,7 +24,7 @@ Examples:
   hapnet-emulator probe --answer 7002
   hapnet-emulator probe 127.0.0.1:7002 --count 10
   hapnet-emulator probe --answer 0.0.0.0:7002
-  hapnet-emulator probe 10.0.0.5:7002 --rate 1000 --count 10000 --quiet --csv probe.csv)";
+  hapnet-emulator probe 10.0.0.5:7002 --rate 1000 --count 10000 --csv probe.csv)";
 
 constexpr const char* probe_exit_codes = R"(  0  an answer came; with --answer: stopped
   1  no answer came
@@ -70,7 +70,8 @@ cli::Command& add_probe(cli::Command& program, ProbeOptions& options)
                    cli::into(options.answer, net::parse_listen_address));
     command.option("--rate", "NUMBER", "Questions a second (default 10)",
                    cli::into(options.spacing, parse_probe_rate));
-    command.option("--count", "NUMBER", "End after so many questions (default: ask until stopped)",
+    command.option("--count", "NUMBER",
+                   "End after this many questions (default: ask until stopped)",
                    cli::into(options.count, base::Count{1, tools::ProbeStatistics::questions_max}));
     command.option("--size", "NUMBER",
                    fmt::format("Payload of a question and of its answer, in bytes: {} to {} "

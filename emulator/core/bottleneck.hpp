@@ -38,7 +38,7 @@ public:
     void push(const Datagram& datagram, const Fate& fate)
     {
         base::ensure(!queue_.full());
-        const std::size_t line_bytes = datagram.bytes.size() + rate_.overhead_bytes;
+        const std::size_t line_bytes = datagram.size() + rate_.overhead_bytes;
         const bool was_idle = queue_.empty();
         queue_.push({datagram, fate, line_bytes});
         if (was_idle) {
