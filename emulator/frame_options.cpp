@@ -35,6 +35,34 @@ constexpr const char* between_exit_codes =
   2  bad usage or input
   3  the system refused (no user namespaces, no such command))";
 
+constexpr const char* bridge_description =
+    "Joins two network interfaces, as a switch with two ports and a bad cable would: what arrives "
+    "at one leaves from the other, any protocol, VLAN tags and all. The ends keep their addresses "
+    "and need not know of it. It needs root, or CAP_NET_RAW. The interfaces should have no "
+    "addresses of their own.";
+
+constexpr const char* bridge_footer =
+    R"(up is from IF_A to IF_B. The conditions hold for each IP packet; ARP, the neighbour discovery
+of IPv6 and what is not IP pass undisturbed. What the emulator sent is never forwarded. A loop, one
+machine that is heard on both sides, ends the run.
+
+Examples:
+  hapnet-emulator bridge eth1 eth2 --delay 40ms --loss 1%
+  hapnet-emulator bridge eth1 eth2 --profile lte --control emulator.sock)";
+
+constexpr const char* bridge_exit_codes = R"(  0  done
+  1  the run failed, or there is a loop
+  2  bad usage or input
+  3  the system refused (no CAP_NET_RAW, no such interface))";
+
+base::Result<std::string> parse_interface(const std::string& text)
+{
+    constexpr std::size_t length_max = 15; // of Linux
+    if (!text.empty() && text.size() <= length_max) return text;
+    return base::fail(fmt::format("'{}' is not the name of an interface: it has 1 to {} characters",
+                                  text, length_max));
+}
+
 } // namespace
 
 std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands)
@@ -43,13 +71,12 @@ std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands)
         return [text](const char* word) { return word == text; };
     };
     if (words.size() < 2) return words;
-    if (!is("between")(words[1]) && !is("exec")(words[1])) return words;
+    if (!is("between")(words[1])) return words;
     const auto dashes = std::ranges::find_if(words, is("--"));
     if (dashes == words.end()) return words;
     const auto three = std::find_if(dashes + 1, words.end(), is("---"));
     commands.first.assign(dashes + 1, three);
-    commands.has_second = three != words.end();
-    if (commands.has_second) commands.second.assign(three + 1, words.end());
+    if (three != words.end()) commands.second.assign(three + 1, words.end());
     return words.first(static_cast<std::size_t>(dashes - words.begin()));
 }
 
@@ -74,6 +101,20 @@ cli::Command& add_between(cli::Command& program)
     return command;
 }
 
+cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b)
+{
+    cli::Command& command =
+        program.command("bridge", "Joins two network interfaces, any protocol; needs root");
+    command.describe(bridge_description);
+    command.add_footer(bridge_footer);
+    command.add_exit_codes(bridge_exit_codes);
+    command.positional("IF_A", "The interface on A's side", cli::into(a, parse_interface))
+        .required("eth1");
+    command.positional("IF_B", "The interface on B's side", cli::into(b, parse_interface))
+        .required("eth2");
+    return command;
+}
+
 base::Result<void> require_two_commands(const TypedCommands& commands)
 {
     if (!commands.first.empty() && !commands.second.empty()) return {};
@@ -82,11 +123,10 @@ base::Result<void> require_two_commands(const TypedCommands& commands)
         "b --- sleep infinity");
 }
 
-base::Result<void> require_one_command(const TypedCommands& commands)
+base::Result<void> require_two_interfaces(const std::string& a, const std::string& b)
 {
-    if (!commands.first.empty() && !commands.has_second) return {};
-    return base::fail("one command is required: hapnet-emulator exec --delay 40ms -- curl "
-                      "http://example.org/");
+    if (a != b) return {};
+    return base::fail(fmt::format("IF_A and IF_B are both {}: a bridge joins two interfaces", a));
 }
 
 } // namespace hapnet::emulator

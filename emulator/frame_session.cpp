@@ -145,7 +145,6 @@ std::string FrameSession::statistics() const
         {"budget_us", json_in_us(options_.budget)},
         {"duration_s", base::to_seconds(elapsed_)},
         {"real_time", {{"fifo", real_time_.fifo}, {"locked_memory", real_time_.locked_memory}}},
-        {"world", setup_.world.empty() ? FrameJson(nullptr) : FrameJson(setup_.world)},
         {"frames", {{"a", json_of(frames_.a())}, {"b", json_of(frames_.b())}}},
         {"generation", path_.director().generation()},
         {"configuration", configuration_json(scenario_.profile.path)},

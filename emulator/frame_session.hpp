@@ -27,7 +27,6 @@ class FrameSession {
 public:
     struct Setup {
         std::string command; // "between"
-        std::string world{}; // the program that connects it with other networks, or ""
         ports::Frames::Setup frames;
     };
 

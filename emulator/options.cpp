@@ -505,6 +505,30 @@ net::CommandLine<AnyOptions> checked(Options options, const cli::Command& progra
     return AnyOptions{std::move(options)};
 }
 
+net::CommandLine<AnyOptions> checked(BetweenOptions options, TypedCommands commands)
+{
+    auto fine = require_two_commands(commands);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    options.commands = std::move(commands);
+    return AnyOptions{std::move(options)};
+}
+
+net::CommandLine<AnyOptions> checked(BridgeOptions options)
+{
+    auto fine = require_two_interfaces(options.a, options.b);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    return AnyOptions{std::move(options)};
+}
+
+/// What the commands for frames have in common.
+void add_frames(cli::Command& command, auto& options)
+{
+    add_run_options(command, options.run);
+    add_frame_options(command, options.frames);
+}
+
 } // namespace
 
 std::string_view to_text(Timing timing)
@@ -542,10 +566,12 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     ProbeOptions probing;
     const cli::Command& probe = add_probe(program, probing);
 
-    cli::Command& between = add_between(program);
     BetweenOptions between_two;
-    add_run_options(between, between_two.run);
-    add_frame_options(between, between_two.frames);
+    cli::Command& between = add_between(program);
+    add_frames(between, between_two);
+    BridgeOptions bridging;
+    cli::Command& bridge = add_bridge(program, bridging.a, bridging.b);
+    add_frames(bridge, bridging);
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (is_list) return net::Answer{preset_list('\n')};
@@ -554,13 +580,8 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
         if (auto fine = require_probe(probing, probe); !fine) return tl::unexpected{fine.error()};
         return AnyOptions{std::move(probing)};
     }
-    if (between.is_chosen()) {
-        auto fine = require_two_commands(typed);
-        if (fine) fine = require_own_files(between_two.run);
-        if (!fine) return tl::unexpected{fine.error()};
-        between_two.commands = std::move(typed);
-        return AnyOptions{std::move(between_two)};
-    }
+    if (between.is_chosen()) return checked(std::move(between_two), std::move(typed));
+    if (bridge.is_chosen()) return checked(std::move(bridging));
     if (!check.is_chosen() && !predict.is_chosen()) {
         if (!program.is_given("--upstream")) return checked(std::move(options), program);
         if (auto fine = require_upstream(program); !fine) return tl::unexpected{fine.error()};

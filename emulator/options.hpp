@@ -77,6 +77,14 @@ struct BetweenOptions {
     Options run; // its ends are not used
 };
 
+/// `hapnet-emulator bridge IF_A IF_B`
+struct BridgeOptions {
+    std::string a;
+    std::string b;
+    FrameOptions frames;
+    Options run; // its ends are not used
+};
+
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
@@ -99,8 +107,8 @@ struct VerifyOptions {
     bool as_json = false;
 };
 
-using AnyOptions = std::variant<Options, UpstreamOptions, BetweenOptions, CheckOptions,
-                                PredictOptions, VerifyOptions, ProbeOptions>;
+using AnyOptions = std::variant<Options, UpstreamOptions, BetweenOptions, BridgeOptions,
+                                CheckOptions, PredictOptions, VerifyOptions, ProbeOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -246,16 +246,14 @@ void add_default_route(const std::string& interface, const std::string& router)
     require(request.ask(), fmt::format("cannot route by {}", router));
 }
 
-bool switch_off_offloads(const std::string& interface)
+void switch_off_offloads(const std::string& interface)
 {
     // In this order: the kernel cuts up what is left to cut when checksums are no longer left to
     // the device.
     for (const int command : {ETHTOOL_STSO, ETHTOOL_SGRO, ETHTOOL_SRXCSUM, ETHTOOL_STXCSUM}) {
         set_ethtool(interface, static_cast<std::uint32_t>(command), 0);
     }
-    restore_receive_offloads(interface, 0);
-    return ethtool_of(interface, ETHTOOL_GTXCSUM) == 0 &&
-           ethtool_of(interface, ETHTOOL_GTSO) == 0 && ethtool_of(interface, ETHTOOL_GGRO) == 0;
+    set_receive_offloads(interface, 0);
 }
 
 std::uint32_t receive_offloads_of(const std::string& interface)
@@ -264,7 +262,7 @@ std::uint32_t receive_offloads_of(const std::string& interface)
            (ethtool_of(interface, ETHTOOL_GFLAGS) & lro_flag);
 }
 
-void restore_receive_offloads(const std::string& interface, std::uint32_t offloads)
+void set_receive_offloads(const std::string& interface, std::uint32_t offloads)
 {
     set_ethtool(interface, ETHTOOL_SGRO, offloads & 1U);
     const auto flags = ethtool_of(interface, ETHTOOL_GFLAGS);

@@ -28,12 +28,12 @@ void add_address(const std::string& interface, const std::string& address, std::
 void add_default_route(const std::string& interface, const std::string& router);
 
 /// Work that the kernel leaves to a device, off: checksums, and frames that are cut up or put
-/// together there. Then what leaves is what would be on a wire. Features that the interface does
-/// not have, or not let go of, stay; returns whether the ones that matter are off.
-bool switch_off_offloads(const std::string& interface);
+/// together there. Then what leaves is what would be on a wire. Throws nothing: features that the
+/// interface does not have, or not let go of, stay.
+void switch_off_offloads(const std::string& interface);
 
-/// What switch_off_offloads() turns off for what arrives, as one number; and back to that.
+/// How the interface puts packets together that arrive, as one number; 0: it does not.
 [[nodiscard]] std::uint32_t receive_offloads_of(const std::string& interface);
-void restore_receive_offloads(const std::string& interface, std::uint32_t offloads);
+void set_receive_offloads(const std::string& interface, std::uint32_t offloads);
 
 } // namespace hapnet::net
