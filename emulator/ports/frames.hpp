@@ -33,7 +33,7 @@ public:
 
     /// One interface, and the direction that begins there.
     struct Side {
-        Side(Direction from_here, const std::string& interface);
+        Side(Direction from_here, const std::string& name);
 
         Direction direction;
         std::string interface;

@@ -164,7 +164,7 @@ void enter_own_network()
     }
 }
 
-ChildCommand::ChildCommand(Setup setup) : has_own_group_{setup.has_own_group}
+ChildCommand::ChildCommand(const Setup& setup) : has_own_group_{setup.has_own_group}
 {
     const auto orders = make_pipe();
     const auto reports = make_pipe();

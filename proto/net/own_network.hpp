@@ -33,7 +33,7 @@ public:
 
     /// Starts the process, which waits for go(). Throws std::system_error when it cannot have what
     /// the setup asks for.
-    explicit ChildCommand(Setup setup);
+    explicit ChildCommand(const Setup& setup);
     ~ChildCommand();
     ChildCommand(const ChildCommand&) = delete;
     ChildCommand& operator=(const ChildCommand&) = delete;
