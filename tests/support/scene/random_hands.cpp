@@ -73,7 +73,8 @@ private:
 
 scene::BodyState elsewhere(Dice& dice, const BodyDescription& body)
 {
-    scene::BodyState state{body.position, body.orientation, body.velocity, body.angular_velocity};
+    const scene::MassFrame frame = frame_of_mass(body);
+    scene::BodyState state{frame.centre, frame.orientation, body.velocity, body.angular_velocity};
     state.position.value += body.half * dice.vector();
     return state;
 }

@@ -34,6 +34,14 @@ TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
     }
 }
 
+TEST(RandomPlay, OfBodiesOfSeveralPartsKeepsEveryLaw)
+{
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed, {.compounds = true}), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
 TEST(RandomPlay, IsTheSameEveryTime)
 {
     for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
