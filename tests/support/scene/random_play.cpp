@@ -52,7 +52,8 @@ Style random_style(Dice& dice)
     style.spins = dice.one_in(3);
     style.layout = static_cast<Layout>(dice.below(4));
     constexpr std::array<double, 6> speeds{0.0, 0.0, 0.1, 1.0, 10.0, 1000.0};
-    style.speed = speeds[dice.below(speeds.size())] * (dice.one_in(2) ? 1.0 : dice.share());
+    const double speed = speeds[dice.below(speeds.size())];
+    style.speed = speed * (dice.one_in(2) ? 1.0 : dice.share());
     style.turning = dice.one_in(2) ? 0 : dice.below(6);
     style.smooth = dice.one_in(3);
     style.bounces = dice.one_in(3);
@@ -115,7 +116,7 @@ BodyDescription random_body(Dice& dice, const Style& style, std::size_t index)
     if (!style.aligned) body.orientation = random_orientation(dice, body.turning);
     body.position.value = place_in_layout(dice, style, index);
     body.velocity.value = style.speed * dice.vector();
-    if (style.spins) body.angular_velocity = dice.power(0.1, 100.0) * dice.vector();
+    if (style.spins) body.angular_velocity = dice.vector_of_power(0.1, 100.0);
     if (style.locks) {
         body.locked.x = dice.one_in(3);
         body.locked.y = dice.one_in(3);

@@ -175,9 +175,7 @@ TEST_P(Crowds, GoTheirWayWithoutAGuard)
     EXPECT_FALSE(outcome.complaint) << *outcome.complaint;
     EXPECT_EQ(outcome.interventions.paths_cut, 0U);
     EXPECT_EQ(outcome.interventions.budgets_spent, 0U);
-#ifndef __clang__ // Clang evaluates arguments in another order, so that a seed draws another play
     EXPECT_GT(outcome.interventions.clusters_stuck, 0U);
-#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomPlay, Crowds,
