@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* description =
     "Shows the state of a running hapnet-emulator or hapnet-peer, changes an emulator, and stops "
-    "a peer.";
+    "either.";
 
 constexpr base::Duration longest{std::chrono::hours{24}}; // of what the control socket takes
 
@@ -39,7 +39,7 @@ Examples:
   hapnet-ctl /tmp/emulator.sock show > now.toml
   hapnet-ctl /tmp/emulator.sock diff now.toml
   hapnet-ctl /tmp/emulator.sock apply now.toml
-  hapnet-emulator check lte | hapnet-ctl /tmp/emulator.sock apply -
+  hapnet-ctl /tmp/emulator.sock apply lte
   hapnet-ctl /tmp/emulator.sock wait --until 'up.received>1000' --timeout 10s
   hapnet-ctl /tmp/emulator.sock stats
   hapnet-ctl /tmp/peer.sock wait --until 'messages.states_received>0'
@@ -115,7 +115,10 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
                                                    "timeline starts now");
     cli::Command& diff = program.command("diff", "Prints what apply would change");
     for (cli::Command* command : {&apply, &diff}) {
-        command->positional("FILE", "A profile; - reads it from stdin", cli::into(options.file))
+        command
+            ->positional("FILE",
+                         "A profile: a file, or the name of a preset; - reads it from stdin",
+                         cli::into(options.file))
             .required("now.toml");
     }
     program.command("reset", "Undoes every set and apply of an emulator: back to the profile "
@@ -132,8 +135,8 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
         .required("'up.received>1000'");
     wait.option("--timeout", "TIME", "Give up after this time, with exit code 1",
                 cli::into(options.timeout, base::Time{base::Duration{0}, longest}));
-    program.command("stop", "Ends the session of a peer with zero force, as SIGTERM does; "
-                            "statistics are written");
+    program.command("stop", "Ends the program as SIGTERM does: a peer with zero force, an "
+                            "emulator with its files written");
     program.command("estop", "Emergency stop: ends the force of a peer at once, until the peer is "
                              "started anew; its session goes on without");
 }

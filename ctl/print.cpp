@@ -143,7 +143,11 @@ std::string in_words(const Options& options, const Json& reply)
         statistics.erase("ok");
         return statistics.dump(2) + "\n";
     }
-    if (command == "stop") return "the peer ends with zero force\n";
+    if (command == "stop") {
+        return text_at(reply, "/program") == "hapnet-emulator"
+                   ? "the emulator ends and writes its files\n"
+                   : "the peer ends with zero force\n";
+    }
     if (command == "estop") return "zero force until the peer is started anew\n";
     if (command == "wait") {
         const auto until = text_at(reply, "/until");

@@ -8,22 +8,30 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
-#include <spdlog/fmt/fmt.h>
+#include <string>
+#include <utility>
 
 namespace hapnet::ctl {
 
 namespace {
 
-base::Result<std::string> read_profile(const Options& options)
+/// The profile that a request names: its text, or a name that only the emulator can know.
+base::Result<void> add_profile(const std::string& file, nlohmann::ordered_json& request)
 {
-    const std::string& file = options.file;
-    if (file == "-") return std::string{std::istreambuf_iterator<char>{std::cin}, {}};
-    auto text = net::text_of_file(file);
-    if (text || file.find('/') != std::string::npos || file.ends_with(".toml")) return text;
-    // The presets are the emulator's.
-    return base::fail(fmt::format("{0}; for the preset of that name: hapnet-emulator check "
-                                  "{1} | hapnet-ctl {2} {3} -",
-                                  text.error().message, file, options.socket, options.command));
+    const bool is_input = file == "-";
+    const bool can_be_preset = file.find('/') == std::string::npos && !file.ends_with(".toml");
+    if (!is_input && can_be_preset && !std::filesystem::exists(file)) {
+        request["preset"] = file;
+        return {};
+    }
+    base::Result<std::string> text = is_input
+                                         ? std::string{std::istreambuf_iterator<char>{std::cin}, {}}
+                                         : net::text_of_file(file);
+    if (!text) return tl::unexpected{text.error()};
+    request["profile"] = *std::move(text);
+    // What a profile names lies beside it, wherever the emulator was started.
+    request["file"] = is_input ? "(standard input)" : std::filesystem::absolute(file).string();
+    return {};
 }
 
 } // namespace
@@ -36,12 +44,8 @@ base::Result<nlohmann::ordered_json> make_request(const Options& options)
     };
     for (const auto& [key, value] : options.settings) request["settings"][key] = value;
     if (!options.file.empty()) {
-        auto text = read_profile(options);
-        if (!text) return tl::unexpected{text.error()};
-        request["profile"] = *std::move(text);
-        // What a profile names lies beside it, wherever the emulator was started.
-        request["file"] = options.file == "-" ? "(standard input)"
-                                              : std::filesystem::absolute(options.file).string();
+        const auto added = add_profile(options.file, request);
+        if (!added) return tl::unexpected{added.error()};
     }
     if (!options.until.empty()) request["until"] = options.until;
     add("for", options.lasting);

@@ -28,10 +28,26 @@ Json json_of(const base::DurationHistogram& lateness)
             {"max", json_in_us(lateness.max())}};
 }
 
-Json json_of(const StreamReport& measured)
+/// [[low, high, count], ...] in that unit.
+template <typename Unit>
+Json distribution_of(const base::DurationHistogram& histogram)
 {
+    Json list = Json::array();
+    for (const auto& [low, high, count] : histogram.filled_bins()) {
+        list.push_back({Unit{low}.count(), Unit{high}.count(), count});
+    }
+    return list;
+}
+
+Json json_of(const StreamStatistics& stream, bool has_distributions)
+{
+    const StreamReport measured = stream.report();
     Json delay = json_in_ms(measured.delay);
     if (measured.delay_quantiles) delay.update(json_in_ms(measured.delay_quantiles));
+    if (measured.delay && has_distributions) {
+        using Milliseconds = std::chrono::duration<double, std::milli>;
+        delay["distribution"] = distribution_of<Milliseconds>(stream.delays());
+    }
     return {{"requested_delay_ms", json_in_ms(measured.requested_delay)},
             {"delay_ms", delay},
             {"delay_variation_ms", json_in_ms(measured.delay_variation)},
@@ -101,12 +117,16 @@ nlohmann::ordered_json json_of(const DirectionOfRun& run, base::Duration budget)
               {"bytes_out", s.bytes_out},
               {"dropped", dropped},
               {"lateness_us", json_of(s.lateness)},
+              {"sojourn_us", json_of(s.sojourn)},
               {"strangers", run.strangers},
               {"overflowed", run.overflowed},
               {"over_budget", s.late_beyond(budget)},
               {"valid", reasons.empty()},
               {"invalid_because", reasons}};
-    if (run.stream != nullptr) json["lens"] = json_of(run.stream->report());
+    if (run.has_distributions) {
+        json["lateness_us"]["distribution"] = distribution_of<Microseconds>(s.lateness);
+    }
+    if (run.stream != nullptr) json["lens"] = json_of(*run.stream, run.has_distributions);
     return json;
 }
 

@@ -19,6 +19,8 @@ struct DirectionOfRun {
     const StreamStatistics* stream = nullptr; // null for the sum of several paths
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
+    bool has_distributions =
+        false; // whether the JSON is to have whole distributions, not quantiles alone
 };
 
 /// As the statistics have it.

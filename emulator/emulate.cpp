@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/checks.hpp"
 #include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
 #include "emulator/core/paths.hpp"
@@ -21,12 +22,13 @@
 #include "proto/net/real_time.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
-#include "proto/net/text_file.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -37,10 +39,6 @@
 namespace hapnet::emulator {
 
 namespace {
-
-constexpr std::string_view program = "hapnet-emulator";
-
-void say(std::string_view text) { net::say(program, text); }
 
 /// The paths of a run and its port; what it is to them.
 struct Plan {
@@ -64,7 +62,7 @@ public:
           recorder_{plan.files},
           paths_{plan.scenario.profile, plan.paths},
           port_{make(paths_, recorder_)},
-          run_{plan.options, plan.scenario, paths_, *port_, recorder_, {}, {}},
+          run_{{plan.options, plan.scenario, paths_, recorder_}, *port_},
           status_{start_}
     {
         const Options& options = run_.options;
@@ -75,11 +73,12 @@ public:
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
-    void announce() const
+    void announce()
     {
-        if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) say(shortage);
-        if (run_.options.timing == Timing::spin) say(spin_warning);
-        for (const std::string& warning : run_.scenario.warnings) say(warning);
+        if (const auto shortage = run_.real_time.shortage(); !shortage.empty())
+            status_.say(shortage);
+        if (run_.options.timing == Timing::spin) status_.say(spin_warning);
+        for (const std::string& warning : run_.scenario.warnings) status_.say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
     }
@@ -93,20 +92,26 @@ public:
         const control::Subject subject = subject_of(emulation);
         Pacer pacer{run_.options.timing, start_};
         auto now = start_;
-        while (!stop.requested() && !base::is_due(end_, now)) {
+        while (!stop.requested() && !is_stopped_ && !base::is_due(end_, now)) {
             pacer.wait(descriptors, next_deadline());
             port_->receive();
             now = net::monotonic_now();
             paths_.advance(now);
             port_->release(now);
             run_.elapsed = now - start_;
-            while (const auto notice = port_->next_notice()) tell(*notice);
+            while (const auto notice = port_->next_notice()) status_.say(*notice);
             if (control_) control_->serve(subject, now, paths_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
             status_.show([this] { return status_line(run_); }, now);
         }
-        status_.clear();
+        status_.finish();
+    }
+
+    /// The error names a check that no statistics can meet.
+    [[nodiscard]] base::Result<void> ensure_checks() const
+    {
+        return ensure_keys(run_.scenario.checks, statistics_of(run_));
     }
 
     /// Writes the files and says how it went; gives the exit code. Throws, after that, what kept
@@ -120,20 +125,24 @@ public:
         } catch (const std::system_error&) {
             failure = std::current_exception();
         }
+        run_.is_over = true;
+        const auto statistics = statistics_of(run_);
+        const std::string text = statistics.dump(2) + "\n";
         if (stats_) {
             try {
-                stats_->commit(statistics_json(run_));
+                stats_->commit(text);
             } catch (const std::system_error&) { // they are worth more than their place
                 failure = std::current_exception();
-                fmt::print("{}", statistics_json(run_));
+                fmt::print("{}", text);
             }
         } else if (run_.options.stats) {
-            fmt::print("{}", statistics_json(run_));
+            fmt::print("{}", text);
         }
-        net::tell(summary(run_));
+        const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
+        net::tell(summary(run_) + failed);
         if (failure) std::rethrow_exception(failure);
         const bool is_complete = recorder_.fates_lost() == 0 && recorder_.capture_lost() == 0;
-        return is_complete ? 0 : net::exit_failed;
+        return is_complete && failed.empty() ? 0 : net::exit_failed;
     }
 
 private:
@@ -148,19 +157,11 @@ private:
 
     [[nodiscard]] Emulation controlled()
     {
-        const auto open = [](const std::string& name,
-                             const std::string& beside) -> base::Result<std::string> {
-            const auto path = path_beside(name, beside);
-            std::error_code trouble; // a pipe would keep the relay waiting
-            if (std::filesystem::exists(path, trouble) &&
-                !std::filesystem::is_regular_file(path, trouble)) {
-                return base::fail(fmt::format("{} is not a regular file", path));
-            }
-            return net::text_of_file(path);
-        };
         return {.paths = paths_,
-                .statistics_json = [this] { return statistics_json(run_); },
-                .open = open};
+                .statistics_json = [this] { return statistics_of(run_).dump(); },
+                .open = text_beside,
+                .preset = preset_text,
+                .stop = [this] { is_stopped_ = true; }};
     }
 
     /// Reads the profile again. One that is wrong changes nothing.
@@ -170,18 +171,21 @@ private:
         options.replay.reset(); // stays as it was read; reading it would hold up the relay
         const auto scenario = scenario_of(options, paths_.names());
         if (!scenario) {
-            return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
+            return status_.say(
+                fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
         const Profile& profile = scenario->profile;
         const auto done = paths_.apply(
             [&](std::string_view name, const Path& /*path*/) -> base::Result<Command> {
                 return Apply{profile_of(profile, name)};
             },
-            paths_in(profile), now);
-        if (!done)
-            return tell(fmt::format("SIGHUP: the old profile stays: {}", done.error().message));
-        tell(fmt::format("SIGHUP: {} is read again, generation {}",
-                         *run_.options.conditions.profile, paths_.generation()));
+            paths_in(profile), now, ChangeCause::reload);
+        if (!done) {
+            return status_.say(
+                fmt::format("SIGHUP: the old profile stays: {}", done.error().message));
+        }
+        status_.say(fmt::format("SIGHUP: {} is read again, generation {}",
+                                *run_.options.conditions.profile, paths_.generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -189,14 +193,9 @@ private:
     {
         if (has_told_of_files_ || !recorder_.has_failed()) return;
         has_told_of_files_ = true;
-        tell("what this run records cannot be written any more (is the disk full?): the run goes "
-             "on, but its files will end here");
-    }
-
-    void tell(const std::string& line) const
-    {
-        status_.clear();
-        say(line);
+        status_.say(
+            "what this run records cannot be written any more (is the disk full?): the run goes "
+            "on, but its files will end here");
     }
 
     base::TimePoint start_;
@@ -207,6 +206,7 @@ private:
     std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;
     bool has_told_of_files_ = false;
+    bool is_stopped_ = false; // by a client
     Run run_;
     Status status_;
 };
@@ -219,10 +219,11 @@ net::Hangup hangup_of(const Options& options)
 }
 
 template <typename Run, typename MakePort>
-int run_session(const Plan& plan, base::TimePoint start, const MakePort& make)
+base::Result<int> run_session(const Plan& plan, base::TimePoint start, const MakePort& make)
 {
     net::StopSignal stop{hangup_of(plan.options)};
     Session<Run> session{plan, start, make};
+    if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();
@@ -240,7 +241,8 @@ Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths
                   .start = start,
                   .limits = QueueLimits::shared(options.in_flight_bytes, paths),
                   .slab = std::make_shared<Slab>(options.in_flight_bytes),
-                  .replay = scenario.replay}};
+                  .replay = scenario.replay,
+                  .changes_max = std::max(ChangeLog::entries_max / paths, std::size_t{20})}};
 }
 
 /// The interfaces of a link in the capture: "1 (to 2)", "2 (to 1)".

@@ -79,6 +79,12 @@ base::Result<Endpoints> look_up_sides(const TypedSide& typed_a, const TypedSide&
     if (!a) return tl::unexpected{a.error()};
     auto b = look_up_side(typed_b);
     if (!b) return tl::unexpected{b.error()};
+    if (a->listen == b->listen && a->listen.port() != 0) {
+        return base::fail(fmt::format("{} and {} are the same address, {}: give each side its own "
+                                      "port",
+                                      typed_a.listen_name, typed_b.listen_name,
+                                      a->listen.to_text()));
+    }
     return Endpoints{
         a->listen, b->listen, a->peer, b->peer, std::move(a->allowed), std::move(b->allowed)};
 }

@@ -30,8 +30,7 @@ constexpr const char* description =
     "that sender has been silent for 1 s, another one may take its place.\n"
     "\n"
     "With --listen and --upstream it stands between a server and any number of clients, with "
-    "--link "
-    "between many pairs at once.";
+    "--link between many pairs at once.";
 
 constexpr const char* footer =
     R"(Units are mandatory: ns us ms s min h for times, % for shares, B KiB for sizes, kbit/s Mbit/s
@@ -54,6 +53,8 @@ Examples:
       --control emulator.sock --fates fates.csv --pcap run.pcapng
   hapnet-emulator --link 1-2=:7001,:7002 --link 1-3=:7003,:7004 \
       --delay 20ms --set 1-3.delay=80ms --set 3-1.loss=2%
+  hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
+  hapnet-emulator probe 127.0.0.1:7001 --count 10
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
 
@@ -62,7 +63,7 @@ The emulator prints one line "ready a=... b=..." (with --upstream "ready listen=
 the run and writes the files. SIGHUP reads --profile again; without a profile it ends the run.)";
 
 constexpr const char* exit_codes = R"(  0  done
-  1  the run failed
+  1  the run failed, or did not meet a --require or a [[check]] of its profile
   2  bad usage or input
   3  the system refused (port in use, no permission))";
 
@@ -91,27 +92,6 @@ constexpr const char* predict_footer =
 
 constexpr const char* predict_exit_codes = R"(  0  done
   2  bad usage, or a profile with an error)";
-
-constexpr const char* verify_description =
-    "Tests whether the fates of a run follow its profile: shares, runs and bursts of losses, the "
-    "steps of their chains, delays, the two directions against each other and, with the seed, "
-    "every single fate.";
-
-constexpr const char* verify_footer =
-    R"(RUN is the file that --stats wrote in a run with --fates, the file that --fates wrote, with
---profile, or a folder with fates.csv and profile.toml. A test fails when a run that follows its
-profile would look like this one time in a million. A test cannot tell ("unable" in JSON) where the
-datagrams are too few, or where fates do not show it. A run with --replay is refused, and one whose
-conditions changed, by hand or by the timeline.
-
-Examples:
-  hapnet-emulator verify run.json
-  hapnet-emulator verify fates.csv --profile wifi-busy --seed 42 --rate 1000
-  hapnet-emulator verify results/run-7 --json)";
-
-constexpr const char* verify_exit_codes = R"(  0  no test failed
-  1  a test failed
-  2  bad usage, or a file that cannot be used)";
 
 /// The words of a parameter's description as a sentence: those of profiles.
 template <auto member>
@@ -148,6 +128,7 @@ std::vector<Condition> listed_conditions()
         {"corrupt", "SHARE", words<&Corruption::share>()},
         {"reorder", "TABLE", words<&Reordering::share>(": '{ share = \"1%\", displacement = 3 }'")},
         {"rate", "RATE", words<&Rate::bits_per_second>(queue)},
+        {"queue", "LAW", words<&QueueControl::law>(": drop-tail, codel or pie")},
         {"mtu", "SIZE", words<&Mtu::bytes_max>()},
     };
 }
@@ -221,7 +202,18 @@ base::Result<std::size_t> parse_in_flight(const std::string& text)
     return base::fail(fmt::format("'{}' is out of range: 1MiB to 64GiB", text));
 }
 
-void add_run_options(cli::Command& program, Options& options)
+/// Conditions, one after the other.
+cli::Take require_into(std::vector<base::Condition>& into)
+{
+    return [&into](const std::string& text) -> base::Result<void> {
+        auto condition = base::parse_condition(text);
+        if (!condition) return tl::unexpected{condition.error()};
+        into.push_back(*std::move(condition));
+        return {};
+    };
+}
+
+void add_relay_ends(cli::Command& program, Options& options)
 {
     program.option("--listen-a", "ADDRESS",
                    "Where A sends to: HOST:PORT; :PORT listens on loopback. Required, as is "
@@ -237,6 +229,11 @@ void add_run_options(cli::Command& program, Options& options)
         .repeated();
     program.option("--b", "HOST:PORT|HOST|NET/BITS", "The same of B", allow_into(options.b))
         .repeated();
+}
+
+/// What every run takes, wherever its datagrams come from.
+void add_run_options(cli::Command& program, Options& options)
+{
     program.option("--profile", "FILE|NAME",
                    "Conditions and their timeline from a TOML file, or the name of a preset "
                    "(hapnet-emulator check --list)",
@@ -267,14 +264,24 @@ void add_run_options(cli::Command& program, Options& options)
                    "Apply the fates that --fates wrote to FILE instead of drawing them: the n-th "
                    "datagram gets the n-th fate",
                    cli::into(options.replay));
-    program.option("--pcap", "FILE",
-                   "Capture both sides to FILE, with a comment on each packet (pcapng, for "
-                   "Wireshark)",
-                   cli::into(options.capture));
+    program
+        .option("--require", "CONDITION",
+                "What the statistics must meet in the end, such as 'up.received>=1000', or the "
+                "run has failed (exit code 1); may be repeated",
+                require_into(options.required))
+        .repeated();
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
                    cli::into(options.control));
+}
+
+void add_capture(cli::Command& program, Options& options)
+{
+    program.option("--pcap", "FILE",
+                   "Capture both sides to FILE, with a comment on each packet (pcapng, for "
+                   "Wireshark)",
+                   cli::into(options.capture));
 }
 
 /// The spacing of datagrams that come "1000" or "1000/s".
@@ -321,30 +328,34 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools
     add_conditions(command, conditions_from, /*own_rate*/ true);
 }
 
-base::Result<base::Duration> parse_even_spacing(const std::string& text)
+cli::Command& add_check(cli::Command& program, CheckOptions& options, bool& is_list)
 {
-    constexpr std::uint64_t most = 1'000'000'000;
-    return cli::value_of<std::uint64_t>(base::Count{1, most}, text).map([](std::uint64_t rate) {
-        return base::Duration{static_cast<base::Duration::rep>(most / rate)};
-    });
+    cli::Command& command = program.command("check", "Describes a profile, stage by stage");
+    command.describe(check_description);
+    command.add_footer(check_footer);
+    command.add_exit_codes(check_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+    return command;
 }
 
-void add_verify(cli::Command& command, VerifyOptions& options)
+cli::Command& add_predict(cli::Command& program, PredictOptions& options, bool& is_list)
 {
-    command.positional("RUN", "What a run has written", cli::into(options.run))
-        .required("run.json");
-    command.option("--profile", "FILE|NAME",
-                   "The profile that the run was to follow (default: the one in RUN)",
-                   cli::into(options.profile));
-    command.option("--link", "NAME", "Which path of a run with several: 1-2, wan, or client.3",
-                   cli::into(options.link));
-    command.option("--seed", "NUMBER", "The seed of the run (default: the one in the profile)",
-                   cli::into(options.seed, cli::seed));
-    command.option("--rate", "NUMBER",
-                   "Datagrams a second in each direction, where they came evenly: needed by laws "
-                   "in time",
-                   cli::into(options.spacing, parse_even_spacing));
-    command.flag("--json", "Print one JSON object instead of a table", options.as_json);
+    constexpr std::uint64_t packets_max = 1'000'000'000;
+    cli::Command& command =
+        program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
+    command.describe(predict_description);
+    command.add_footer(predict_footer);
+    command.add_exit_codes(predict_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.option(
+        "--packets", "NUMBER",
+        "Number of datagrams, each way (default: 400000, and on up to 6400000 until mean and "
+        "deviation of the delay are known to 1 %)",
+        cli::into(options.stream.packets, base::Count{1, packets_max}));
+    command.flag("--json", "Print one JSON object instead of text", options.as_json);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+    return command;
 }
 
 /// The names of the presets, each followed by `separator`.
@@ -433,6 +444,30 @@ net::CommandLine<AnyOptions> chosen_run(Options options, LinkOptions links, Upst
     return AnyOptions{std::move(through)};
 }
 
+net::CommandLine<AnyOptions> checked(BetweenOptions options, TypedCommands commands)
+{
+    auto fine = require_two_commands(commands);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    options.commands = std::move(commands);
+    return AnyOptions{std::move(options)};
+}
+
+net::CommandLine<AnyOptions> checked(BridgeOptions options)
+{
+    auto fine = require_two_interfaces(options.a, options.b);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    return AnyOptions{std::move(options)};
+}
+
+/// What the commands for frames have in common.
+void add_frames(cli::Command& command, auto& options)
+{
+    add_run_options(command, options.run);
+    add_frame_options(command, options.frames);
+}
+
 } // namespace
 
 std::string_view to_text(Timing timing)
@@ -445,55 +480,59 @@ std::string_view to_text(Timing timing)
     return {};
 }
 
-net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
+net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
 {
+    TypedCommands typed;
+    const auto words = take_commands(all_words, typed);
     cli::Command program{"hapnet-emulator"};
     program.describe(description);
     program.add_footer(footer);
     program.add_exit_codes(exit_codes);
     Options options;
+    add_relay_ends(program, options);
     add_run_options(program, options);
+    add_capture(program, options);
     UpstreamOptions through;
     add_upstream_options(program, through);
     LinkOptions links;
     add_link_options(program, links);
 
-    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
-    check.describe(check_description);
-    check.add_footer(check_footer);
-    check.add_exit_codes(check_exit_codes);
     CheckOptions checking;
     bool is_list = false;
-    add_dry_run(check, checking.conditions, checking.stream);
-    check.flag("--list", "Print the names of the presets and exit", is_list);
-
-    cli::Command& predict =
-        program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
-    predict.describe(predict_description);
-    predict.add_footer(predict_footer);
-    predict.add_exit_codes(predict_exit_codes);
+    const cli::Command& check = add_check(program, checking, is_list);
     PredictOptions predicting;
-    constexpr std::uint64_t packets_max = 1'000'000'000;
-    add_dry_run(predict, predicting.conditions, predicting.stream);
-    predict.option("--packets", "NUMBER", "Number of datagrams, each way (default 400000)",
-                   cli::into(predicting.stream.packets, base::Count{1, packets_max}));
-    predict.flag("--json", "Print one JSON object instead of text", predicting.as_json);
-    predict.flag("--list", "Print the names of the presets and exit", is_list);
-
-    cli::Command& verify =
-        program.command("verify", "Tests whether the fates of a run follow its profile");
-    verify.describe(verify_description);
-    verify.add_footer(verify_footer);
-    verify.add_exit_codes(verify_exit_codes);
+    const cli::Command& predict = add_predict(program, predicting, is_list);
     VerifyOptions verifying;
-    add_verify(verify, verifying);
+    const cli::Command& verify = add_verify(program, verifying);
+    ReportOptions reporting;
+    const cli::Command& report = add_report(program, reporting);
+    LearnOptions learning;
+    const cli::Command& learn = add_learn(program, learning);
+    ProbeOptions probing;
+    const cli::Command& probe = add_probe(program, probing);
+
+    BetweenOptions between_two;
+    cli::Command& between = add_between(program);
+    add_frames(between, between_two);
+    BridgeOptions bridging;
+    cli::Command& bridge = add_bridge(program, bridging.a, bridging.b);
+    add_frames(bridge, bridging);
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (learn.is_chosen()) return AnyOptions{std::move(learning)};
+    if (report.is_chosen()) return AnyOptions{std::move(reporting)};
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
+    if (probe.is_chosen()) {
+        if (auto fine = require_probe(probing, probe); !fine) return tl::unexpected{fine.error()};
+        return AnyOptions{std::move(probing)};
+    }
+    if (between.is_chosen()) return checked(std::move(between_two), std::move(typed));
+    if (bridge.is_chosen()) return checked(std::move(bridging));
     if (!check.is_chosen() && !predict.is_chosen()) {
         return chosen_run(std::move(options), std::move(links), std::move(through), program);
     }
+    if (predict.is_given("--packets")) predicting.packets_max.reset();
     const auto fine = check.is_chosen() ? require_conditions(checking.conditions, check)
                                         : require_conditions(predicting.conditions, predict);
     if (!fine) return tl::unexpected{fine.error()};

@@ -3,8 +3,12 @@
 #pragma once
 
 #include "emulator/core/queue_limits.hpp"
+#include "emulator/file_options.hpp"
+#include "emulator/frame_options.hpp"
+#include "emulator/probe_options.hpp"
 #include "emulator/tools/predict.hpp"
 #include "emulator/typed_link.hpp"
+#include "proto/base/condition.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/address_set.hpp"
@@ -57,7 +61,8 @@ struct Options {
     std::optional<std::string> stats;       // a file, or "-" for stdout
     std::optional<std::string> fates;
     std::optional<std::string> capture;
-    std::optional<std::string> control; // the path of a Unix socket
+    std::optional<std::string> control;      // the path of a Unix socket
+    std::vector<base::Condition> required{}; // besides the profile's checks
 };
 
 /// A run with several links.
@@ -77,6 +82,21 @@ struct UpstreamOptions {
     Options run;                   // its ends are not used
 };
 
+/// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B`
+struct BetweenOptions {
+    FrameOptions frames;
+    TypedCommands commands;
+    Options run; // its ends are not used
+};
+
+/// `hapnet-emulator bridge IF_A IF_B`
+struct BridgeOptions {
+    std::string a;
+    std::string b;
+    FrameOptions frames;
+    Options run; // its ends are not used
+};
+
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
@@ -87,21 +107,14 @@ struct CheckOptions {
 struct PredictOptions {
     ConditionOptions conditions;
     tools::Stream stream{};
+    /// So many at most, until mean and deviation have settled; nullopt: as many as stream says.
+    std::optional<std::uint64_t> packets_max = 6'400'000;
     bool as_json = false;
 };
 
-/// `hapnet-emulator verify RUN`
-struct VerifyOptions {
-    std::string run;                    // what --stats or --fates wrote, or a folder
-    std::optional<std::string> profile; // instead of the one in RUN
-    std::optional<base::Seed> seed;     // instead of the one in the profile
-    std::optional<base::Duration> spacing;
-    std::optional<std::string> link; // which one of a run with several
-    bool as_json = false;
-};
-
-using AnyOptions = std::variant<Options, LinkOptions, UpstreamOptions, CheckOptions, PredictOptions,
-                                VerifyOptions>;
+using AnyOptions =
+    std::variant<Options, LinkOptions, UpstreamOptions, BetweenOptions, BridgeOptions, CheckOptions,
+                 PredictOptions, VerifyOptions, ReportOptions, LearnOptions, ProbeOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

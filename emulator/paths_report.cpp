@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/paths_report.hpp"
 
-#include "emulator/core/profile/paths.hpp"
-#include "emulator/core/profile/text.hpp"
 #include "emulator/direction_report.hpp"
-#include "emulator/stream_json.hpp"
-#include "proto/base/version.hpp"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -76,19 +72,21 @@ Sums sums_of(const ports::Links& port)
     return sums;
 }
 
-Json json_of(const ports::Upstream::Client& client, base::Duration budget)
+Json json_of(const ports::Upstream::Client& client, const UpstreamRun& run)
 {
     const Link& up = client.path->link(Direction::up);
     const Link& down = client.path->link(Direction::down);
-    return {{"client", client.number},
-            {"address", client.address->to_text()},
-            {"up", json_of(DirectionOfRun{up.statistics(), &up.stream_statistics()}, budget)},
-            {"down", json_of(DirectionOfRun{down.statistics(), &down.stream_statistics(),
-                                            client.strangers, client.socket.overflowed()},
-                             budget)}};
+    Json json{
+        {"client", client.number}, {"name", client.name}, {"address", client.address->to_text()}};
+    add_course(json, run, *client.path, client.name);
+    json["up"] = json_of_way({up.statistics(), &up.stream_statistics()}, run);
+    json["down"] = json_of_way({down.statistics(), &down.stream_statistics(), client.strangers,
+                                client.socket.overflowed()},
+                               run);
+    return json;
 }
 
-Json json_of(const ports::Relay& relay, base::Duration budget)
+Json json_of(const ports::Relay& relay, const LinksRun& run)
 {
     const auto address = [](const ports::Relay::Side& side) {
         const auto& known = side.filter.address();
@@ -96,41 +94,14 @@ Json json_of(const ports::Relay& relay, base::Duration budget)
     };
     const auto& a = relay.a();
     const auto& b = relay.b();
-    return {{"listen_1", a.local.to_text()},
-            {"listen_2", b.local.to_text()},
-            {"end_1", address(a)},
-            {"end_2", address(b)},
-            {"up", json_of(direction_of(a), budget)},
-            {"down", json_of(direction_of(b), budget)}};
-}
-
-/// What every report begins with.
-template <typename Run>
-Json head_of(const Run& run)
-{
-    return {{"program", "hapnet-emulator"},
-            {"version", base::version()},
-            {"commit", base::commit()},
-            {"compiler", base::compiler()},
-            {"seed", run.scenario.seed.value()},
-            {"timing", to_text(run.options.timing)},
-            {"budget_us", json_in_us(run.options.budget)},
-            {"duration_s", base::to_seconds(run.elapsed)},
-            {"real_time",
-             {{"fifo", run.real_time.fifo}, {"locked_memory", run.real_time.locked_memory}}}};
-}
-
-template <typename Run>
-void add_files(Json& json, const Run& run)
-{
-    json["generation"] = run.paths.generation();
-    json["configuration"] = configuration_json(run.scenario.profile.path);
-    json["profile"] = to_text(run.scenario.profile);
-    json["fates"] = or_null(run.options.fates);
-    json["replay"] = or_null(run.options.replay);
-    json["capture"] = or_null(run.options.capture);
-    json["fates_lost"] = run.recorder.fates_lost();
-    json["capture_lost"] = run.recorder.capture_lost();
+    Json json{{"listen_1", a.local.to_text()},
+              {"listen_2", b.local.to_text()},
+              {"end_1", address(a)},
+              {"end_2", address(b)}};
+    add_course(json, run, relay.path(), relay.name());
+    json["up"] = json_of_way(direction_of(a), run);
+    json["down"] = json_of_way(direction_of(b), run);
+    return json;
 }
 
 /// `reasons`: what is against it apart from the sums.
@@ -191,39 +162,42 @@ std::string ready_line(const UpstreamRun& run)
                        run.scenario.seed.value(), to_text(run.options.timing));
 }
 
-std::string statistics_json(const LinksRun& run)
+nlohmann::ordered_json statistics_of(const LinksRun& run)
 {
     const auto budget = run.options.budget;
     Json json = head_of(run);
+    json["generation"] = run.paths.generation();
+    json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
     add_files(json, run);
-    for (const auto& relay : run.port.relays()) {
-        json["configuration"][relay->name()] =
-            configuration_json(profile_of(run.scenario.profile, relay->name()).path);
-    }
     add_sums(json, sums_of(run.port), budget, reasons_of_links(run.port, budget));
     Json links = Json::object();
-    for (const auto& relay : run.port.relays()) links[relay->name()] = json_of(*relay, budget);
+    for (const auto& relay : run.port.relays()) links[relay->name()] = json_of(*relay, run);
     json["links"] = std::move(links);
-    return json.dump(2) + "\n";
+    add_checks(json, run);
+    return json;
 }
 
-std::string statistics_json(const UpstreamRun& run)
+nlohmann::ordered_json statistics_of(const UpstreamRun& run)
 {
-    const auto budget = run.options.budget;
     Json json = head_of(run);
     json["listen"] = run.port.local().to_text();
     json["upstream"] = run.port.server().to_text();
     json["clients_seen"] = run.port.clients_seen();
     json["clients_forgotten"] = run.port.clients_forgotten();
     json["refused"] = run.port.refused();
+    json["generation"] = run.paths.generation();
+    json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
+    // Of whoever comes now.
+    json["configuration_at_end"] = configuration_json(run.paths.deciders().back().director->path());
     add_files(json, run);
-    add_sums(json, sums_of(run.port), budget, {});
+    add_sums(json, sums_of(run.port), run.options.budget, {});
     Json clients = Json::array();
     for (const auto& client : run.port.clients()) {
-        if (client) clients.push_back(json_of(*client, budget));
+        if (client) clients.push_back(json_of(*client, run));
     }
     json["clients"] = std::move(clients);
-    return json.dump(2) + "\n";
+    add_checks(json, run);
+    return json;
 }
 
 std::string summary(const LinksRun& run)

@@ -6,6 +6,7 @@
 #include "emulator/ports/upstream.hpp"
 #include "emulator/report.hpp"
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace hapnet::emulator {
@@ -21,8 +22,8 @@ using UpstreamRun = RunOf<ports::Upstream, true>;
 [[nodiscard]] std::string ready_line(const UpstreamRun& run);
 
 /// What --stats writes: one JSON object, with the sums of all paths and each that is there.
-[[nodiscard]] std::string statistics_json(const LinksRun& run);
-[[nodiscard]] std::string statistics_json(const UpstreamRun& run);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const LinksRun& run);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run);
 
 /// A few lines for a person.
 [[nodiscard]] std::string summary(const LinksRun& run);

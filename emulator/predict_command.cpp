@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -33,9 +34,22 @@ double share_of(std::uint64_t part, const tools::DirectionPrediction& of)
     return departures == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(departures);
 }
 
-Json json_of(const tools::DirectionPrediction& of, const Conditions& conditions,
-             const tools::Stream& stream)
+/// A direction of a prediction, and what was asked for it.
+struct Predicted {
+    const tools::DirectionPrediction& of;
+    const Conditions& conditions;
+    const tools::Stream& stream;
+    bool has_timeline;
+};
+
+Json json_of(const Predicted& predicted)
 {
+    const auto& [of, conditions, stream, has_timeline] = predicted;
+    const auto why = why_unsettled(conditions, stream, of, has_timeline);
+    Json precision = nullptr;
+    if (of.precision && !has_timeline) {
+        precision = {{"mean", of.precision->mean}, {"sd", of.precision->sd}};
+    }
     Json dropped = Json::object();
     for (const DropCause cause : drop_causes) {
         if (of.statistics.dropped_by(cause) == 0) continue;
@@ -58,6 +72,9 @@ Json json_of(const tools::DirectionPrediction& of, const Conditions& conditions,
         {"requested_delay_ms", json_in_ms(measured.requested_delay)},
         {"delay_ms", json_in_ms(measured.delay)},
         {"delay_quantiles_ms", json_in_ms(measured.delay_quantiles)},
+        {"settled", why.empty()},
+        {"unsettled_because", why.empty() ? Json(nullptr) : Json(why)},
+        {"precision", std::move(precision)},
         {"added_by_queues_ms", in_ms(of.added_by_queues)},
         {"jitter_ms", json_in_ms(measured.delay_variation)},
         {"gap_ms", json_in_ms(measured.gap)},
@@ -85,9 +102,26 @@ std::string in_words(const std::optional<Moments>& moments)
                        in_ms(moments->sd.value_or(base::Duration{})));
 }
 
-std::string in_words(std::string_view title, const tools::DirectionPrediction& of,
-                     const Conditions& conditions, const tools::Stream& stream)
+/// "mean to 0.2 %, sd to 0.9 % (95 %)"
+std::string settling_in_words(const Predicted& predicted)
 {
+    const auto& [of, conditions, stream, has_timeline] = predicted;
+    const auto why = why_unsettled(conditions, stream, of, has_timeline);
+    std::string text = "  settled    ";
+    if (of.precision && !has_timeline) {
+        text += fmt::format("{}mean to {:.2g} %, sd to {:.2g} % (95 %)",
+                            why.empty() ? "" : "NO: ", 100.0 * of.precision->mean,
+                            100.0 * of.precision->sd);
+        if (!why.empty()) text += "; ";
+    } else if (why.empty()) {
+        text += "too few delays to tell";
+    }
+    return text + why + "\n";
+}
+
+std::string in_words(std::string_view title, const Predicted& predicted)
+{
+    const auto& [of, conditions, stream, has_timeline] = predicted;
     const StreamReport& measured = of.measured;
     std::string text = fmt::format("{}\n", title);
     for (const auto& stage : describe(conditions, stream)) {
@@ -102,7 +136,8 @@ std::string in_words(std::string_view title, const tools::DirectionPrediction& o
                             of.loss_run_max);
     }
     text += "\n";
-    for (const DropCause cause : {DropCause::rate_queue_full, DropCause::queue_full}) {
+    for (const DropCause cause :
+         {DropCause::rate_queue_full, DropCause::rate_queue_law, DropCause::queue_full}) {
         if (s.dropped_by(cause) == 0) continue;
         text += fmt::format("  dropped    {} by {}\n", s.dropped_by(cause), to_text(cause));
     }
@@ -110,6 +145,7 @@ std::string in_words(std::string_view title, const tools::DirectionPrediction& o
     text += fmt::format("  delay      {}; {:+.4g} ms by the order and the queue\n",
                         in_words(measured.delay), in_ms(of.added_by_queues));
     text += fmt::format("             {}\n", in_words(measured.delay_quantiles));
+    text += settling_in_words(predicted);
     text += fmt::format("  variation  {} (IPDV)\n", in_words(measured.delay_variation));
     text += fmt::format("  reordered  {:.4g} %", 100.0 * share_of(measured.reordered, of));
     if (measured.reordered > 0) {
@@ -139,10 +175,15 @@ base::Result<int> run(const PredictOptions& options)
                  fmt::format("this is of paths without conditions of their own; {} have some",
                              fmt::join(paths, ", ")));
     }
-    const tools::Stream& stream = options.stream;
+    tools::Stream stream = options.stream;
     const auto seed = seed_of(options.conditions, *profile);
-    const auto [up, down] = predict(*profile, stream, seed);
-    const auto& path = profile->path;
+    const auto [up, down] =
+        options.packets_max ? predict_until_settled(*profile, stream, seed, *options.packets_max)
+                            : predict(*profile, stream, seed);
+    stream.packets = up.statistics.received;
+    const bool has_timeline = !profile->timeline.empty();
+    const Predicted of_up{up, profile->path.up, stream, has_timeline};
+    const Predicted of_down{down, profile->path.down, stream, has_timeline};
     if (options.as_json) {
         const Json json{{"program", "hapnet-emulator predict"},
                         {"version", base::version()},
@@ -151,15 +192,14 @@ base::Result<int> run(const PredictOptions& options)
                         {"rate_hz", 1.0 / base::to_seconds(stream.spacing)},
                         {"packets", stream.packets},
                         {"bytes", stream.bytes},
-                        {"up", json_of(up, path.up, stream)},
-                        {"down", json_of(down, path.down, stream)}};
+                        {"up", json_of(of_up)},
+                        {"down", json_of(of_down)}};
         fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
         return 0;
     }
     fmt::print("{} datagrams of {} B at {:.6g}/s each way, seed {}\n\n{}\n{}", stream.packets,
                stream.bytes, 1.0 / base::to_seconds(stream.spacing), seed.value(),
-               in_words("up: from A to B", up, path.up, stream),
-               in_words("down: from B to A", down, path.down, stream));
+               in_words("up: from A to B", of_up), in_words("down: from B to A", of_down));
     return 0;
 }
 

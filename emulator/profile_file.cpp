@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <spdlog/fmt/fmt.h>
+#include <system_error>
 
 namespace hapnet::emulator {
 
@@ -29,6 +31,26 @@ std::string path_beside(const std::string& name, const std::string& beside)
 {
     if (beside.empty()) return name;
     return (std::filesystem::path{beside}.parent_path() / name).string();
+}
+
+base::Result<std::string> text_beside(const std::string& name, const std::string& beside)
+{
+    const auto path = path_beside(name, beside);
+    std::error_code trouble;
+    if (std::filesystem::exists(path, trouble) &&
+        !std::filesystem::is_regular_file(path, trouble)) {
+        return base::fail(fmt::format("{} is not a regular file", path));
+    }
+    return net::text_of_file(path);
+}
+
+base::Result<std::string> preset_text(const std::string& name)
+{
+    const auto no_file = [](const std::string& path) -> base::Result<std::string> {
+        return base::fail("cannot read " + path);
+    };
+    return base::find_text(meant_name(name), presets(), "a preset", no_file)
+        .map([](const auto& found) { return std::string{found.text}; });
 }
 
 base::Result<Profile> load_profile(const std::string& file_or_name, const PathNames& names)

@@ -14,9 +14,17 @@ namespace hapnet::emulator {
 /// is when `beside` is empty.
 [[nodiscard]] std::string path_beside(const std::string& name, const std::string& beside);
 
+/// The text of a file that a client of the control socket names, by path_beside(). Anything but a
+/// regular file is refused: a pipe would keep the run waiting.
+[[nodiscard]] base::Result<std::string> text_beside(const std::string& name,
+                                                    const std::string& beside);
+
 /// Reads the preset of that name, or else a file. The error names the file and the line. It may
 /// speak of the paths that `names` has.
 [[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name,
                                                  const PathNames& names = {.any = true});
+
+/// The text of a preset; the error names those that there are.
+[[nodiscard]] base::Result<std::string> preset_text(const std::string& name);
 
 } // namespace hapnet::emulator

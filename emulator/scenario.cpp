@@ -106,7 +106,13 @@ void make_absolute(std::vector<LossLaw>& laws, const std::string& beside)
 {
     for (LossLaw& law : laws) {
         if (auto* trace = std::get_if<TraceLoss>(&law)) make_absolute(trace->file, beside);
+        if (auto* trace = std::get_if<TimedTraceLoss>(&law)) make_absolute(trace->file, beside);
     }
+}
+
+void make_absolute(Rate& rate, const std::string& beside)
+{
+    if (rate.trace) make_absolute(rate.trace->file, beside);
 }
 
 /// Of a change, or of a path.
@@ -119,6 +125,7 @@ void make_absolute(auto& patches, const std::string& beside) requires requires
         if (way->delay) make_absolute(*way->delay, beside);
         if (way->jitter) make_absolute(*way->jitter, beside);
         if (way->loss) make_absolute(*way->loss, beside);
+        if (way->rate) make_absolute(*way->rate, beside);
     }
 }
 
@@ -128,6 +135,7 @@ void make_absolute(Profile& profile, const std::string& beside)
         make_absolute(way->delay, beside);
         make_absolute(way->jitter, beside);
         make_absolute(way->loss, beside);
+        make_absolute(way->rate, beside);
     }
     for (PathPatch& own : profile.paths) make_absolute(own, beside);
     for (Change& change : profile.timeline) {
@@ -186,6 +194,8 @@ base::Result<Scenario> scenario_of(const Options& options, const PathNames& name
     scenario.profile = *std::move(profile);
     scenario.seed = seed_of(options.conditions, scenario.profile);
     scenario.profile.seed = scenario.seed;
+    scenario.checks = scenario.profile.checks;
+    scenario.checks.insert(scenario.checks.end(), options.required.begin(), options.required.end());
     if (options.replay) {
         auto fates = read_fates(*options.replay);
         if (!fates) return tl::unexpected{fates.error()};

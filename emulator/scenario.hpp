@@ -21,6 +21,7 @@ struct Scenario {
     base::Seed seed{1};
     std::shared_ptr<const FatesOfPaths> replay; // null: fates are drawn
     std::vector<std::string> warnings;          // for a person, a sentence each
+    std::vector<base::Condition> checks;        // of the profile and of the command line
 };
 
 /// The profile that --profile, --netem and single settings make. Paths in it are absolute. A

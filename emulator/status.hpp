@@ -3,40 +3,45 @@
 #pragma once
 
 #include "proto/base/time.hpp"
-#include "proto/net/program.hpp"
+#include "proto/net/terminal_line.hpp"
+#include "proto/net/text_queue.hpp"
 
 #include <chrono>
 #include <optional>
-#include <spdlog/fmt/fmt.h>
+#include <string_view>
 #include <unistd.h>
 
 namespace hapnet::emulator {
 
-/// The status line of a terminal; nothing elsewhere.
+/// What a run says on stderr while it lasts: messages, and on a terminal a status line below them.
+/// A thread of its own writes them: a terminal that stands still does not hold up the relay.
 class Status {
 public:
     explicit Status(base::TimePoint now)
-        : next_{isatty(STDERR_FILENO) != 0 ? std::optional{now} : std::nullopt}
-    {}
+    {
+        if (line_.is_terminal()) next_ = now;
+    }
 
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_; }
 
-    /// `line` gives the line, when it is time for one.
+    /// `line` gives the status line, when it is time for one.
     void show(const auto& line, base::TimePoint now)
     {
         if (!base::is_due(next_, now)) return;
         next_ = now + std::chrono::milliseconds{500};
-        net::tell(fmt::format("\r{}\x1b[K", line()));
+        screen_.put(line_.shown(line()));
     }
 
-    /// Makes room for another line.
-    void clear() const
-    {
-        if (next_) net::tell("\r\x1b[K");
-    }
+    /// A message: a sentence without the program's name.
+    void say(std::string_view message);
+
+    /// Takes the status line away, and waits for the messages to be written, a second at most.
+    void finish();
 
 private:
-    std::optional<base::TimePoint> next_;
+    net::TextQueue screen_{STDERR_FILENO};
+    net::TerminalLine line_{STDERR_FILENO};
+    std::optional<base::TimePoint> next_; // nullopt: no terminal
 };
 
 } // namespace hapnet::emulator

@@ -3,9 +3,8 @@
 #include "emulator/commands.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/profile/paths.hpp"
-#include "emulator/core/profile/text.hpp"
-#include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/run_files.hpp"
 #include "emulator/tools/verify/verify.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
@@ -55,74 +54,34 @@ struct Evidence {
 base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<Profile> profile,
                                    const std::optional<std::string>& link)
 {
-    auto fates = read_fates(fates_path);
+    auto fates = fates_of_path(fates_path, link);
     if (!fates) return tl::unexpected{fates.error()};
     if (!profile) return tl::unexpected{profile.error()};
-    const auto path = link.value_or("");
-    const auto own = fates->find(path);
-    if (own != fates->end()) return Evidence{std::move(own->second), profile_of(*profile, path)};
-    std::vector<std::string_view> names;
-    for (const auto& [name, of_path] : *fates) names.push_back(name);
-    if (names.size() == 1 && names.front().empty()) {
-        return base::fail(fmt::format("{} has fates of one path: leave out --link", fates_path));
-    }
-    return base::fail(fmt::format("{} has fates of several paths: name one with --link: {}",
-                                  fates_path, fmt::join(names, ", ")));
-}
-
-/// Whether the fates are those of all datagrams that the statistics count. Rows that are missing at
-/// the end of the table leave no gap in it.
-base::Result<Evidence> all_there(Evidence evidence, const nlohmann::json& all,
-                                 const std::optional<std::string>& link)
-{
-    const auto links = all.value("links", nlohmann::json::object());
-    if (link && !links.contains(*link)) return evidence; // a client, which may be forgotten
-    const nlohmann::json& statistics = link ? links[*link] : all;
-    const auto& [up, down] = evidence.fates;
-    for (const auto& [direction, fates] : {std::pair{"up", &up}, std::pair{"down", &down}}) {
-        const auto way = statistics.value(direction, nlohmann::json::object());
-        const auto received = way.find("received");
-        if (received == way.end() || *received == fates->size()) continue;
-        return base::fail(fmt::format("the statistics count {} datagrams {}, and the fates are "
-                                      "those of {}: they are not complete, or of another run",
-                                      received->dump(), direction, fates->size()));
-    }
-    return evidence;
+    return Evidence{*std::move(fates), profile_of(*profile, link.value_or(""))};
 }
 
 /// What --stats has written: it holds the profile and names the fates.
 base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, const std::string& text)
 {
     const std::string& path = request.run;
-    const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions*/ false);
-    const auto text_at = [&](const char* key) -> std::string {
-        return json.is_object() && json.contains(key) && json[key].is_string()
-                   ? json[key].get<std::string>()
-                   : "";
-    };
-    if (!text_at("replay").empty()) {
-        return base::fail(fmt::format("{} replayed {}: its fates are those, whatever its "
-                                      "conditions say; verify the run that wrote them",
-                                      path, text_at("replay")));
+    const auto statistics = statistics_in(text, path);
+    if (!statistics) return tl::unexpected{statistics.error()};
+    auto profile =
+        request.profile ? load_profile(*request.profile) : profile_of_run(*statistics, path);
+    if (!profile) return tl::unexpected{profile.error()};
+    if (const auto fine = ensure_testable(*statistics, *profile, path); !fine) {
+        return tl::unexpected{fine.error()};
     }
-    const std::string fates = text_at("fates");
-    if (fates.empty()) {
-        return base::fail(fmt::format("{} names no fates: run with --fates and --stats", path));
-    }
-    if (json.contains("generation") && json["generation"] != 1) {
-        return base::fail("the conditions changed during the run: only what holds from the first "
-                          "datagram to the last can be verified");
-    }
-    const auto beside = path_beside(std::filesystem::path{fates}.filename().string(), path);
-    const auto open = [&](const std::string& name) {
-        return net::text_of_file(path_beside(name, path));
-    };
-    const auto profile = request.profile ? load_profile(*request.profile)
-                                         : parse_profile(text_at("profile"), path, open);
-    auto evidence =
-        evidence_in(std::filesystem::exists(fates) ? fates : beside, profile, request.link);
+    const auto fates = fates_path_of(*statistics, path);
+    if (!fates) return tl::unexpected{fates.error()};
+    auto evidence = evidence_in(*fates, std::move(profile), request.link);
     if (!evidence) return evidence;
-    return all_there(*std::move(evidence), json, request.link);
+    const auto own = of_path(*statistics, request.link);
+    if (own.is_null()) return evidence; // of a client that was forgotten
+    if (const auto fine = ensure_whole(evidence->fates, own); !fine) {
+        return tl::unexpected{fine.error()};
+    }
+    return evidence;
 }
 
 base::Result<Evidence> evidence_of(const VerifyOptions& request)

@@ -20,6 +20,7 @@
 #include "proto/net/standard_streams.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/text_queue.hpp"
+#include "proto/secure/keys/draw.hpp"
 
 #include <cstring>
 #include <memory>
@@ -72,10 +73,12 @@ base::Result<Endpoints> look_up(const Options& options)
                                       "other peer's address, or the emulator's",
                                       endpoints.remote.to_text()));
     }
-    if (!options.insecure && !(endpoints.remote.is_loopback() && endpoints.listen.is_loopback())) {
+    const bool is_local = endpoints.remote.is_loopback() && endpoints.listen.is_loopback();
+    if (!is_local && !options.key.is_given() && !options.insecure) {
         return base::fail(
-            "forces from a network need a key, and keys are not available yet: on a network that "
-            "you trust use --insecure, otherwise keep --listen and --remote on loopback");
+            "forces from a network need a key: make one for each host with 'hapnet-peer keygen "
+            "--peers 2 --out keys' and give each its own with --key FILE; on a network where you "
+            "trust everybody --insecure does without");
     }
     if (endpoints.listen.is_loopback() && !endpoints.remote.is_loopback()) {
         const std::uint16_t given = endpoints.listen.port();
@@ -117,6 +120,22 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.mount_scale = mount.scale;
     settings.length = options.duration;
     return settings;
+}
+
+/// The line to the other peer: sealed with the key that the options name.
+line::Line line_of(const Options& options, const net::Endpoint& remote, std::uint32_t run)
+{
+    if (!options.key.is_given()) return line::Line{remote.packed()};
+    const secure::KeyFile& file = *options.key.file;
+    secure::Association::Config config;
+    config.own_id = file.id;
+    config.other_id = options.key.other;
+    config.circle = file.circle();
+    config.run = run;
+    config.place = remote.packed();
+    config.may_roam = !options.key.stays;
+    return line::Line{std::make_unique<line::Sealed>(
+        config, file.keys_with(*file.find(options.key.other)), secure::keys::draw())};
 }
 
 /// The limits of a session, before those of the device itself.
@@ -260,7 +279,8 @@ base::Result<int> run(const Options& options)
     loop::Journal journal;
     Side side{settings};
     loop::Watchdog watchdog{rig.device(), &crash};
-    loop::Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog, gate}};
+    line::Line line = line_of(options, endpoints->remote, settings.introduction.nonce);
+    loop::Servo servo{{side, rig, socket, endpoints->remote, line, journal, watchdog, gate}};
     // Last of all that may fail: the file is emptied.
     monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
                              options.id};

@@ -141,6 +141,7 @@ struct Interventions {
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
     std::uint64_t sweeps_continued = 0; // a body went on after its first touch within the tick
     std::uint64_t clusters_stuck = 0;   // two that touched too often in a tick had an inelastic hit
+    std::uint64_t islands_anew = 0;     // an island was solved again, without last tick's impulses
 
     [[nodiscard]] std::uint64_t guards() const
     {
@@ -156,6 +157,7 @@ struct Interventions {
         bounces_limited += other.bounces_limited;
         sweeps_continued += other.sweeps_continued;
         clusters_stuck += other.clusters_stuck;
+        islands_anew += other.islands_anew;
         return *this;
     }
 };

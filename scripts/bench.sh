@@ -5,7 +5,8 @@
 # Measures one part of the project against its baselines.
 set -euo pipefail
 
-usage="usage: scripts/bench.sh emulator|scene|lab|device [--quick] [--json FILE] [--plot FILE.svg]
+usage="usage: scripts/bench.sh emulator|scene|lab|device|secure [--quick] [--json FILE]
+                        [--plot FILE.svg]
        scripts/bench.sh scene [... the same ...] [--csv FILE] [--markdown FILE]
        scripts/bench.sh lab   [... the same ...] [--csv FILE]
 Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
@@ -25,7 +26,7 @@ subject=$1
 shift
 case $subject in
 -h | --help) echo "$usage" && exit 0 ;;
-emulator | scene | lab | device) ;;
+emulator | scene | lab | device | secure) ;;
 *) refuse "unknown subject '$subject'" ;;
 esac
 

@@ -3,11 +3,11 @@
 # SPDX-License-Identifier: MIT
 #
 # What takes too long for every change: the laws over ten million datagrams, the emulator's memory
-# over ten minutes, floods, what jitter and order do on real sockets, a million random scenes, and
-# how soon a stop ends a force.
+# over ten minutes, floods, what jitter and order do on real sockets, a million random scenes,
+# sessions under attack, and how soon a stop ends a force.
 set -euo pipefail
 
-usage="usage: scripts/soak.sh [emulator|scene|stop] [--quick] [--minutes N] [--first SEED]
+usage="usage: scripts/soak.sh [emulator|scene|session|stop] [--quick] [--minutes N] [--first SEED]
 Installs what is missing, builds the release preset, and runs, without a subject all of
 emulator:
   1. every law of delay and loss over 10 000 000 virtual datagrams,
@@ -19,13 +19,18 @@ scene:
   5. 1 000 000 random scenes under the laws of energy, momentum and force, from SEED on
      (default 0), on two processes: about an hour; and how often guards acted in them,
   6. the ticks that cost most among 20 000 of them with at most 8 bodies;
+session:
+  7. 1000 sessions from SEED on, half of them with keys, and more until 100 000 000 datagrams have
+     reached a side, over drawn networks and under an attacker who owns the path: forces, energy
+     and counters in each millisecond, with keys what is accepted, and whether the copies agree
+     afterwards; a seed that fails is printed with the command that repeats it;
 stop:
-  7. 100 signals to a daemon in the middle of a push, whose stderr, stdout and record nobody reads:
+  8. 100 signals to a daemon in the middle of a push, whose stderr, stdout and record nobody reads:
      zero force two turns of the loop later at most, within 5 ms at p99, and gone within a second:
      about 6 minutes.
-About N + 10 minutes and an hour. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000 scenes,
-10 signals, about 5 minutes. Run the parts of emulator and stop as root, or where SCHED_FIFO is
-allowed, on a machine that does nothing else: 2 to 4 and 7 measure time.
+About N + 15 minutes and an hour. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000 scenes,
+200 sessions, 10 signals, about 5 minutes. Run the parts of emulator and stop as root, or where
+SCHED_FIFO is allowed, on a machine that does nothing else: 2 to 4 and 8 measure time.
 What is written in full is in build/soak/. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument."
 
@@ -39,12 +44,14 @@ seconds=
 row_seconds=20
 quick=false
 scenes=1000000
+sessions=1000
+session_packets=100000000
 stops=100
 first=0
 subject=all
 while (($# > 0)); do
     case $1 in
-    emulator | scene | stop)
+    emulator | scene | session | stop)
         [[ $subject == all ]] || refuse "one subject, or none for all"
         subject=$1 && shift
         ;;
@@ -64,6 +71,8 @@ done
 if $quick; then
     packets=1000000
     scenes=20000
+    sessions=200
+    session_packets=0
     stops=10
     row_seconds=5
     seconds=${seconds:-30}
@@ -76,6 +85,7 @@ if [[ $subject == all || $subject == emulator ]]; then
     targets+=(property_delay property_loss soak_emulator)
 fi
 if [[ $subject == all || $subject == scene ]]; then targets+=(soak_scene); fi
+if [[ $subject == all || $subject == session ]]; then targets+=(soak_session); fi
 if [[ $subject == all || $subject == stop ]]; then targets+=(e2e hapnet-peer hapnet-ctl); fi
 {
     scripts/setup.sh --test
@@ -122,6 +132,22 @@ run_scenes() {
     echo "== scenes: $verdict in $((SECONDS - started)) s"
 }
 
+# run_sessions: half of them without keys and half with, side by side.
+run_sessions() {
+    local half=$((sessions / 2)) packets_each=$((session_packets / 2)) started=$SECONDS
+    local verdict=passed
+    echo "== sessions under attack from seed $first on, $half without keys and $half with"
+    build/release/bin/soak_session keys "$first" "$half" "$packets_each" \
+        >build/soak/sessions-keys.log &
+    local other=$!
+    build/release/bin/soak_session none "$first" "$half" "$packets_each" |
+        tee build/soak/sessions-none.log || verdict=FAILED
+    wait "$other" || verdict=FAILED
+    cat build/soak/sessions-keys.log
+    [[ $verdict == passed ]] || failed+=(sessions)
+    echo "== sessions: $verdict in $((SECONDS - started)) s"
+}
+
 # run_worst_ticks: of as many scenes as --quick plays.
 run_worst_ticks() {
     echo "== the ticks that cost most"
@@ -138,6 +164,9 @@ fi
 if [[ $subject == all || $subject == scene ]]; then
     run_scenes
     run_worst_ticks
+fi
+if [[ $subject == all || $subject == session ]]; then
+    run_sessions
 fi
 if [[ $subject == all || $subject == stop ]]; then
     run stops e2e '--gtest_filter=PeerExit.*NothingThatItWritesIsTaken'

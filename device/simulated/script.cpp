@@ -111,7 +111,8 @@ double Script::squeeze_n() const
 {
     if (options_.squeeze_n) return *options_.squeeze_n;
     switch (task_) {
-    case Task::t3: return carry_squeeze_n;
+    case Task::t3:
+    case Task::t7: return carry_squeeze_n;
     case Task::t4: return 0.86;
     case Task::t5: return 0.71;
     case Task::t6: return 0.14;
@@ -152,7 +153,8 @@ Intention Script::working(double t) const
     }
     case Task::t1: return at_x(turn_x(t));
     case Task::t2: return at_x(press_x(t));
-    case Task::t3: return at_x(carry_x(t));
+    case Task::t3:
+    case Task::t7: return at_x(carry_x(t));
     case Task::t4: return lift(t);
     case Task::t5: return wall(t);
     case Task::t6: return at_x(tap_x(t));
@@ -180,7 +182,8 @@ double Script::press_x(double t) const
 double Script::carry_x(double t) const
 {
     const double lag = cue_.is_left ? 0.0 : base::to_seconds(options_.follower_lag);
-    return path_x(options_.pace * (t - lag)) + side_ * (touching_m - depth_m(squeeze_n()));
+    return path_x(options_.pace * (t - lag)) +
+           side_ * (touching_m - depth_m(cue_.share * squeeze_n()));
 }
 
 Intention Script::lift(double t) const

@@ -37,6 +37,7 @@ std::string_view scene_of(Task task)
 {
     if (task == Task::t4) return "lift";
     if (task == Task::t5) return "wall";
+    if (task == Task::t7) return "carry";
     return "paper";
 }
 

@@ -21,18 +21,19 @@ enum class Task : std::uint8_t {
     t4, // both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down; twice
     t5, // both press the cube against the static one, and one lets go suddenly; then the other
     t6, // L taps the cube at 3 Hz while R rests on its far side
+    t7, // T3 with two to eight hands: by turns of their ids from the left and from the right
 };
 
 constexpr auto names_of(base::Tag<Task> /*enum*/)
 {
-    return base::names("P1", "T1", "T2", "T3", "T4", "T5", "T6");
+    return base::names("P1", "T1", "T2", "T3", "T4", "T5", "T6", "T7");
 }
 using base::name_of;
 
 inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3,
-                                      Task::t4, Task::t5, Task::t6};
+                                      Task::t4, Task::t5, Task::t6, Task::t7};
 
-/// "P1", "T1", ... "T6"
+/// "P1", "T1", ... "T7"
 [[nodiscard]] base::Result<Task> task_named(std::string_view name);
 
 /// The name of the built-in scene that the task is made for.

@@ -12,14 +12,15 @@ namespace hapnet::device {
 
 /// Options of a task. Unset ones take the task's own value.
 struct TaskOptions {
-    /// T3 to T6: the force that a hand aims to press with on a cube that stays where it is.
-    /// T3 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N (the resting hand).
+    /// T3 to T7: the force that a hand aims to press with on a cube that stays where it is; in T3
+    /// and T7 the hands on one side together. T3 and T7 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N
+    /// (the resting hand).
     std::optional<double> squeeze_n{};
     double press_depth_m = 0.004;        // T2: each aim within the cube
     double press_amplitude_m = 0.0035;   // T2: of the presser's aim
     std::optional<double> press_hertz{}; // T2: instead of 0.5, 1 and 2 Hz
-    double pace = 0.5;                   // T3: of the path; 1 is that of P1 and T1
-    base::Duration follower_lag{std::chrono::milliseconds{60}}; // T3: of R behind L
+    double pace = 0.5;                   // T3, T7: of the path; 1 is that of P1 and T1
+    base::Duration follower_lag{std::chrono::milliseconds{60}}; // T3, T7: of R behind L
 
     friend bool operator==(const TaskOptions&, const TaskOptions&) = default;
 };
@@ -29,8 +30,8 @@ constexpr auto fields_of(base::Tag<TaskOptions> /*struct*/)
     return base::fields(
         "task-options",
         base::field("squeeze", &TaskOptions::squeeze_n, base::Quantity{base::force_kind, 0.0, 3.3},
-                    "T3 to T6: force that a hand intends to press with; without it 0.571 N, 0.86 "
-                    "N, 0.71 N, 0.14 N"),
+                    "T3 to T7: force that a hand, or in T3 and T7 the hands on one side, intend to "
+                    "press with; without it 0.571 N, 0.86 N, 0.71 N, 0.14 N, 0.571 N"),
         base::field("press_depth", &TaskOptions::press_depth_m, aim,
                     "T2: how far each hand aims within the cube"),
         base::field("press_amplitude", &TaskOptions::press_amplitude_m, aim,
@@ -39,9 +40,10 @@ constexpr auto fields_of(base::Tag<TaskOptions> /*struct*/)
                     base::Quantity{base::frequency_kind, 0.1, 10.0},
                     "T2: one instead of 0.5, 1 and 2 Hz; intervals are cut to whole cycles"),
         base::field("pace", &TaskOptions::pace, base::Number{0.1, 2.0},
-                    "T3: speed along the path; 1 is that of P1 and T1"),
+                    "T3, T7: speed along the path; 1 is that of P1 and T1"),
         base::field("follower_lag", &TaskOptions::follower_lag,
-                    base::Time{base::Duration{0}, std::chrono::seconds{1}}, "T3: of R behind L"));
+                    base::Time{base::Duration{0}, std::chrono::seconds{1}},
+                    "T3, T7: of R behind L"));
 }
 
 } // namespace hapnet::device

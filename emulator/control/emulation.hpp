@@ -20,6 +20,10 @@ struct Emulation {
     /// empty for a setting.
     std::function<base::Result<std::string>(const std::string& name, const std::string& beside)>
         open;
+    /// The text of a built-in profile.
+    std::function<base::Result<std::string>(const std::string& name)> preset{};
+    /// Ends the run, as a signal does.
+    std::function<void()> stop{};
 };
 
 } // namespace hapnet::emulator

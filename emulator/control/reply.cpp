@@ -46,8 +46,14 @@ OpenFile files_beside(const std::string& file, const Emulation& emulation)
 
 base::Result<Profile> parsed(const ProfileText& text, const Emulation& emulation)
 {
-    return parse_profile(text.toml, text.file, files_beside(text.file, emulation),
-                         emulation.paths.names());
+    const auto read = [&](const std::string& toml, const std::string& name,
+                          const std::string& beside) {
+        return parse_profile(toml, name, files_beside(beside, emulation), emulation.paths.names());
+    };
+    if (!text.preset) return read(text.toml, text.file, text.file);
+    return emulation.preset(*text.preset).and_then([&](const std::string& toml) {
+        return read(toml, *text.preset, "");
+    });
 }
 
 /// The numbers of the next datagrams.
@@ -232,6 +238,12 @@ std::string reply_to(const ResetRequest& /*request*/, Emulation& emulation, base
                      {}, emulation, now);
 }
 
+std::string reply_to(const StopRequest& /*request*/, const Emulation& emulation)
+{
+    emulation.stop();
+    return line_of(Json{{"ok", true}, {"stopping", true}, {"program", "hapnet-emulator"}});
+}
+
 nlohmann::ordered_json statistics_of(const Emulation& emulation)
 {
     auto json = Json::parse(emulation.statistics_json(), nullptr,
@@ -258,6 +270,7 @@ control::Answer answer_to(std::string_view line, Emulation& emulation, base::Tim
     if (const auto* reset = std::get_if<ResetRequest>(&*request)) {
         return reply_to(*reset, emulation, now);
     }
+    if (const auto* stop = std::get_if<StopRequest>(&*request)) return reply_to(*stop, emulation);
     if (const auto* wait = std::get_if<WaitRequest>(&*request)) return *wait;
     if (const auto* watch = std::get_if<WatchRequest>(&*request)) return *watch;
     return control::statistics_reply(statistics_of(emulation));

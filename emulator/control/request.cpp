@@ -36,6 +36,7 @@ std::vector<SettingText> settings_of(Members& members)
 
 ProfileText profile_of(Members& members)
 {
+    if (auto preset = members.optional_text("preset")) return {"", *preset, *preset};
     auto toml = members.text("profile");
     return {std::move(toml), members.optional_text("file").value_or("profile")};
 }
@@ -50,6 +51,7 @@ Request request_of(std::string_view command, Members& members)
     if (command == "diff") return DiffRequest{profile_of(members)};
     if (command == "reset") return ResetRequest{};
     if (command == "stats") return StatsRequest{};
+    if (command == "stop") return StopRequest{};
     if (command == "wait") return control::wait_request(members);
     if (command == "watch") return control::watch_request(members);
     return ShowRequest{};
@@ -59,18 +61,14 @@ Request request_of(std::string_view command, Members& members)
 
 base::Result<Request> parse_request(std::string_view line)
 {
-    constexpr std::array<std::string_view, 8> commands{"show",  "set",   "apply", "diff",
-                                                       "reset", "stats", "wait",  "watch"};
+    constexpr std::array<std::string_view, 9> commands{"show",  "set",  "apply", "diff", "reset",
+                                                       "stats", "wait", "watch", "stop"};
     const auto json =
         control::parse_object(line); // settings count in the order in which they stand
     if (!json) return tl::unexpected{json.error()};
     Members members{*json};
     const std::string command = members.text("command");
     if (members.error()) return base::fail(*members.error());
-    if (command == "stop") {
-        return base::fail("an emulator is not stopped from here: end it where it was started, with "
-                          "SIGINT (Ctrl-C) or SIGTERM");
-    }
     if (std::find(commands.begin(), commands.end(), command) == commands.end()) {
         return base::fail(fmt::format("\"command\" must be one of {}", fmt::join(commands, ", ")));
     }

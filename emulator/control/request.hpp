@@ -21,10 +21,11 @@ namespace hapnet::emulator {
 /// A key and its value as a profile or a command line writes them: "both.delay", "80ms".
 using SettingText = std::pair<std::string, std::string>;
 
-/// A profile as it was sent.
+/// A profile as it was sent, or the name of a built-in one.
 struct ProfileText {
     std::string toml;
-    std::string file; // what messages call it; files that it names lie beside it
+    std::string file;                    // what messages call it; files that it names lie beside it
+    std::optional<std::string> preset{}; // instead of both
 };
 
 struct ShowRequest {};
@@ -40,11 +41,12 @@ struct DiffRequest {
 };
 struct ResetRequest {};
 struct StatsRequest {};
+struct StopRequest {};
 using control::WaitRequest;
 using control::WatchRequest;
 
 using Request = std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest,
-                             StatsRequest, WaitRequest, WatchRequest>;
+                             StatsRequest, WaitRequest, WatchRequest, StopRequest>;
 
 /// How many settings one request may make.
 inline constexpr std::size_t settings_max = 64;

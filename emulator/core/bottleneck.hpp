@@ -4,6 +4,7 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/datagram.hpp"
+#include "emulator/core/queue/manager.hpp"
 #include "emulator/core/ring.hpp"
 #include "proto/base/ensure.hpp"
 #include "proto/base/time.hpp"
@@ -15,14 +16,23 @@
 
 namespace hapnet::emulator {
 
-/// A line that sends one datagram after another at a rate, with a drop-tail queue before it. Exact:
-/// n of b bits that follow each other take ceil(n b / rate), to the nanosecond, and a change of the
-/// rate in the midst of one counts the bits that were already sent.
+/// A line that sends one datagram after another at a rate, or as a trace allows it, with a
+/// drop-tail queue before it. Exact: n of b bits that follow each other take ceil(n b / rate), to
+/// the nanosecond, and a change of the rate in the midst of one counts the bits that were already
+/// sent.
 class Bottleneck {
 public:
-    Bottleneck(const Rate& rate, std::size_t datagrams_max) : rate_{rate}, queue_{datagrams_max} {}
+    Bottleneck(const Rate& rate, std::size_t datagrams_max, base::TimePoint start = {},
+               const QueueManager& manager = {})
+        : rate_{rate},
+          is_on_{rate.is_on()},
+          manager_{manager},
+          is_managed_{manager.is_on()},
+          queue_{datagrams_max},
+          start_{start}
+    {}
 
-    [[nodiscard]] bool is_on() const { return rate_.bits_per_second > 0; }
+    [[nodiscard]] bool is_on() const { return is_on_; }
     [[nodiscard]] bool is_idle() const { return queue_.empty(); }
 
     /// Whether a payload of so many bytes would find room at the end of the queue. What is being
@@ -34,75 +44,176 @@ public:
                waiting_bytes_ + payload_bytes + rate_.overhead_bytes <= rate_.queue_bytes_max;
     }
 
+    /// Why the queue drops a datagram that arrives; nullopt: it takes it.
+    [[nodiscard]] std::optional<DropCause> refuses(const Datagram& datagram)
+    {
+        if (!has_room(datagram.size())) return DropCause::rate_queue_full;
+        if (!is_managed_) return std::nullopt;
+        const QueueControl& control = manager_.control();
+        const bool are_too_many = control.packets_max > 0 && queue_.size() > control.packets_max;
+        const bool is_too_long = control.time_max > base::Duration{0} &&
+                                 is_busy_beyond(datagram.arrival + control.time_max);
+        if (are_too_many || is_too_long) return DropCause::rate_queue_full;
+        if (manager_.drops_arrival(datagram.number, datagram.arrival, waiting_bytes_)) {
+            return DropCause::rate_queue_law;
+        }
+        return std::nullopt;
+    }
+
     /// Takes a datagram that arrives now, not before the last one. Ensures that there is room.
     void push(const Datagram& datagram, const Fate& fate)
     {
         base::ensure(!queue_.full());
-        const std::size_t line_bytes = datagram.bytes.size() + rate_.overhead_bytes;
+        const std::size_t line_bytes = datagram.size() + rate_.overhead_bytes;
         const bool was_idle = queue_.empty();
         queue_.push({datagram, fate, line_bytes});
-        if (was_idle) {
-            begin(datagram.arrival, 0);
-        } else {
+        if (!was_idle) {
             waiting_bytes_ += line_bytes;
+            return;
         }
+        if (rate_.trace && !trace_start_) trace_start_ = begin_of_trace(datagram.arrival);
+        next_head(datagram.arrival, 0, true);
     }
 
-    /// When the one that is being sent will have left; nullopt when idle.
-    [[nodiscard]] std::optional<base::TimePoint> next_sent() const
-    {
-        if (queue_.empty()) return std::nullopt;
-        if (!is_on()) return since_; // the rate was taken away: all leave at once
-        const std::uint64_t nanoseconds =
-            work_ / rate_.bits_per_second + (work_ % rate_.bits_per_second != 0 ? 1 : 0);
-        return since_ + base::Duration{static_cast<base::Duration::rep>(nanoseconds)};
-    }
+    /// When the one that is being sent will have left; nullopt when idle, or when the line will
+    /// never send it.
+    [[nodiscard]] std::optional<base::TimePoint> next_sent() const { return next_sent_; }
 
     /// The next that has left by `now`; due: when its last bit had left. What is left over when the
-    /// rate is taken away leaves at once, also by the time of an arrival just before that.
+    /// rate is taken away leaves at once, also by the time of an arrival just before that. What the
+    /// law of the queue drops comes here, too, at the time at which the line was free for it.
     [[nodiscard]] std::optional<Queued> pop(base::TimePoint now)
     {
-        const auto at = next_sent();
-        if (!at || (is_on() && *at > now)) return std::nullopt;
-        const auto passed = static_cast<std::uint64_t>((*at - since_).count());
-        const std::uint64_t spare = is_on() ? passed * rate_.bits_per_second - work_ : 0;
+        if (!next_sent_ || (is_on_ && *next_sent_ > now)) return std::nullopt;
+        const auto at = *next_sent_;
         Queued sent = queue_.pop();
-        sent.datagram.due = *at;
+        sent.datagram.due = at;
+        sent.begun = begun_;
+        sent.is_dropped_by_law = is_head_dropped_;
+        next_sent_.reset();
         if (!queue_.empty()) {
             waiting_bytes_ -= queue_.front().line_bytes;
-            begin(*at, spare);
+            next_head(at, spare_, !is_head_dropped_);
+        } else if (is_head_dropped_) {
+            manager_.on_empty(at);
         }
         return sent;
     }
 
     /// Another rate from `now` on, for what waits and for the rest of what is being sent. All that
     /// has left by `now` has to be popped before.
-    void change(const Rate& rate, base::TimePoint now)
+    void change(const Rate& rate, base::TimePoint now, const QueueControl& control = {})
     {
-        if (!queue_.empty() && is_on() && now > since_) {
-            const auto passed = static_cast<std::uint64_t>((now - since_).count());
-            work_ -= std::min(work_, passed * rate_.bits_per_second);
-        }
+        manager_.change(control);
+        is_managed_ = manager_.is_on();
+
+        if (!queue_.empty() && is_on_ && now > since_) work_ -= std::min(work_, sent_until(now));
         since_ = std::max(since_, now);
+        if (rate.trace != rate_.trace) trace_start_.reset();
         rate_ = rate;
+        is_on_ = rate.is_on();
+        if (queue_.empty()) return;
+        if (rate_.trace && !trace_start_) trace_start_ = begin_of_trace(since_);
+        if (!is_head_dropped_) plan(0);
     }
 
 private:
-    /// Starts to send the front. `spare`: what the line could have sent in the part of a nanosecond
-    /// by which the one before it was rounded up.
-    void begin(base::TimePoint now, std::uint64_t spare)
+    /// The line is free for the front: it sends it unless the law of the queue drops it.
+    void next_head(base::TimePoint now, Work spare, bool is_first)
     {
-        constexpr std::uint64_t work_per_byte = 8 * 1'000'000'000ULL;
-        const std::uint64_t work = queue_.front().line_bytes * work_per_byte;
-        work_ = work - std::min(spare, work);
-        since_ = now;
+        const Queued& head = queue_.front();
+        is_head_dropped_ =
+            is_managed_ && is_on_ &&
+            manager_.drops_head({now - head.datagram.arrival, waiting_bytes_, is_first}, now);
+        if (!is_head_dropped_) return begin(now, spare);
+        begun_ = since_ = now;
+        next_sent_ = now;
+        spare_ = spare;
+        work_ = 0;
+    }
+
+    /// Whether the line will not be free by then for what arrives now.
+    [[nodiscard]] bool is_busy_beyond(base::TimePoint then) const
+    {
+        constexpr std::size_t most = 1U << 30U; // more is beyond any time that a person writes
+        if (queue_.empty()) return false;
+        if (waiting_bytes_ > most) return true;
+        const Work work = work_ + waiting_bytes_ * work_per_byte;
+        if (rate_.trace) {
+            const auto& law = *rate_.trace;
+            const auto done = law.trace->finish(in_trace(since_), work, law.timing.repeat);
+            return !done || since_ + (done->at - in_trace(since_)) > then;
+        }
+        const auto nanoseconds = static_cast<base::Duration::rep>(work / rate_.bits_per_second);
+        return since_ + base::Duration{nanoseconds} > then;
+    }
+
+    /// Starts to send the front. `spare`: what the line could have sent besides at the moment at
+    /// which the one before it was through.
+    void begin(base::TimePoint now, Work spare)
+    {
+        const Work work = queue_.front().line_bytes * work_per_byte;
+        const Work used = std::min(spare, work);
+        work_ = work - used;
+        begun_ = since_ = now;
+        plan(spare - used);
+    }
+
+    /// Finds when the front will have left. `spare`: what is left when it needs nothing more.
+    void plan(Work spare)
+    {
+        spare_ = spare;
+        next_sent_ = since_; // with no work left, or without a rate, which lets all leave at once
+        if (work_ == 0 || !is_on_) return;
+        if (rate_.trace) return plan_by_trace();
+        const Work rate = rate_.bits_per_second;
+        const Work nanoseconds = work_ / rate + (work_ % rate != 0 ? 1 : 0);
+        *next_sent_ += base::Duration{static_cast<base::Duration::rep>(nanoseconds)};
+        spare_ = nanoseconds * rate - work_;
+    }
+
+    void plan_by_trace()
+    {
+        const auto& law = *rate_.trace;
+        const auto done = law.trace->finish(in_trace(since_), work_, law.timing.repeat);
+        next_sent_.reset();
+        if (!done) return;
+        next_sent_ = since_ + (done->at - in_trace(since_));
+        spare_ = done->spare;
+    }
+
+    [[nodiscard]] Work sent_until(base::TimePoint now) const
+    {
+        if (!rate_.trace) {
+            return static_cast<std::uint64_t>((now - since_).count()) * rate_.bits_per_second;
+        }
+        const auto& law = *rate_.trace;
+        return law.trace->sent(in_trace(since_), in_trace(now), law.timing.repeat);
+    }
+
+    [[nodiscard]] base::TimePoint begin_of_trace(base::TimePoint now) const
+    {
+        return rate_.trace->timing.start == TraceStart::first ? now : start_;
+    }
+    [[nodiscard]] base::Duration in_trace(base::TimePoint at) const
+    {
+        return std::max(at - *trace_start_, base::Duration{0}) + rate_.trace->timing.offset;
     }
 
     Rate rate_;
-    Ring<Queued> queue_; // the front is being sent
+    bool is_on_;
+    QueueManager manager_;
+    bool is_managed_;
+    bool is_head_dropped_ = false; // the front leaves next, and unsent
+    Ring<Queued> queue_;           // the front is being sent
     std::size_t waiting_bytes_ = 0;
-    std::uint64_t work_ = 0; // of the front at since_, in bits / 10^9: rate times nanoseconds
+    Work work_ = 0; // of the front at since_
     base::TimePoint since_{};
+    base::TimePoint begun_{};                  // when the line began to send the front
+    std::optional<base::TimePoint> next_sent_; // of the front
+    Work spare_ = 0;                           // at that moment
+    base::TimePoint start_;                    // of the run
+    std::optional<base::TimePoint> trace_start_;
 };
 
 } // namespace hapnet::emulator

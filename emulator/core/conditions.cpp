@@ -16,7 +16,8 @@ base::Result<void> validate(const Mtu& mtu)
 base::Result<void> validate(const Rate& rate)
 {
     constexpr std::size_t overhead_max = 1000;
-    return require(rate.overhead_bytes <= overhead_max, "overhead must be at most 1000B");
+    return all({require(rate.overhead_bytes <= overhead_max, "overhead must be at most 1000B"),
+                rate.trace ? rate.trace->validate() : base::Result<void>{}});
 }
 
 base::Result<void> validate(const Corruption& corruption)

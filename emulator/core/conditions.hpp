@@ -6,6 +6,8 @@
 #include "emulator/core/fate.hpp"
 #include "emulator/core/formats.hpp"
 #include "emulator/core/loss/loss.hpp"
+#include "emulator/core/queue/control.hpp"
+#include "emulator/core/trace/rate_trace.hpp"
 #include "proto/base/probability.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
@@ -106,14 +108,18 @@ constexpr auto fields_of(base::Tag<Mtu>)
 }
 
 /// A bottleneck that sends so many bits a second, one datagram after the other, from a queue that
-/// drops what does not fit (drop-tail). 0 bits: no bottleneck.
+/// drops what does not fit (QueueControl may drop more). 0 bits and no trace: no bottleneck.
 struct Rate {
     std::uint64_t bits_per_second = 0;
     std::size_t overhead_bytes = 28;        // added to each payload: IPv4 and UDP
     std::size_t queue_bytes_max = 64 << 10; // waiting, with overhead, besides the one being sent
+    std::optional<RateTraceLaw> trace{};    // instead of bits_per_second
+
+    [[nodiscard]] bool is_on() const { return bits_per_second > 0 || trace.has_value(); }
 
     friend bool operator==(const Rate&, const Rate&) = default;
 };
+/// Without the trace, which is a law with keys of its own.
 constexpr auto fields_of(base::Tag<Rate>)
 {
     return base::fields(
@@ -139,6 +145,7 @@ constexpr auto fields_of(base::Tag<Rate>)
 struct Conditions {
     Mtu mtu{};
     Rate rate{};
+    QueueControl queue{};
     std::vector<LossLaw> loss{}; // at most loss_laws_max; a datagram that any of them takes is lost
     Corruption corrupt{};
     Duplication duplicate{};
@@ -154,6 +161,7 @@ struct Conditions {
 struct Patch {
     std::optional<Mtu> mtu{};
     std::optional<Rate> rate{};
+    std::optional<QueueControl> queue{};
     std::optional<std::vector<LossLaw>> loss{};
     std::optional<Corruption> corrupt{};
     std::optional<Duplication> duplicate{};
@@ -165,7 +173,7 @@ struct Patch {
     friend bool operator==(const Patch&, const Patch&) = default;
 };
 
-/// One of the nine settings of a direction: its key, and where it is kept.
+/// One of the ten settings of a direction: its key, and where it is kept.
 template <typename T>
 struct SettingSlot {
     std::string_view key;
@@ -183,6 +191,7 @@ constexpr void for_each_setting(const Visit& visit)
     };
     slot("mtu", &Conditions::mtu, &Patch::mtu);
     slot("rate", &Conditions::rate, &Patch::rate);
+    slot("queue", &Conditions::queue, &Patch::queue);
     slot("loss", &Conditions::loss, &Patch::loss);
     slot("corrupt", &Conditions::corrupt, &Patch::corrupt);
     slot("duplicate", &Conditions::duplicate, &Patch::duplicate);

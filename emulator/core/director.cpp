@@ -84,8 +84,10 @@ bool Director::advance(base::TimePoint now)
     const auto before = position();
     now_ = std::max(now, now_);
     if (!base::is_due(next_change_, now_)) return false;
-    let_later_steps_win(before);
-    std::erase_if(overrides_, [&](const Override& one) { return base::is_due(one.until, now_); });
+    const bool has_step = let_later_steps_win(before);
+    const auto ended = std::erase_if(
+        overrides_, [&](const Override& one) { return base::is_due(one.until, now_); });
+    last_reason_ = has_step ? Reason::step : ended > 0 ? Reason::hand : Reason::ramp;
     return update();
 }
 
@@ -95,9 +97,13 @@ base::Result<void> Director::apply(const Command& command, base::TimePoint now)
     if (const auto* set = std::get_if<Set>(&command)) {
         auto overrides = overrides_with(*set);
         if (!overrides) return tl::unexpected{overrides.error()};
+        last_reason_ = Reason::hand;
         overrides_ = *std::move(overrides);
         update();
-    } else if (const auto* other = std::get_if<Apply>(&command)) {
+        return {};
+    }
+    last_reason_ = Reason::hand;
+    if (const auto* other = std::get_if<Apply>(&command)) {
         follow(other->profile, now_);
     } else {
         follow(started_with_, start_);
@@ -145,13 +151,16 @@ void Director::follow(const Profile& profile, base::TimePoint begin)
     if (!update() && !is_the_same) ++generation_;
 }
 
-void Director::let_later_steps_win(base::Duration before)
+/// Whether there were steps since.
+bool Director::let_later_steps_win(base::Duration before)
 {
+    const auto begin = after(profile_.timeline, before);
     const auto end = after(profile_.timeline, position());
-    for (auto step = after(profile_.timeline, before); step < end; ++step) {
+    for (auto step = begin; step < end; ++step) {
         for (Override& one : overrides_) strip(one, step->up, step->down);
     }
     std::erase_if(overrides_, sets_nothing);
+    return begin < end;
 }
 
 bool Director::update()
@@ -181,7 +190,7 @@ std::optional<base::TimePoint> Director::find_next_change() const
 
 Profile Director::remaining() const
 {
-    Profile profile{profile_.name, profile_.seed, path_, {}};
+    Profile profile{profile_.name, profile_.seed, path_, {}, {}, profile_.checks};
     Override by_hand; // as far as no step has taken over yet
     for (const Override& one : overrides_) {
         by_hand.up = merged(std::move(by_hand.up), one.up);

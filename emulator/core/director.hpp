@@ -65,6 +65,11 @@ public:
     /// 1 at first, and one more whenever path() has changed or another profile was applied.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
 
+    /// Why path() changed the last time: a step of the timeline, or a setting made by hand or its
+    /// end. Steps of a ramp follow each other by the millisecond.
+    enum class Reason : std::uint8_t { hand, step, ramp };
+    [[nodiscard]] Reason last_reason() const { return last_reason_; }
+
     /// When advance() is to be called again; nullopt when time alone changes nothing.
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
@@ -99,7 +104,7 @@ public:
 private:
     [[nodiscard]] base::Result<std::vector<Override>> overrides_with(const Set& set) const;
     void follow(const Profile& profile, base::TimePoint begin);
-    void let_later_steps_win(base::Duration before);
+    bool let_later_steps_win(base::Duration before);
     bool update();
     [[nodiscard]] std::optional<base::TimePoint> find_next_change() const;
 
@@ -112,6 +117,7 @@ private:
     std::vector<Override> overrides_;
     Path path_;
     std::uint64_t generation_ = 1;
+    Reason last_reason_ = Reason::hand;
     std::optional<base::TimePoint> next_change_;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/change_log.hpp"
 #include "emulator/core/director.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/link.hpp"
@@ -9,6 +10,7 @@
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +32,7 @@ public:
         std::shared_ptr<const Fates> replay{}; // null: fates are drawn
         bool has_stream_statistics = true;     // false: they are not asked for
         std::string name{};                    // where there are several; see path_name.hpp
+        std::size_t changes_max = ChangeLog::entries_max; // that are kept
     };
 
     EmulatedPath(const Profile& profile, const Setup& setup)
@@ -42,7 +45,7 @@ public:
     bool advance(base::TimePoint now)
     {
         const bool has_changed = director_.advance(now);
-        if (has_changed) enact(now);
+        if (has_changed) enact_timeline(now);
         return has_changed;
     }
 
@@ -52,6 +55,14 @@ public:
     {
         advance(arrival);
         return link_of(direction).on_packet(bytes, arrival, has_destination);
+    }
+
+    /// The same of a datagram in an envelope; see Link::on_packet().
+    Admission on_enveloped(Direction direction, std::span<const std::byte> bytes,
+                           base::TimePoint arrival, std::uint8_t envelope_bytes)
+    {
+        advance(arrival);
+        return link_of(direction).on_packet(bytes, arrival, true, envelope_bytes);
     }
 
     /// A datagram of a direction that is due at `now`, the earliest first.
@@ -85,9 +96,12 @@ public:
     }
 
     /// Does what is asked, at once; see Director::apply().
-    base::Result<void> apply(const Command& command, base::TimePoint now);
+    base::Result<void> apply(const Command& command, base::TimePoint now,
+                             ChangeCause by = ChangeCause::hand);
 
     [[nodiscard]] const Director& director() const { return director_; }
+    /// How the conditions have changed since the start.
+    [[nodiscard]] const ChangeLog& changes() const { return changes_; }
     [[nodiscard]] const Link& link(Direction direction) const
     {
         return direction == Direction::up ? up_ : down_;
@@ -100,10 +114,12 @@ private:
     {
         return direction == Direction::up ? up_ : down_;
     }
-    /// Hands the director's conditions to the links.
-    void enact(base::TimePoint now);
+    void enact_timeline(base::TimePoint now);
+    /// Hands the director's conditions to the links, and notes the change.
+    void enact(base::TimePoint now, ChangeCause by);
 
     Director director_;
+    ChangeLog changes_;
     Link up_;
     Link down_;
 };

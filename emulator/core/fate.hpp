@@ -26,7 +26,8 @@ enum class DropCause : std::uint8_t {
     trace_loss,       //
     outage,           //
     mtu,              // larger than the configured path carries
-    rate_queue_full,  // the drop-tail queue of the configured rate
+    rate_queue_full,  // the queue of the configured rate
+    rate_queue_law,   // the law of that queue, CoDel or PIE
     replay_ended,     // more datagrams than the fates that are replayed
     queue_full,       // our own bound: too much in flight
     no_destination,   // the other side was not known yet when it arrived
@@ -42,9 +43,9 @@ constexpr auto names_of(base::Tag<DropCause>)
 {
     return base::names("random_loss", "block_loss", "periodic_loss", "burst_loss",
                        "gilbert_elliott", "four_state", "listed_loss", "pattern_loss", "trace_loss",
-                       "outage", "mtu", "rate_queue_full", "replay_ended", "queue_full",
-                       "no_destination", "no_route", "refused", "too_big", "send_buffer_full",
-                       "send_failed");
+                       "outage", "mtu", "rate_queue_full", "rate_queue_law", "replay_ended",
+                       "queue_full", "no_destination", "no_route", "refused", "too_big",
+                       "send_buffer_full", "send_failed");
 }
 [[nodiscard]] constexpr std::string_view to_text(DropCause cause) { return base::name_of(cause); }
 

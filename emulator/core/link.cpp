@@ -34,26 +34,31 @@ Link::Link(const Conditions& conditions, const Setup& setup)
       pipeline_{conditions, setup.seed, setup.direction, setup.name},
       slab_{setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)},
       line_{setup.limits.datagrams_max},
-      bottleneck_{conditions.rate, setup.limits.datagrams_max},
+      bottleneck_{conditions.rate, setup.limits.datagrams_max, setup.start,
+                  QueueManager{conditions.queue, pipeline_.stream("queue")}},
       last_arrival_{setup.start}
 {
     displaced_.reserve(displaced_max);
 }
 
 Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
-                          bool has_destination)
+                          bool has_destination, std::uint8_t envelope_bytes)
 {
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
-    const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
-    const Datagram datagram{
-        .number = packet.number, .arrival = last_arrival_, .due = last_arrival_, .bytes = bytes};
+    const Packet packet{statistics_.received, bytes.size() - envelope_bytes,
+                        last_arrival_ - setup_.start};
+    const Datagram datagram{.envelope_bytes = envelope_bytes,
+                            .number = packet.number,
+                            .arrival = last_arrival_,
+                            .due = last_arrival_,
+                            .bytes = bytes};
     Fate fate = fate_of(packet);
     if (!has_destination) fate = without_destination(fate);
     Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
-    statistics_.bytes_in += bytes.size();
-    if (is_over_rate(datagram, fate)) admission.drop = DropCause::rate_queue_full;
+    statistics_.bytes_in += packet.bytes;
+    if (bottleneck_.is_on() && fate.drop != DropCause::mtu) refuse_or_pass(datagram, admission);
     if (!admission.drop) {
         if (passes_untouched(fate)) {
             admission.departure = datagram;
@@ -73,14 +78,15 @@ Fate Link::fate_of(const Packet& packet)
     return setup_.replay ? setup_.replay->on_packet(packet) : pipeline_.on_packet(packet);
 }
 
-/// Whether the queue of the rate has no room for it. What will be lost behind the bottleneck takes
-/// its time there all the same; what is too large for the path never comes to it.
-bool Link::is_over_rate(const Datagram& datagram, const Fate& fate)
+/// Drops it if the queue of the rate does not take it. What will be lost behind the bottleneck
+/// takes its time there all the same; what is too large for the path never comes to it.
+void Link::refuse_or_pass(const Datagram& datagram, Admission& admission)
 {
-    if (!bottleneck_.is_on() || fate.drop == DropCause::mtu) return false;
-    if (!bottleneck_.has_room(datagram.bytes.size())) return true;
-    if (fate.drop) bottleneck_.push(datagram, fate);
-    return false;
+    if (const auto refused = bottleneck_.refuses(datagram)) {
+        admission.drop = refused;
+    } else if (admission.fate.drop) {
+        bottleneck_.push(datagram, admission.fate);
+    }
 }
 
 bool Link::passes_untouched(const Fate& fate) const
@@ -95,7 +101,7 @@ bool Link::hold(Datagram datagram, const Fate& fate)
     const auto stored = store(datagram);
     if (!stored) return false;
     if (fate.flips.count > 0) {
-        apply(fate.flips, *stored);
+        apply(fate.flips, stored->subspan(datagram.envelope_bytes));
         ++statistics_.corrupted;
     }
     if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
@@ -195,9 +201,7 @@ std::optional<Datagram> Link::poll(base::TimePoint now)
 /// Moves on what has left the bottleneck by `now`, and what has waited long enough to be overtaken.
 void Link::move_on(base::TimePoint now)
 {
-    while (const auto sent = bottleneck_.pop(now)) {
-        if (!sent->fate.drop) schedule(sent->datagram, sent->fate);
-    }
+    while (const auto passed = bottleneck_.pop(now)) on_passed(*passed);
     if (displaced_.empty()) return;
     std::erase_if(displaced_, [&](const Queued& waiting) {
         const auto latest = waiting.datagram.due + displaced_for_max;
@@ -207,6 +211,18 @@ void Link::move_on(base::TimePoint now)
         line_.push(datagram);
         return true;
     });
+}
+
+/// It has left the bottleneck, or the law of its queue has dropped it.
+void Link::on_passed(const Queued& passed)
+{
+    if (!passed.is_dropped_by_law) {
+        statistics_.sojourn.add(passed.begun - passed.datagram.arrival);
+        if (!passed.fate.drop) schedule(passed.datagram, passed.fate);
+    } else if (!passed.fate.drop) { // else it was counted when it arrived
+        ++statistics_.dropped_by(DropCause::rate_queue_law);
+        release(passed.datagram);
+    }
 }
 
 std::optional<base::TimePoint> Link::next_deadline() const
@@ -221,7 +237,7 @@ std::optional<base::TimePoint> Link::next_deadline() const
 void Link::on_sent(const Datagram& datagram, base::TimePoint at)
 {
     ++statistics_.delivered;
-    statistics_.bytes_out += datagram.bytes.size();
+    statistics_.bytes_out += datagram.size();
     statistics_.lateness.add(at - datagram.due);
     if (setup_.has_stream_statistics) stream_statistics_.on_sent(datagram, at);
     if (datagram.number >= beyond_highest_delivered_) {
@@ -243,7 +259,7 @@ void Link::change(const Conditions& conditions, base::TimePoint now)
     // A change is stamped by what arrives on either side: it may come after a later arrival here.
     const auto at = std::max(now, last_arrival_);
     advance(at);
-    bottleneck_.change(conditions.rate, at);
+    bottleneck_.change(conditions.rate, at, conditions.queue);
     pipeline_.change(conditions);
     conditions_ = conditions;
 }

@@ -61,9 +61,11 @@ public:
 
     /// Takes the next datagram of this direction, which arrived at `arrival`, and says what is to
     /// become of it. A queue or Order::keep may make it leave later than its fate says.
-    /// Without a destination it is dropped, after the laws have judged it.
+    /// Without a destination it is dropped, after the laws have judged it. An envelope stands
+    /// before the datagram in `bytes`, such as an Ethernet header: it is carried along, and no law
+    /// counts or changes it.
     Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
-                        bool has_destination = true);
+                        bool has_destination = true, std::uint8_t envelope_bytes = 0);
 
     /// A datagram that is due at `now`, the earliest first; nullopt when there is none. It comes
     /// back through on_sent() or on_failed(), once; until then it counts as in flight.
@@ -88,7 +90,8 @@ public:
 
 private:
     [[nodiscard]] Fate fate_of(const Packet& packet);
-    [[nodiscard]] bool is_over_rate(const Datagram& datagram, const Fate& fate);
+    void refuse_or_pass(const Datagram& datagram, Admission& admission);
+    void on_passed(const Queued& passed);
     [[nodiscard]] bool passes_untouched(const Fate& fate) const;
     [[nodiscard]] bool hold(Datagram datagram, const Fate& fate);
     [[nodiscard]] std::optional<std::span<std::byte>> store(Datagram& datagram);

@@ -42,7 +42,8 @@ EmulatedPath& Paths::add(const std::string& name)
                               .start = setup_.start,
                               .limits = setup_.limits,
                               .slab = setup_.slab,
-                              .name = name};
+                              .name = name,
+                              .changes_max = setup_.changes_max};
     if (setup_.replay) {
         static const Fates none; // whatever comes is dropped as replay_ended
         const auto found = setup_.replay->find(name);
@@ -105,7 +106,7 @@ base::Result<void> Paths::expect(std::span<const std::string> mentioned)
 }
 
 base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::string> mentioned,
-                                base::TimePoint now)
+                                base::TimePoint now, ChangeCause by)
 {
     // A change is stamped by what arrives on any path: it may come after this moment.
     catch_up(now);
@@ -120,7 +121,7 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     }
     const auto before = generations();
     auto own = commands.begin();
-    for (const Named& one : paths_) base::ensure(one.path->apply(*own++, now).has_value());
+    for (const Named& one : paths_) base::ensure(one.path->apply(*own++, now, by).has_value());
     for (Absent& one : absent_) base::ensure(one.director.apply(*own++, now).has_value());
     if (newcomers_) base::ensure(newcomers_->apply(*own, now).has_value());
     if (generations() != before) ++generation_;

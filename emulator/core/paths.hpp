@@ -35,6 +35,7 @@ public:
         std::shared_ptr<Slab> slab{};                 // that all share; null: one for each
         std::shared_ptr<const FatesOfPaths> replay{}; // null: fates are drawn
         bool takes_newcomers = false;                 // paths come later, and have names of clients
+        std::size_t changes_max = ChangeLog::entries_max; // that each of them keeps
     };
 
     Paths(const Profile& profile, Setup setup);
@@ -65,7 +66,7 @@ public:
     /// Tells all of them at once. Nothing changes when one would refuse. `mentioned`: the names
     /// that the command speaks of; of those that are not there it is kept until they come.
     base::Result<void> apply(const CommandFor& command, std::span<const std::string> mentioned,
-                             base::TimePoint now);
+                             base::TimePoint now, ChangeCause by = ChangeCause::hand);
 
     /// 1 at first, and one more whenever conditions have changed or other profiles were applied.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }

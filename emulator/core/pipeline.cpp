@@ -91,6 +91,11 @@ base::Duration Pipeline::draw_copy(std::uint64_t number) const
         static_cast<base::Duration::rep>(duplicate_stream_.uniform(number, 1) * spread)};
 }
 
+base::RandomStream Pipeline::stream(std::string_view stage) const
+{
+    return stream_of(seed_, way_, stage);
+}
+
 void Pipeline::change(const Conditions& conditions)
 {
     mtu_ = conditions.mtu;

@@ -31,6 +31,9 @@ public:
     /// Packets are shown in the order of their numbers, none left out.
     [[nodiscard]] Fate on_packet(const Packet& packet);
 
+    /// That of a further stage of this direction.
+    [[nodiscard]] base::RandomStream stream(std::string_view stage) const;
+
     /// Holds from the next packet on; laws that stay go on from their states.
     void change(const Conditions& conditions);
 

@@ -34,6 +34,7 @@ void Statistics::add(const Statistics& other)
     bytes_out += other.bytes_out;
     for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] += other.dropped[i];
     lateness.add(other.lateness);
+    sojourn.add(other.sojourn);
 }
 
 bool Statistics::is_punctual(base::Duration budget) const

@@ -86,6 +86,8 @@ public:
     void on_sent(const Datagram& datagram, base::TimePoint at);
 
     [[nodiscard]] StreamReport report() const;
+    /// The one-way delays.
+    [[nodiscard]] const base::DurationHistogram& delays() const { return delays_; }
 
 private:
     /// Mean and variance in one pass (Welford 1962), in nanoseconds.

@@ -94,12 +94,9 @@ bool send_due(const Way& way, const Exit& exit, base::TimePoint now)
 void send_due(const Way& up, const Exit& up_exit, const Way& down, const Exit& down_exit,
               base::TimePoint now)
 {
-    // Twice what one receive() takes with a copy of each: a flood cannot fill the queue by being
-    // taken faster than it is sent, and what it left behind there shrinks while it goes on.
-    constexpr int rounds_max = 32;
     bool has_more_up = true;
     bool has_more_down = true;
-    for (int round = 0; round < rounds_max && (has_more_up || has_more_down); ++round) {
+    for (int round = 0; round < release_rounds_max && (has_more_up || has_more_down); ++round) {
         if (has_more_up) has_more_up = send_due(up, up_exit, now);
         if (has_more_down) has_more_down = send_due(down, down_exit, now);
     }

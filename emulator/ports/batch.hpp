@@ -68,6 +68,11 @@ private:
     std::array<std::span<const std::byte>, net::BatchSender::batch_max> bytes_;
 };
 
+/// How many batches of each direction one release() sends at most. Twice what one receive() takes
+/// with a copy of each: a flood cannot fill the queue by being taken faster than it is sent, and
+/// what it left behind there shrinks while it goes on.
+inline constexpr int release_rounds_max = 32;
+
 /// Sends at most one batch of what is due at `now` in a direction; returns whether it was a whole
 /// one.
 bool send_due(const Way& way, const Exit& exit, base::TimePoint now);

@@ -89,6 +89,7 @@ public:
     [[nodiscard]] std::optional<std::string> next_notice();
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const EmulatedPath& path() const { return path_; }
     [[nodiscard]] const Side& a() const { return a_; }
     [[nodiscard]] const Side& b() const { return b_; }
 

@@ -36,11 +36,27 @@ double load_of(const Conditions& conditions, const Stream& stream)
     return bytes * bits_per_byte * rate_of(stream);
 }
 
+/// In bits a second, on average.
+double limit_of(const Rate& rate)
+{
+    return rate.trace ? rate.trace->trace->mean_rate() : static_cast<double>(rate.bits_per_second);
+}
+
 std::string rate_in_words(const Conditions& conditions, const Stream& stream)
 {
     const Rate& rate = conditions.rate;
     constexpr double bits_per_byte = 8.0;
-    const auto limit = static_cast<double>(rate.bits_per_second);
+    const double limit = limit_of(rate);
+    if (rate.trace) {
+        const auto& law = *rate.trace;
+        return fmt::format(
+            "rate trace: {:.4g} Mbit/s on average, {} after {:.4g} s, with {} of "
+            "overhead for each datagram; the stream fills {:.3g} % of it; a queue "
+            "of {}",
+            limit / 1e6, law.timing.repeat ? "again from its start" : "ends",
+            base::to_seconds(law.trace->period()), base::size_text(rate.overhead_bytes),
+            100.0 * load_of(conditions, stream) / limit, base::size_text(rate.queue_bytes_max));
+    }
     const double each = static_cast<double>(stream.bytes + rate.overhead_bytes) * bits_per_byte;
     return fmt::format("rate: {} with {} of overhead for each datagram; {} B take {:.3g} ms, the "
                        "stream fills {:.3g} % of it; a queue of {} holds {:.3g} ms",
@@ -49,6 +65,27 @@ std::string rate_in_words(const Conditions& conditions, const Stream& stream)
                        100.0 * load_of(conditions, stream) / limit,
                        base::size_text(rate.queue_bytes_max),
                        1e3 * static_cast<double>(rate.queue_bytes_max) * bits_per_byte / limit);
+}
+
+std::string queue_in_words(const QueueControl& queue)
+{
+    const auto target = [&](std::chrono::milliseconds usual) {
+        return in_ms(queue.target.value_or(usual));
+    };
+    std::string text = "queue drop-tail: drops what does not fit";
+    if (queue.law == QueueLaw::codel) {
+        text = fmt::format("queue CoDel (RFC 8289): drops at its head when datagrams have waited "
+                           "more than {} for {}",
+                           target(std::chrono::milliseconds{5}), in_ms(queue.interval));
+    } else if (queue.law == QueueLaw::pie) {
+        text = fmt::format("queue PIE (RFC 8033): drops arriving datagrams so that they wait {}",
+                           target(std::chrono::milliseconds{15}));
+    }
+    if (queue.packets_max > 0) text += fmt::format("; at most {} wait", queue.packets_max);
+    if (queue.time_max > base::Duration{0}) {
+        text += fmt::format("; none waits longer than {}", in_ms(queue.time_max));
+    }
+    return text;
 }
 
 std::string loss_in_words(const LossLaw& law, const Stream& stream)
@@ -123,13 +160,15 @@ bool varies(const Variation& variation)
 std::vector<std::string> describe(const Conditions& conditions, const Stream& stream)
 {
     std::vector<std::string> words;
-    const auto& [mtu, rate, loss, corrupt, duplicate, delay, jitter, order, reorder] = conditions;
+    const auto& [mtu, rate, queue, loss, corrupt, duplicate, delay, jitter, order, reorder] =
+        conditions;
     const auto is_on = [](base::Probability share) { return share.fraction() > 0.0; };
     if (mtu.bytes_max > 0) {
         words.push_back(fmt::format("mtu: what is larger than {} with its headers is dropped",
                                     base::size_text(mtu.bytes_max)));
     }
-    if (rate.bits_per_second > 0) words.push_back(rate_in_words(conditions, stream));
+    if (rate.is_on()) words.push_back(rate_in_words(conditions, stream));
+    if (rate.is_on() && queue != QueueControl{}) words.push_back(queue_in_words(queue));
     for (const LossLaw& law : loss) words.push_back(loss_in_words(law, stream));
     if (is_on(corrupt.share)) {
         words.push_back(fmt::format("corrupt: {} have {} of their bits inverted",
@@ -154,7 +193,10 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
     const StreamReport& measured = prediction.measured;
     const auto at_rate = fmt::format("at {:.6g} packets/s", rate_of(stream));
     const bool has_jitter = varies(conditions.delay) || varies(conditions.jitter);
-    const bool has_rate = conditions.rate.bits_per_second > 0;
+    const bool has_rate = conditions.rate.is_on();
+    if (!has_rate && conditions.queue != QueueControl{}) {
+        list.push_back("queue has no effect without a rate: write rate, too");
+    }
     const double clipped = clipped_share(conditions.delay.law, conditions.jitter.law);
     if (clipped > 1e-4) {
         list.push_back(fmt::format("{} of the datagrams would have to leave before they came; they "
@@ -181,8 +223,7 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
                                    in_percent(static_cast<double>(measured.reordered) / delivered),
                                    at_rate, measured.reorder_extent_max));
     }
-    if (has_rate &&
-        load_of(conditions, stream) > static_cast<double>(conditions.rate.bits_per_second)) {
+    if (has_rate && load_of(conditions, stream) > limit_of(conditions.rate)) {
         list.push_back(fmt::format("the rate is less than the stream of {} B {} needs ({:.4g} "
                                    "Mbit/s with overhead): its queue stays full",
                                    stream.bytes, at_rate, load_of(conditions, stream) / 1e6));
@@ -195,6 +236,34 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
                                    QueueLimits{}.datagrams_max));
     }
     return list;
+}
+
+std::string why_unsettled(const Conditions& conditions, const Stream& stream,
+                          const DirectionPrediction& prediction, bool changes)
+{
+    if (changes) return "the conditions change: these figures are of all of them together";
+    if (prediction.is_settled()) return "";
+    for (const Variation* variation : {&conditions.delay, &conditions.jitter}) {
+        if (!DelayTheory{variation->law}.sd()) {
+            return fmt::format("the deviation of law {} is infinite: it never settles; read the "
+                               "quantiles",
+                               name_of(variation->law));
+        }
+    }
+    const auto correlation =
+        std::max(conditions.delay.correlation_time, conditions.jitter.correlation_time);
+    const double lasted =
+        base::to_seconds(stream.spacing) * static_cast<double>(prediction.statistics.received);
+    if (correlation > stream.spacing) {
+        return fmt::format("neighbours are correlated over {}, so {:.6g} s are worth only about "
+                           "{:.0f} independent delays: raise --packets",
+                           in_ms(correlation), lasted,
+                           lasted / (2.0 * base::to_seconds(correlation)));
+    }
+    if (conditions.rate.bits_per_second > 0) {
+        return "the queue of the rate fills and empties too slowly: raise --packets";
+    }
+    return "rare long delays, or rare events, decide it: raise --packets, or read the quantiles";
 }
 
 } // namespace hapnet::emulator::tools

@@ -18,4 +18,9 @@ namespace hapnet::emulator::tools {
 [[nodiscard]] std::vector<std::string> warnings(const Conditions& conditions, const Stream& stream,
                                                 const DirectionPrediction& prediction);
 
+/// Why mean and deviation of the delay are not known better, and what to do; "" where they have
+/// settled. `changes`: the conditions have a timeline.
+[[nodiscard]] std::string why_unsettled(const Conditions& conditions, const Stream& stream,
+                                        const DirectionPrediction& prediction, bool changes);
+
 } // namespace hapnet::emulator::tools

@@ -12,22 +12,22 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// Lets leave what is due before or at `now`, each at its own time.
-void drain(EmulatedPath& path, base::TimePoint now)
-{
-    for (auto due = path.next_due(); base::is_due(due, now); due = path.next_due()) {
-        for (const Direction direction : {Direction::up, Direction::down}) {
-            while (const auto datagram = path.poll(direction, *due)) {
-                path.on_sent(direction, *datagram, *due);
-            }
-        }
-    }
-}
-
-/// Counts the losses of one direction.
-class Losses {
+/// Counts the losses of one direction, and takes its delays.
+class Outcomes {
 public:
-    void add(bool is_lost)
+    void add_departure(const Datagram& datagram, base::TimePoint at)
+    {
+        if (!datagram.is_copy) delays_.add(base::to_seconds(at - datagram.arrival));
+    }
+
+    [[nodiscard]] bool is_settled() const
+    {
+        DirectionPrediction result;
+        result.precision = delays_.precision();
+        return result.is_settled();
+    }
+
+    void add_fate(bool is_lost)
     {
         if (!is_lost) {
             run_ = 0;
@@ -45,6 +45,7 @@ public:
         DirectionPrediction result = result_;
         result.statistics = link.statistics();
         result.measured = link.stream_statistics().report();
+        result.precision = delays_.precision();
         const auto& measured = result.measured;
         if (measured.delay) {
             result.added_by_queues = measured.delay->mean - measured.requested_delay->mean;
@@ -54,7 +55,77 @@ public:
 
 private:
     DirectionPrediction result_;
+    BatchMeans delays_;
     std::uint64_t run_ = 0;
+};
+
+/// A stream on its way through a path.
+class Play {
+public:
+    Play(const Profile& profile, const Stream& stream, base::Seed seed)
+        : spacing_{stream.spacing}, path_{profile, {.seed = seed}}, bytes_(stream.bytes)
+    {
+        base::ensure(stream.spacing > base::Duration{0} && stream.bytes <= 65'507);
+    }
+
+    /// Sends on until there were `packets` each way.
+    void go_on_to(std::uint64_t packets)
+    {
+        for (; sent_ < packets; ++sent_, now_ += spacing_) {
+            while (base::is_due(path_.director().next_change(), now_)) {
+                const auto change = *path_.director().next_change();
+                drain(change);
+                path_.advance(change);
+            }
+            drain(now_);
+            for (const Direction direction : {Direction::up, Direction::down}) {
+                const Admission admission = path_.on_packet(direction, bytes_, now_);
+                if (admission.departure) depart(direction, *admission.departure, now_);
+                of(direction).add_fate(admission.fate.drop.has_value());
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_settled() const { return up_.is_settled() && down_.is_settled(); }
+
+    /// Lets everything leave.
+    [[nodiscard]] Prediction finish()
+    {
+        while (const auto due = path_.next_due()) drain(*due);
+        return {up_.with(path_.link(Direction::up)), down_.with(path_.link(Direction::down))};
+    }
+
+private:
+    [[nodiscard]] Outcomes& of(Direction direction)
+    {
+        return direction == Direction::up ? up_ : down_;
+    }
+
+    void depart(Direction direction, const Datagram& datagram, base::TimePoint at)
+    {
+        of(direction).add_departure(datagram, at);
+        path_.on_sent(direction, datagram, at);
+    }
+
+    /// Lets leave what is due before or at `now`, each at its own time.
+    void drain(base::TimePoint now)
+    {
+        for (auto due = path_.next_due(); base::is_due(due, now); due = path_.next_due()) {
+            for (const Direction direction : {Direction::up, Direction::down}) {
+                while (const auto datagram = path_.poll(direction, *due)) {
+                    depart(direction, *datagram, *due);
+                }
+            }
+        }
+    }
+
+    base::Duration spacing_;
+    EmulatedPath path_;
+    std::vector<std::byte> bytes_;
+    std::uint64_t sent_ = 0;
+    base::TimePoint now_{};
+    Outcomes up_;
+    Outcomes down_;
 };
 
 } // namespace
@@ -71,29 +142,30 @@ std::optional<double> DirectionPrediction::loss_run_mean() const
     return static_cast<double>(lost) / static_cast<double>(loss_runs);
 }
 
+bool DirectionPrediction::is_settled() const
+{
+    return !precision || (precision->mean <= settled_to && precision->sd <= settled_to);
+}
+
 Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed)
 {
-    base::ensure(stream.spacing > base::Duration{0} && stream.bytes <= 65'507);
-    EmulatedPath path{profile, {.seed = seed}};
-    const std::vector<std::byte> bytes(stream.bytes);
-    Losses up;
-    Losses down;
-    base::TimePoint now{};
-    for (std::uint64_t i = 0; i < stream.packets; ++i, now += stream.spacing) {
-        while (base::is_due(path.director().next_change(), now)) {
-            const auto change = *path.director().next_change();
-            drain(path, change);
-            path.advance(change);
-        }
-        drain(path, now);
-        for (const Direction direction : {Direction::up, Direction::down}) {
-            const Admission admission = path.on_packet(direction, bytes, now);
-            if (admission.departure) path.on_sent(direction, *admission.departure, now);
-            (direction == Direction::up ? up : down).add(admission.fate.drop.has_value());
-        }
+    Play play{profile, stream, seed};
+    play.go_on_to(stream.packets);
+    return play.finish();
+}
+
+Prediction predict_until_settled(const Profile& profile, const Stream& stream, base::Seed seed,
+                                 std::uint64_t packets_max)
+{
+    Play play{profile, stream, seed};
+    auto packets = stream.packets;
+    play.go_on_to(packets);
+    const bool can_settle = profile.timeline.empty();
+    while (can_settle && !play.is_settled() && packets <= packets_max / 2) {
+        packets *= 2;
+        play.go_on_to(packets);
     }
-    while (const auto due = path.next_due()) drain(path, *due);
-    return {up.with(path.link(Direction::up)), down.with(path.link(Direction::down))};
+    return play.finish();
 }
 
 } // namespace hapnet::emulator::tools

@@ -5,6 +5,7 @@
 #include "emulator/core/profile/profile.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
+#include "emulator/tools/batch_means.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
@@ -32,7 +33,11 @@ struct DirectionPrediction {
     std::uint64_t loss_runs = 0;      // of losses in a row, by their numbers
     std::uint64_t loss_run_max = 0;   // in datagrams
     base::Duration added_by_queues{}; // mean delay beyond the drawn one: rate and order
+    /// How far mean and deviation of the delay are known; nullopt: too little left.
+    std::optional<Precision> precision;
 
+    /// Whether both are known to settled_to, or there is no delay to be known.
+    [[nodiscard]] bool is_settled() const;
     [[nodiscard]] double loss_share() const;
     [[nodiscard]] std::optional<double> loss_run_mean() const;
 };
@@ -40,10 +45,21 @@ struct DirectionPrediction {
 struct Prediction {
     DirectionPrediction up;
     DirectionPrediction down;
+
+    [[nodiscard]] bool is_settled() const { return up.is_settled() && down.is_settled(); }
 };
+
+/// Mean and deviation have settled when they are known to this share.
+inline constexpr double settled_to = 0.01;
 
 /// Plays a profile to a stream, in virtual time, through the link that real datagrams take. Nothing
 /// is late in virtual time: what it shows is what the profile itself does.
 [[nodiscard]] Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed);
+
+/// The same with a stream that begins with stream.packets and is made longer, twice and twice
+/// again up to `packets_max`, until mean and deviation of the delay have settled both ways. Of
+/// conditions that change on a timeline nothing settles: they get stream.packets.
+[[nodiscard]] Prediction predict_until_settled(const Profile& profile, const Stream& stream,
+                                               base::Seed seed, std::uint64_t packets_max);
 
 } // namespace hapnet::emulator::tools

@@ -29,7 +29,8 @@ Exercise exercise_of(device::Task task)
     case Task::p1:
     case Task::t1: return {.by_turns = true, .along_path = true, .stopped_at_m = stop_on_path_m};
     case Task::t2: return {.presses = true, .contact = pressed_in_t2};
-    case Task::t3: return {.along_path = true, .path_pace = 0.5, .contact = squeezed_in_t3};
+    case Task::t3:
+    case Task::t7: return {.along_path = true, .path_pace = 0.5, .contact = squeezed_in_t3};
     case Task::t4: return {.contact = squeezed_in_t4, .lifted = lifted_in_t4};
     case Task::t5: return {.stopped_at_m = stop_in_t5_m, .contact = pressed_in_t5};
     case Task::t6: return {.taps = true};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/bars.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
 #include "lab/results/paper.hpp"
+#include "proto/plot/bars.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -3,9 +3,10 @@
 #include "lab/report/report.hpp"
 
 #include "lab/report/page.hpp"
-#include "lab/report/plot/axis.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
+#include "proto/plot/axis.hpp"
+#include "proto/plot/page.hpp"
 
 #include <array>
 #include <spdlog/fmt/fmt.h>
@@ -187,7 +188,7 @@ std::string page_of(const results::Results& results, const Contents& contents)
 {
     const std::string title = title_of(results);
     const Subject subject = subject_of(results);
-    std::string page = page_head(title, name_of(subject)) + head_of(results, title, contents);
+    std::string page = plot::page_head(title, name_of(subject)) + head_of(results, title, contents);
     for (const Section& section : contents.sections) {
         page += fmt::format("<section id='{0}' aria-labelledby='{0}-title'>\n"
                             "<h2 id='{0}-title'>{1}</h2>\n{2}</section>\n",
@@ -202,7 +203,7 @@ std::string page_of(const results::Results& results, const Contents& contents)
         page += "<footer><p>The hands are simulated. A verdict is a calibrated convention, not a "
                 "finding about people.</p></footer>\n";
     }
-    return page + page_foot(std::string{zoom_script()}.append(player_script()));
+    return page + plot::page_foot(std::string{zoom_script()}.append(player_script()));
 }
 
 } // namespace
@@ -222,7 +223,7 @@ std::vector<results::File> report_of(const results::Results& results, std::strin
     std::vector<results::File> files{{"report.html", page_of(results, contents)}};
     for (const Section& section : contents.sections) {
         for (const Figure& one : section.figures) {
-            files.push_back({fmt::format("figures/{}.svg", one.name), standalone(one.svg)});
+            files.push_back({fmt::format("figures/{}.svg", one.name), plot::standalone(one.svg)});
         }
     }
     return files;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/records/analysis_report.hpp"
-#include "lab/report/plot/plot.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
+#include "proto/plot/plot.hpp"
 
 #include <array>
 #include <spdlog/fmt/fmt.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/plot.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
+#include "proto/plot/plot.hpp"
 
 #include <map>
 #include <spdlog/fmt/fmt.h>

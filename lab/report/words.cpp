@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/words.hpp"
 
-#include "lab/report/plot/axis.hpp"
+#include "proto/plot/axis.hpp"
 
 #include <array>
 #include <cmath>

@@ -166,7 +166,7 @@ Json configuration_of(const SessionFiles& task)
     for (const char* key : {"task", "duration_s", "algorithm", "scene", "device"}) {
         configuration[key] = task.peer.value(key, Json{});
     }
-    configuration["emulator"] = task.emulator.value("configuration", Json{});
+    configuration["emulator"] = task.emulator.value("configuration_at_start", Json{});
     return configuration;
 }
 

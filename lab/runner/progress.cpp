@@ -47,9 +47,9 @@ std::string progress_text(const RunProgress& progress, base::Duration elapsed)
 }
 
 ProgressLine::ProgressLine(base::TimePoint start)
-    : start_{start}, next_{start}, is_terminal_{isatty(STDERR_FILENO) == 1}
+    : start_{start}, next_{start}, line_{STDERR_FILENO}
 {
-    if (!is_terminal_) next_ += line_interval;
+    if (!line_.is_terminal()) next_ += line_interval;
 }
 
 void ProgressLine::show(const RunProgress& progress, base::TimePoint now)
@@ -57,16 +57,11 @@ void ProgressLine::show(const RunProgress& progress, base::TimePoint now)
     const bool is_last = progress.jobs_done == progress.jobs;
     if (is_over_ || (now < next_ && !is_last)) return;
     is_over_ = is_last;
-    next_ = now + (is_terminal_ ? terminal_interval : line_interval);
+    next_ = now + (line_.is_terminal() ? terminal_interval : line_interval);
     const auto text = progress_text(progress, now - start_);
-    net::tell(is_terminal_ ? fmt::format("\r\x1b[K{}", text) : text + '\n');
-    is_open_ = is_terminal_;
+    net::tell(line_.is_terminal() ? line_.shown(text) : text + '\n');
 }
 
-void ProgressLine::finish()
-{
-    if (is_open_) net::tell("\n");
-    is_open_ = false;
-}
+void ProgressLine::finish() { net::tell(line_.left()); }
 
 } // namespace hapnet::lab::runner

@@ -4,6 +4,7 @@
 
 #include "lab/runner/runner.hpp"
 #include "proto/base/time.hpp"
+#include "proto/net/terminal_line.hpp"
 
 #include <string>
 
@@ -25,8 +26,7 @@ public:
 private:
     base::TimePoint start_;
     base::TimePoint next_;
-    bool is_terminal_;
-    bool is_open_ = false;
+    net::TerminalLine line_;
     bool is_over_ = false; // the last has been shown
 };
 

@@ -5,6 +5,8 @@
 #include "device/replay/replay.hpp"
 #include "device/simulated/omni.hpp"
 #include "peer/core/energy_budget.hpp"
+#include "proto/base/bytes.hpp"
+#include "proto/secure/key_file.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -55,11 +57,51 @@ device::Rig rig_of(const Setting& setting, const PlayerId& id)
     return {std::move(device), limits};
 }
 
+/// A secret that follows from two numbers: in virtual time nothing has to be kept from anybody.
+secure::Secret secret_of(std::uint64_t circle, std::uint64_t run)
+{
+    std::array<std::byte, 2 * sizeof(std::uint64_t)> text{};
+    base::ByteWriter out{text};
+    out.u64(circle);
+    out.u64(run);
+    const secure::Hash hash = secure::hash(text);
+    return secure::Secret{std::span{hash}.first<secure::key_bytes>()};
+}
+
+peer::line::Line line_of(const Setting& setting, const PlayerId& id)
+{
+    const std::size_t other = 1 - id.side;
+    const auto& circle = setting.players.at(id.side).circle;
+    if (!circle) return peer::line::Line{place_of(other)};
+    secure::prepare();
+    secure::Entropy entropy{secret_of(circle->value(), 0)};
+    const auto files = secure::make_circle("virtual", 2, entropy);
+    const secure::KeyFile& own = files.at(id.side);
+    secure::Association::Config config;
+    config.own_id = own.id;
+    config.other_id = own.others.front().id;
+    config.circle = own.circle();
+    config.run = id.nonce;
+    config.place = place_of(other);
+    auto seed = secret_of(circle->value(), std::uint64_t{id.nonce} << 1 | id.side);
+    return peer::line::Line{std::make_unique<peer::line::Sealed>(
+        config, own.keys_with(own.others.front()), std::move(seed))};
+}
+
 } // namespace
+
+secure::Place place_of(std::size_t side)
+{
+    secure::Place place{};
+    place.front() = static_cast<std::byte>(side % 2 + 1);
+    return place;
+}
 
 VirtualPlayer::VirtualPlayer(const Setting& setting, const PlayerId& id)
     : rig{rig_of(setting, id)},
       side{std::make_unique<peer::Side>(settings_of(setting, id))},
+      line{line_of(setting, id)},
+      other_place{place_of(1 - id.side)},
       clock_ahead{setting.players.at(id.side).clock_ahead}
 {}
 
@@ -68,6 +110,8 @@ void VirtualPlayer::step(base::TimePoint now)
     stepped_at = now;
     side->step(now + clock_ahead, rig);
     while (const auto event = side->event()) events.push_back(*event);
+    const base::TimePoint here = now + clock_ahead;
+    line.tick({here, (here + date_ahead).time_since_epoch().count()});
 }
 
 Sample VirtualPlayer::sample() const

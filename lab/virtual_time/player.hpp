@@ -6,6 +6,7 @@
 #include "lab/virtual_time/setting.hpp"
 #include "lab/virtual_time/trace.hpp"
 #include "peer/core/side.hpp"
+#include "peer/line/line.hpp"
 
 #include <array>
 #include <memory>
@@ -21,20 +22,36 @@ struct PlayerId {
     std::uint32_t nonce = 1;
 };
 
+/// Where a side is on the network.
+[[nodiscard]] secure::Place place_of(std::size_t side);
+
 /// One side of a session in virtual time: everything that a peer daemon has but socket, clock,
 /// thread and journal.
 class VirtualPlayer {
 public:
     VirtualPlayer(const Setting& setting, const PlayerId& id);
 
-    /// A datagram that reached this machine at `arrived`, in the world's time.
+    /// A datagram that reached this machine from there at `arrived`, in the world's time.
+    void receive(std::span<const std::byte> datagram, const secure::Place& from,
+                 base::TimePoint arrived)
+    {
+        const base::TimePoint at = arrived + clock_ahead;
+        if (const auto message = line.open(datagram, from, at)) side->on_datagram(*message, at);
+    }
+    /// The same from the other side.
     void receive(std::span<const std::byte> datagram, base::TimePoint arrived)
     {
-        side->on_datagram(datagram, arrived + clock_ahead);
+        receive(datagram, other_place, arrived);
     }
 
-    /// One tick of its loop, except for sending: poll `side` for that.
+    /// One tick of its loop, except for sending.
     void step(base::TimePoint now);
+    /// What it sends in that tick: calls send(bytes, place) for each datagram.
+    template <typename Send>
+    void send_all(Send send)
+    {
+        line.send_all([this] { return side->poll(); }, send, stepped_at + clock_ahead);
+    }
 
     [[nodiscard]] peer::Peer& peer() { return side->peer(); }
     [[nodiscard]] const peer::Peer& peer() const { return side->peer(); }
@@ -46,7 +63,10 @@ public:
     // Open to tests and benches, which change them.
     device::Rig rig;
     std::unique_ptr<peer::Side> side;
+    peer::line::Line line;
+    secure::Place other_place;
     base::Duration clock_ahead{}; // of the world's time
+    base::Duration date_ahead{};  // of its wall clock, besides
 
     base::TimePoint stepped_at;      // its last tick, in the world's time
     std::vector<peer::Event> events; // all so far

@@ -31,6 +31,9 @@ struct PlayerSetting {
     /// The seed that it offers for the hands, as `hapnet-peer --seed` does; L's counts. nullopt:
     /// the setting's.
     std::optional<base::Seed> seed{};
+    /// It seals its messages with the keys of this circle, which follow from the seed; with another
+    /// circle's nobody is met. nullopt: without a key.
+    std::optional<base::Seed> circle{};
 };
 
 /// All that a session in virtual time follows from: equal settings, equal bits.

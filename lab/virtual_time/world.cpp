@@ -85,30 +85,37 @@ void VirtualWorld::deliver(std::size_t to)
     const std::size_t from = partner_of(to);
     const Direction direction = direction_of(from);
     emulator::EmulatedPath& path = pairs_[from / 2].path;
-    auto& receiver = sides_[to].player;
     for (const Passing& passing : sides_[from].undelayed) {
         emulator::Datagram datagram = passing.departure;
         datagram.bytes = passing.datagram.bytes();
-        if (receiver) receiver->receive(datagram.bytes, datagram.due);
+        hand_over(to, datagram.bytes, datagram.due);
         path.on_sent(direction, datagram, datagram.due);
     }
     sides_[from].undelayed.clear();
     while (const auto datagram = path.poll(direction, now_)) {
-        if (receiver) receiver->receive(datagram->bytes, datagram->due);
+        hand_over(to, datagram->bytes, datagram->due);
         path.on_sent(direction, *datagram, datagram->due);
     }
+}
+
+void VirtualWorld::hand_over(std::size_t to, std::span<const std::byte> datagram,
+                             base::TimePoint arrived)
+{
+    if (interceptor_) return interceptor_(to, datagram, arrived);
+    if (sides_[to].player) sides_[to].player->receive(datagram, arrived);
 }
 
 void VirtualWorld::play(std::size_t side)
 {
     Side& here = sides_[side];
     here.player->step(now_);
-    while (const auto datagram = here.player->side->poll()) {
-        if (pairs_[side / 2].is_cut) continue;
-        const auto admission =
-            pairs_[side / 2].path.on_packet(direction_of(side), datagram->bytes(), now_);
-        if (admission.departure) here.undelayed.push_back({*admission.departure, *datagram});
-    }
+    const secure::Place other = place_of(partner_of(side));
+    here.player->send_all([&](std::span<const std::byte> bytes, const secure::Place& to) {
+        if (pairs_[side / 2].is_cut || to != other) return;
+        const auto admission = pairs_[side / 2].path.on_packet(direction_of(side), bytes, now_);
+        if (admission.departure)
+            here.undelayed.push_back({*admission.departure, peer::line::Datagram{bytes}});
+    });
 }
 
 } // namespace hapnet::lab::virtual_time

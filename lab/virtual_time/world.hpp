@@ -6,8 +6,10 @@
 #include "lab/virtual_time/player.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace hapnet::lab::virtual_time {
@@ -44,6 +46,12 @@ public:
     /// Nothing passes between the sides of a pair while it is true.
     void cut(bool is_cut, std::size_t pair = 0) { pairs_[pair].is_cut = is_cut; }
 
+    /// Somebody between the links and the sides, who is called with each datagram in the place of
+    /// the side that it is for, and gives that side what he wants: VirtualPlayer::receive().
+    using Interceptor = std::function<void(std::size_t to, std::span<const std::byte> datagram,
+                                           base::TimePoint arrived)>;
+    void intercept(Interceptor interceptor) { interceptor_ = std::move(interceptor); }
+
     [[nodiscard]] VirtualPlayer& side(std::size_t index) { return *sides_[index].player; }
     [[nodiscard]] const VirtualPlayer& side(std::size_t index) const
     {
@@ -64,7 +72,7 @@ private:
     /// Undelayed: it left at once, and waits in the receiver's socket.
     struct Passing {
         emulator::Datagram departure; // but for its bytes
-        wire::Datagram datagram;
+        peer::line::Datagram datagram;
     };
     /// The part of a side that outlives a killed player.
     struct Side {
@@ -88,11 +96,13 @@ private:
     }
     [[nodiscard]] base::TimePoint next_deadline() const;
     void deliver(std::size_t to);
+    void hand_over(std::size_t to, std::span<const std::byte> datagram, base::TimePoint arrived);
     void play(std::size_t side);
 
     base::TimePoint now_ = start;
     std::vector<Pair> pairs_;
     std::vector<Side> sides_; // two of each pair
+    Interceptor interceptor_;
 };
 
 } // namespace hapnet::lab::virtual_time

@@ -111,6 +111,9 @@ std::string_view parts_in(device::Task task)
     case device::Task::t1: return "by turns L pushes the cube to the right and R pushes it back";
     case device::Task::t2: return "one holds the cube in place, the other presses against it";
     case device::Task::t3: return "both press the cube between them and carry it slowly to and fro";
+    case device::Task::t7:
+        return "all press the cube between them, from the left and from the right by turns of "
+               "their ids, and carry it slowly to and fro";
     case device::Task::t4: return "both press the cube between them, lift it, hold it, lower it";
     case device::Task::t5:
         return "both press the cube to the right against the static one; by turns one lets go";

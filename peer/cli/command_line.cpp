@@ -26,6 +26,7 @@ constexpr const char* footer =
   T4  both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down
   T5  both press the cube against the static one; in turn one lets go suddenly
   T6  L taps the cube at 3 Hz while R rests on its far side
+  T7  T3 for two to eight peers: by turns of their ids they act as L and as R
 Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). Both peers
 need the same task, and should be given the same --duration. A peer waits for the other one without
 a limit; --duration counts from their common start.
@@ -43,9 +44,11 @@ Examples:
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --record a.rec
   hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --record b.rec
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --device falcon --force-limit 500mN
+  hapnet-peer --key peer-1.key --listen 0.0.0.0:7000 --remote 203.0.113.2:7000 --task T3
 Each pair runs in two terminals. The second pair needs hapnet-emulator with --listen-a :7001
---listen-b :7002 between them. The last line is for a device in your hand: read
-docs/use/hardware.md, and run doctor and self-test first.
+--listen-b :7002 between them. The last but one is for a device in your hand: read
+docs/use/hardware.md, and run doctor and self-test first. The last is for two buildings: the other
+host uses its own file of 'hapnet-peer keygen --peers 2 --out keys'.
 
 The peer prints one line "ready ..." on stdout when its loop runs, and events on stderr. SIGINT,
 SIGTERM, SIGHUP, a terminal that goes away or hapnet-ctl SOCKET stop ends it within a second, with
@@ -130,8 +133,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     program.add_footer(footer);
     program.add_exit_codes(exit_codes);
     Options session;
-    std::string printed_algorithm;
-    add_session_options(program, session, printed_algorithm);
+    Asked asked;
+    add_session_options(program, session, asked);
 
     auto& list = program.command("list-devices", "Lists the haptic devices, and what keeps one "
                                                  "from being used");
@@ -157,6 +160,10 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     SelfTestCommand testing;
     add_self_test(self_test, testing);
 
+    check.option("--key", "FILE", "Also whether a session would take this key file",
+                 cli::into(checking.key));
+    KeyCommands keys{program};
+
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (list.is_chosen()) return Command{std::move(listing)};
     if (prints_rules) return net::Answer{std::string{doctor::udev_rules()}};
@@ -165,8 +172,10 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         auto fine = check_device_options(self_test, testing.device);
         return checked(std::move(fine), std::move(testing));
     }
-    if (!printed_algorithm.empty()) return net::Answer{printed_algorithm};
-    auto fine = complete(session, program);
+    if (keys.is_chosen())
+        return keys.chosen().map([](KeyCommand chosen) { return Command{std::move(chosen)}; });
+    if (!asked.printed_algorithm.empty()) return net::Answer{asked.printed_algorithm};
+    auto fine = complete(session, asked, program);
     return checked(std::move(fine), std::move(session));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/cli/device_options.hpp"
+#include "peer/cli/key_commands.hpp"
 #include "peer/cli/options.hpp"
 #include "proto/net/program.hpp"
 
@@ -20,9 +21,10 @@ struct ListDevicesCommand {
     bool json = false;
 };
 
-/// `hapnet-peer doctor [--json] [--print-udev-rules]`
+/// `hapnet-peer doctor [--json] [--key FILE] [--print-udev-rules]`
 struct DoctorCommand {
     std::string hd_library;
+    std::optional<std::string> key;
     bool json = false;
 };
 
@@ -38,7 +40,8 @@ struct SelfTestCommand {
 };
 
 /// Options: a session.
-using Command = std::variant<Options, ListDevicesCommand, DoctorCommand, SelfTestCommand>;
+using Command =
+    std::variant<Options, ListDevicesCommand, DoctorCommand, SelfTestCommand, KeyCommand>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -5,6 +5,8 @@
 #include "peer/cli/list_devices.hpp"
 #include "peer/doctor/report.hpp"
 #include "peer/doctor/system.hpp"
+#include "proto/secure/keys/files.hpp"
+#include "proto/secure/keys/process.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -19,10 +21,22 @@ base::Result<int> run(const ListDevicesCommand& command)
 
 base::Result<int> run(const DoctorCommand& command)
 {
-    const auto findings = doctor::judge(doctor::look_at("/", command.hd_library));
+    doctor::Facts facts = doctor::look_at("/", command.hd_library);
+    if (command.key) {
+        secure::keys::hide_process();
+        secure::prepare();
+        const auto file = secure::keys::read_key_file(*command.key);
+        facts.key = {*command.key, file ? std::string{} : file.error().message};
+    }
+    const auto findings = doctor::judge(facts);
     fmt::print("{}",
                command.json ? doctor::finding_json(findings) : doctor::finding_table(findings));
     return doctor::has_bad(findings) ? net::exit_environment : 0;
+}
+
+base::Result<int> run(const KeyCommand& command)
+{
+    return std::visit([](const auto& chosen) { return run(chosen); }, command);
 }
 
 } // namespace hapnet::peer

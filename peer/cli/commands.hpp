@@ -12,5 +12,6 @@ namespace hapnet::peer {
 [[nodiscard]] base::Result<int> run(const ListDevicesCommand& command);
 [[nodiscard]] base::Result<int> run(const DoctorCommand& command);
 [[nodiscard]] base::Result<int> run(const SelfTestCommand& command);
+[[nodiscard]] base::Result<int> run(const KeyCommand& command);
 
 } // namespace hapnet::peer

@@ -139,10 +139,27 @@ base::Result<void> check_results(const Options& options)
                                   *options.record));
 }
 
-base::Result<void> refuse_key(const std::string& /*file*/)
+/// Who the two peers are, and where the other one is.
+base::Result<void> complete_peers(Options& options, const Asked& asked, const cli::Command& program)
 {
-    return base::fail("authenticated sessions are not available yet; use --insecure on a network "
-                      "you trust");
+    KeyedPlaces places{.named = asked.named, .place = {}};
+    if (program.is_given("--remote")) places.place = options.remote;
+    auto remote = check_key_options(options.key, places);
+    if (!remote) return tl::unexpected{remote.error()};
+    options.remote = *std::move(remote);
+    if (!options.key.is_given()) return {};
+    if (options.insecure) {
+        return base::fail("--key and --insecure contradict each other: with a key nothing that is "
+                          "not sealed is heard; leave out --insecure");
+    }
+    const std::uint8_t id = options.key.file->id;
+    if (program.is_given("--id") && options.id != id) {
+        return base::fail(fmt::format("--id {}: {} is the key of peer {}; leave out --id, or use "
+                                      "that peer's file",
+                                      options.id, options.key.path, id));
+    }
+    options.id = id;
+    return {};
 }
 
 void add_results(cli::Command& program, Options& options)
@@ -178,26 +195,30 @@ void add_force_options(cli::Command& program, Options& options)
                    cli::into(options.dead_man, parse_dead_man));
 }
 
-void add_session_options(cli::Command& program, Options& options, std::string& printed_algorithm)
+void add_session_options(cli::Command& program, Options& options, Asked& asked)
 {
     constexpr std::uint64_t id_max = 65535;
     program.option("--id", "1..65535",
-                   "Number of this peer, different for the two; the lower one is L (default 1)",
+                   "Number of this peer, different for the two; the lower one is L (default 1, or "
+                   "the one in the key file)",
                    cli::into(options.id, base::Count{1, id_max}));
     program.option("--listen", "ADDRESS",
                    "Where to receive: HOST:PORT; :PORT listens on loopback (default 127.0.0.1:0, "
                    "any free port)",
                    cli::into(options.listen, net::parse_listen_address));
-    program
-        .option("--remote", "HOST:PORT", "The other peer, or the emulator's address for this side",
-                cli::into(options.remote, parse_remote))
-        .required("127.0.0.1:7001");
+    program.option("--remote", "HOST:PORT",
+                   "The other peer, or the emulator's address for this side; needed unless --peer "
+                   "or the key file says it",
+                   cli::into(options.remote, parse_remote));
+    program.option("--peer", "ID=HOST:PORT",
+                   "The same with the other peer's id, where the key file knows several",
+                   cli::into(asked.named, parse_named_peer));
     program.option("--scene", "FILE|NAME",
                    "A scene in TOML, or a built-in one by name; it has one movable body that does "
                    "not turn (default: the task's; lift for T4, wall for T5, paper for the others)",
                    [&options](const std::string& text) { return take_scene(text, options); });
     add_force_options(program, options);
-    program.option("--task", "P1|T1|...|T6", "What the hands do, simulated or yours (default P1)",
+    program.option("--task", "P1|T1|...|T7", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
     program.option("--algorithm", "NAME|FILE",
                    "How the two cubes are kept together: base (default), dead-reckoning, sep, or a "
@@ -206,7 +227,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
     program
         .option("--print-algorithm", "NAME|FILE",
                 "Print the parameters of an algorithm in TOML, with their meaning, and exit",
-                cli::into(printed_algorithm,
+                cli::into(asked.printed_algorithm,
                           [](const std::string& text) {
                               return parse_algorithm_name(text).map(explain_algorithm);
                           }))
@@ -217,9 +238,10 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
     program.option("--duration", "TIME",
                    "Length of the session from its common start (default 30s)",
                    cli::into(options.duration, base::Time{std::chrono::seconds{1}}));
-    program.option("--key", "FILE", "Not available yet: authenticated sessions are still to come",
-                   refuse_key);
-    program.flag("--insecure", "Allow a session without a key over a real network",
+    add_key_options(program, options.key);
+    program.flag("--insecure",
+                 "Allow a session without a key over a real network, where anybody may then move "
+                 "this hand",
                  options.insecure);
     program.flag("--untested-device",
                  "Allow a session on a real device that has not passed a self-test in the last 30 "
@@ -229,8 +251,9 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
     add_device_options(program, options.device);
 }
 
-base::Result<void> complete(Options& options, const cli::Command& program)
+base::Result<void> complete(Options& options, const Asked& asked, const cli::Command& program)
 {
+    if (auto fine = complete_peers(options, asked, program); !fine) return fine;
     if (auto fine = check_device_options(program, options.device); !fine) return fine;
     if (auto fine = check_results(options); !fine) return fine;
     if (program.is_given("--scene")) return {};

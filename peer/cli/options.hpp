@@ -4,6 +4,7 @@
 
 #include "device/simulated/task.hpp"
 #include "peer/cli/device_options.hpp"
+#include "peer/cli/key_options.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
@@ -21,7 +22,8 @@ namespace hapnet::peer {
 struct Options {
     std::uint16_t id = 1;
     net::HostPort listen{"127.0.0.1", 0};
-    net::HostPort remote;
+    net::HostPort remote; // where to begin, with a key
+    KeyChoice key;
     DeviceChoice device;
     std::string scene_name = "paper";
     scene::Description scene; // one that two peers can share
@@ -39,12 +41,18 @@ struct Options {
     std::optional<std::string> control; // where its socket is to be
 };
 
-/// Adds the options of a session, bound to `options`. `printed_algorithm` is what
-/// --print-algorithm prints.
-void add_session_options(cli::Command& program, Options& options, std::string& printed_algorithm);
+/// What is read beside the options and not kept.
+struct Asked {
+    std::string printed_algorithm; // what --print-algorithm prints
+    std::optional<NamedPeer> named;
+};
 
-/// After the command line was read: the scene of the task where none was named, and options that
-/// contradict each other.
-[[nodiscard]] base::Result<void> complete(Options& options, const cli::Command& program);
+/// Adds the options of a session, bound to `options` and `asked`.
+void add_session_options(cli::Command& program, Options& options, Asked& asked);
+
+/// After the command line was read: the other peer, the scene of the task where none was named, and
+/// options that contradict each other.
+[[nodiscard]] base::Result<void> complete(Options& options, const Asked& asked,
+                                          const cli::Command& program);
 
 } // namespace hapnet::peer

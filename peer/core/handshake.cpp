@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/handshake.hpp"
 
+#include "proto/base/ensure.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -14,18 +16,6 @@ constexpr base::Duration start_away_max{std::chrono::seconds{1'000'001}};
 
 // By how much a message may overtake the one before.
 constexpr base::Duration ahead_max{std::chrono::seconds{10}};
-
-/// The same number on both sides, another one for every pair of runs; never 0.
-std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
-{
-    std::uint64_t mixed = (static_cast<std::uint64_t>(low_nonce) << 32 | high_nonce);
-    mixed ^= mixed >> 31; // the finalizer of SplitMix64 (Steele, Lea, Flood 2014)
-    mixed *= 0xbf58476d1ce4e5b9U;
-    mixed ^= mixed >> 27;
-    mixed *= 0x94d049bb133111ebU;
-    const auto number = static_cast<std::uint32_t>(mixed >> 32);
-    return number == 0 ? 1 : number;
-}
 
 /// Rounded up, and 0 never: that says nothing.
 std::uint32_t in_milliseconds(base::Duration length)
@@ -49,10 +39,15 @@ std::optional<wire::ByeReason> Handshake::refusal_of(const wire::Hello& hello) c
 std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
                                                    base::TimePoint arrived, Known known)
 {
+    const bool is_our_own = hello.nonce == self_.nonce && hello.peer_id == self_.id;
+    if (is_our_own) return std::nullopt; // somebody sent it back
     if (const auto reason = refusal_of(hello)) return reason;
     const bool is_of_another_run = !remote_ || remote_->nonce != hello.nonce;
     if (is_of_another_run && remote_ && known == Known::heard) return std::nullopt;
     if (is_of_another_run) meet(hello);
+    remote_->hears_us = hello.nonce_heard == self_.nonce;
+    remote_->heard = hello.heard;
+    remote_->length_ms = hello.length_ms;
     if (hello.nonce_heard != self_.nonce) { // it has not heard this run of us yet
         asked_ = true;
         last_heard_ = wire::Echo{hello.sent, {}};
@@ -66,7 +61,7 @@ std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
 
 void Handshake::meet(const wire::Hello& hello)
 {
-    remote_ = RemotePeer{hello.nonce, hello.peer_id};
+    remote_ = RemotePeer{.nonce = hello.nonce, .id = hello.peer_id};
     clock_.reset();
     if (hello.boot != 0 && hello.boot == self_.boot) clock_.set_same_clock();
     last_heard_.reset();
@@ -86,15 +81,16 @@ bool Handshake::is_left() const { return self_.id < remote_->id; }
 
 std::uint32_t Handshake::number() const
 {
-    return is_left() ? session_number(self_.nonce, remote_->nonce)
-                     : session_number(remote_->nonce, self_.nonce);
+    return is_left() ? wire::session_number(self_.nonce, remote_->nonce)
+                     : wire::session_number(remote_->nonce, self_.nonce);
 }
 
 void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
 {
+    if (set_by_ == StartSetBy::circle) return agree_in_circle(hello, arrived);
     const bool ours_to_decide = owns_start_ || (is_left() && !hello.in_session);
     if (ours_to_decide) {
-        if (!session_) propose(arrived + start_after, hello);
+        if (!session_) propose(arrived + start_after);
         if (hello.start_heard == session_->start) acknowledged_ = true;
         asked_ = !acknowledged_;
     } else if (hello.start) {
@@ -103,17 +99,40 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
     }
 }
 
-/// A side that is in session says the length that was agreed on; so it stays as it is.
-base::Duration Handshake::length_with(const wire::Hello& hello) const
+/// Both may know the start from others and tell it; each says that it has heard the other's.
+void Handshake::agree_in_circle(const wire::Hello& hello, base::TimePoint arrived)
 {
-    if (hello.length_ms == 0) return self_.length;
-    return std::min<base::Duration>(self_.length, std::chrono::milliseconds{hello.length_ms});
+    if (!session_) {
+        if (hello.start) adopt(hello, arrived);
+        asked_ = true;
+        return;
+    }
+    if (hello.start) start_heard_ = hello.start;
+    if (hello.start_heard == session_->start) acknowledged_ = true;
+    asked_ = owns_start_ ? !acknowledged_ : true;
 }
 
-void Handshake::propose(base::TimePoint start, const wire::Hello& hello)
+/// A side that is in session says the length that was agreed on; so it stays as it is.
+base::Duration Handshake::length() const
 {
-    session_ = Session{number(), start, self_.seed, length_with(hello), is_left(), false};
+    if (!remote_ || remote_->length_ms == 0) return self_.length;
+    return std::min<base::Duration>(self_.length, std::chrono::milliseconds{remote_->length_ms});
+}
+
+void Handshake::propose(base::TimePoint start)
+{
+    session_ = Session{number(), start, self_.seed, length(), is_left(), false};
     owns_start_ = true;
+}
+
+void Handshake::tell(const Session& agreed, bool late)
+{
+    base::ensure(remote_.has_value());
+    session_ = agreed;
+    session_->number = number();
+    session_->is_left = is_left();
+    owns_start_ = true;
+    stayed_ = late;
 }
 
 void Handshake::adopt(const wire::Hello& hello, base::TimePoint arrived)
@@ -124,8 +143,7 @@ void Handshake::adopt(const wire::Hello& hello, base::TimePoint arrived)
     if (std::chrono::abs(start - arrived) > start_away_max) return;
     if (start_heard_ && !may_replace_start(*hello.start, arrived)) return;
     start_heard_ = hello.start;
-    session_ =
-        Session{number(), start, hello.seed, length_with(hello), is_left(), hello.in_session};
+    session_ = Session{number(), start, hello.seed, length(), is_left(), hello.in_session};
 }
 
 bool Handshake::may_replace_start(base::TimePoint start, base::TimePoint arrived)
@@ -165,7 +183,7 @@ std::optional<wire::Echo> Handshake::echo(base::TimePoint now) const
     return wire::Echo{last_heard_->of, age};
 }
 
-std::optional<wire::Hello> Handshake::hello(base::TimePoint now)
+std::optional<wire::Hello> Handshake::hello(base::TimePoint now, std::uint32_t heard)
 {
     const bool settled = session_ && (owns_start_ ? acknowledged_ : start_heard_.has_value());
     if (settled && !asked_) return std::nullopt;
@@ -186,7 +204,7 @@ std::optional<wire::Hello> Handshake::hello(base::TimePoint now)
     hello.in_session = stayed_;
     hello.task = self_.task;
     hello.length_ms = in_milliseconds(session_ ? session_->length : self_.length);
-    hello.heard = remote_ && remote_->id < 32 ? std::uint32_t{1} << remote_->id : 0;
+    hello.heard = heard;
     hello.boot = self_.boot;
     hello.hand = self_.hand;
     return hello;

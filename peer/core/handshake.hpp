@@ -38,13 +38,18 @@ struct Session {
 /// The lower id sets the start one second after it learns that it was heard, and keeps saying so
 /// until that is acknowledged; the other side joins when it hears of it, if need be late. A peer
 /// that restarts meets one that is in session already and joins that session. Feed with on_hello(),
-/// drain with hello(), and read session() after either.
+/// drain with hello(), and read session() after either. Among more than two the circle decides when
+/// to start, and every peer that knows the start tells it to those that it meets.
 class Handshake {
 public:
     static constexpr base::Duration hello_every{std::chrono::milliseconds{20}};
     static constexpr base::Duration start_after{std::chrono::seconds{1}};
 
-    explicit Handshake(const Introduction& introduction) : self_{introduction} {}
+    /// Who sets the start: the lower id of the two, or their circle by tell().
+    enum class StartSetBy : std::uint8_t { lower_id, circle };
+    explicit Handshake(const Introduction& introduction, StartSetBy by = StartSetBy::lower_id)
+        : self_{introduction}, set_by_{by}
+    {}
 
     /// While the run that was met is heard, nobody else's hello is believed: it may be forged. A
     /// run that was started anew keeps saying hello until the former one has fallen silent.
@@ -64,8 +69,12 @@ public:
     /// A state of this session arrived: the other side knows the start.
     void on_state() { acknowledged_ = true; }
 
-    /// The hello that is due, if one is.
-    [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now);
+    /// The hello that is due, if one is. `heard`: the peers that this one hears, bit i for id i.
+    [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now, std::uint32_t heard);
+
+    /// Takes over the start, seed and length that its circle has agreed on, and tells them to the
+    /// other side, which must have been met. One that is met `late` is told that it joins.
+    void tell(const Session& agreed, bool late);
 
     /// The clock echo for the next message to the other side.
     [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
@@ -74,24 +83,36 @@ public:
     [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.estimate(); }
     /// Whether the other side has been heard in this run of it.
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
+    /// Its id; 0 before it was met.
+    [[nodiscard]] std::uint16_t id() const { return remote_ ? remote_->id : std::uint16_t{0}; }
+    /// Whether it has heard this run of us.
+    [[nodiscard]] bool is_heard_there() const { return remote_ && remote_->hears_us; }
+    /// Those that it hears, bit i for id i.
+    [[nodiscard]] std::uint32_t heard_there() const { return remote_ ? remote_->heard : 0; }
+    /// The session's length as far as the two are concerned: the shorter one.
+    [[nodiscard]] base::Duration length() const;
 
 private:
     struct RemotePeer {
         std::uint32_t nonce = 0;
         std::uint16_t id = 0;
+        bool hears_us = false;
+        std::uint32_t heard = 0;
+        std::uint32_t length_ms = 0;
     };
 
     [[nodiscard]] std::optional<wire::ByeReason> refusal_of(const wire::Hello& hello) const;
     void meet(const wire::Hello& hello);
     [[nodiscard]] bool is_left() const;
     [[nodiscard]] std::uint32_t number() const;
-    [[nodiscard]] base::Duration length_with(const wire::Hello& hello) const;
     void agree(const wire::Hello& hello, base::TimePoint arrived);
-    void propose(base::TimePoint start, const wire::Hello& hello);
+    void agree_in_circle(const wire::Hello& hello, base::TimePoint arrived);
+    void propose(base::TimePoint start);
     void adopt(const wire::Hello& hello, base::TimePoint arrived);
     [[nodiscard]] bool may_replace_start(base::TimePoint start, base::TimePoint arrived);
 
     Introduction self_;
+    StartSetBy set_by_;
     std::optional<RemotePeer> remote_;
     ClockSync clock_;
     std::optional<wire::Echo> last_heard_; // `age` unused: its arrival is below

@@ -72,38 +72,50 @@ double rendered_share(const Settings& settings)
         passive_share(wall, base::to_seconds(settings.tick), settings.grip_damping_ns_per_m));
 }
 
-Introduction introduction_of(const Settings& settings)
+Member::Config member_of(const Settings& settings)
 {
-    Introduction introduction = settings.introduction;
-    introduction.length = settings.length;
-    return introduction;
+    Member::Config config{.introduction = settings.introduction,
+                          .staleness = settings.staleness,
+                          .stale = base_options(settings.algorithm).stale,
+                          .tick = settings.tick};
+    config.introduction.length = settings.length;
+    return config;
 }
 
 } // namespace
 
 Peer::Peer(const Settings& settings)
     : settings_{settings},
-      handshake_{introduction_of(settings)},
-      remote_{settings.staleness, base_options(settings.algorithm).stale},
+      circle_{settings.roster, member_of(settings)},
+      others_(settings.roster.others.size()),
       body_{shared_body_of(settings)},
       world_{world_of(settings)},
       friction_{friction_of(settings)},
       force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)},
-      remote_reach_m_{remote_reach_m(settings.scene)},
-      sequences_{settings.tick}
-{}
+      remote_reach_m_{remote_reach_m(settings.scene)}
+{
+    base::ensure(circle_.is_pair() || std::holds_alternative<BaseAlgorithm>(settings.algorithm));
+}
+
+void Peer::tell(Event event, const Member* about)
+{
+    notices_.put({event, about != nullptr ? about->id() : std::uint16_t{0}});
+}
+
+bool Peer::is_alone() const { return std::ranges::all_of(others(), &Member::is_gone); }
 
 base::Duration Peer::hands_on() const
 {
     return length() - std::min(hands_off_length, length() / 2);
 }
 
-void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived)
+void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived,
+                       std::size_t from)
 {
     const auto message = wire::decode(datagram);
     if (message) {
-        std::visit([&](const auto& m) { on_message(m, arrived); }, *message);
+        std::visit([&](const auto& m) { on_message(m, arrived, from); }, *message);
         return;
     }
     const auto version = wire::version_of(datagram);
@@ -115,109 +127,64 @@ void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arri
     if (!session()) consider_refusal({wire::ByeReason::other_version, *version}, arrived);
 }
 
-void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
+void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::size_t from)
 {
     ++counters_.hellos;
-    const bool had_met = handshake_.has_met();
+    Member& other = circle_.members()[from];
+    if (!other.is_expected(hello.peer_id) && hello.peer_id != settings_.introduction.id) {
+        ++counters_.other_session;
+        return;
+    }
     const bool had_session = session().has_value();
-    const bool is_heard = had_session && !gone_ && remote_.freshness(arrived) >= 1.0;
-    const auto known = is_heard ? Handshake::Known::heard : Handshake::Known::silent;
-    if (const auto reason = handshake_.on_hello(hello, arrived, known)) {
-        if (had_session) {
-            outbox_.put(wire::encode(wire::Bye{0, *reason})); // our session goes on without it
+    const Member::Greeting greeting = other.on_hello(hello, arrived);
+    if (greeting.refused) {
+        if (greeting.had_session) {
+            other.post(wire::encode(wire::Bye{0, *greeting.refused})); // ours goes on without it
         } else {
-            consider_refusal({*reason, hello.nonce}, arrived);
+            consider_refusal({*greeting.refused, hello.nonce}, arrived);
         }
         return;
     }
     pending_refusal_.reset();
-    if (!had_met) events_.put(Event::met);
-    if (!session() || session()->number == current_.number) return;
-    // A late hello of an earlier run may make us change over and back: then count on.
-    former_ = std::exchange(current_, session()->number == former_.number
-                                          ? former_
-                                          : Numbering{.number = session()->number});
-    agreed_at_ = arrived;
-    remote_.forget();
-    sequences_.forget();
-    last_body_ = arrived;
-    states_without_body_ = 0;
-    std::visit([](auto& algorithm) { algorithm.forget(); }, settings_.algorithm);
-    gone_ = false;
-    lost_ = false;
-    body_known_ = !session()->joined_late;
-    events_.put(had_session ? Event::restarted : Event::agreed);
+    if (greeting.met) tell(Event::met, &other);
+    circle_.after_hello(from, arrived);
+    if (greeting.in_session)
+        std::visit([](auto& algorithm) { algorithm.forget(); }, settings_.algorithm);
+    if (session() && !had_session) {
+        body_known_ = !session()->joined_late;
+        tell(Event::agreed);
+    } else if (greeting.in_session && greeting.had_session) {
+        // Nobody else would tell where the body is.
+        if (circle_.is_pair()) body_known_ = !session()->joined_late;
+        tell(Event::restarted, &other);
+    }
 }
 
-void Peer::on_message(const wire::State& state, base::TimePoint arrived)
+void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::size_t from)
 {
-    if (!session() || state.session != current_.number) {
+    Member& other = circle_.members()[from];
+    if (!other.session() || state.session != other.numbering().number) {
         ++counters_.other_session;
         return;
     }
-    if (!is_plausible(state) || state.sequence > sequence_max(arrived) ||
-        !sequences_.admits(state, arrived)) {
+    if (!is_plausible(state) || !other.can_be_numbered(state, arrived)) {
         ++counters_.implausible;
         return;
     }
-    if (gone_ && !takes_back_goodbye(state, arrived)) {
+    if (other.is_gone() && (leaving_ || !other.takes_back_goodbye(state, arrived))) {
         ++counters_.other_session;
         return;
     }
-    handshake_.on_state();
-    handshake_.on_echo(state.echo, state.sent, arrived);
-    const bool taken = remote_.update(state, arrived);
-    ++(taken ? counters_.states : counters_.outdated);
-    if (taken) {
-        sequences_.on_taken(state, arrived);
-        look_for_body(state, arrived);
-    }
+    const Member::Heard heard = other.on_state(state, arrived);
+    ++(heard.taken ? counters_.states : counters_.outdated);
+    if (heard.body_missed) tell(Event::no_body, &other);
     const ReceivedState received{.state = state,
                                  .arrived = arrived,
-                                 .taken = taken,
-                                 .clock = handshake_.clock(),
+                                 .taken = heard.taken,
+                                 .clock = other.handshake().clock(),
                                  .tick = settings_.tick,
                                  .force_max_n = force_max_n_};
     std::visit([&](auto& algorithm) { algorithm.hear(received); }, settings_.algorithm);
-}
-
-/// Whether the other side goes on although it has said goodbye; then the goodbye is forgotten.
-bool Peer::takes_back_goodbye(const wire::State& state, base::TimePoint arrived)
-{
-    if (leaving_) return false;
-    if (!goodbye_.last_sent) goodbye_.last_sent = state.sent;
-    const bool goes_on = state.sent - *goodbye_.last_sent > goodbye_doubted_for &&
-                         arrived - goodbye_.heard > goodbye_doubted_for;
-    if (!goes_on) return false;
-    gone_ = false;
-    lost_ = true; // so that a person is told that it is back
-    return true;
-}
-
-/// Tells once when something on the path lets only the shorter messages through.
-void Peer::look_for_body(const wire::State& state, base::TimePoint arrived)
-{
-    if (!state.bodies.empty()) {
-        last_body_ = arrived;
-        states_without_body_ = 0;
-        return;
-    }
-    ++states_without_body_;
-    const bool is_missed = states_without_body_ >= states_without_body_max &&
-                           arrived - last_body_ >= body_missed_after;
-    if (!is_missed || body_missed_) return;
-    body_missed_ = true;
-    events_.put(Event::no_body);
-}
-
-std::uint32_t Peer::sequence_max(base::TimePoint arrived) const
-{
-    // One state a tick since the start; the slack is for clocks and starts that differ. A damaged
-    // number that was believed would make all that follows look outdated.
-    const auto ticks =
-        std::max<base::Duration::rep>(0, (arrived - session()->start) / settings_.tick);
-    return static_cast<std::uint32_t>(
-        std::min<base::Duration::rep>(ticks + sequence_slack, UINT32_MAX));
 }
 
 bool Peer::is_plausible(const wire::State& state) const
@@ -233,7 +200,7 @@ bool Peer::is_plausible(const wire::State& state) const
     });
 }
 
-void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
+void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived, std::size_t from)
 {
     ++counters_.byes;
     const bool refuses = bye.reason >= wire::ByeReason::other_version;
@@ -241,11 +208,8 @@ void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
         if (!session()) consider_refusal({bye.reason, 0}, arrived);
         return;
     }
-    if (!session() || bye.session != current_.number || gone_) return;
-    gone_ = true;
-    goodbye_ = {.heard = arrived, .last_sent = {}};
-    if (remote_.state()) goodbye_.last_sent = remote_.state()->sent;
-    if (!leaving_) events_.put(Event::left);
+    Member& other = circle_.members()[from];
+    if (other.on_goodbye(bye, arrived) && !leaving_) tell(Event::left, &other);
 }
 
 void Peer::consider_refusal(const PendingRefusal& refusal, base::TimePoint arrived)
@@ -261,7 +225,7 @@ void Peer::consider_refusal(const PendingRefusal& refusal, base::TimePoint arriv
     pending_refusal_->last = arrived;
     if (++pending_refusal_->times < refusals_needed) return;
     refusal_ = refusal.reason;
-    events_.put(Event::refused);
+    tell(Event::refused);
     leave(refusal.reason);
 }
 
@@ -270,7 +234,9 @@ void Peer::leave(wire::ByeReason reason)
     if (leaving_) return;
     leaving_ = true;
     leaving_because_ = reason;
-    const bool has_audience = handshake_.has_met() || refusal_;
+    const bool has_audience = refusal_ || std::ranges::any_of(others(), [](const Member& other) {
+                                  return other.handshake().has_met();
+                              });
     if (!has_audience) byes_left_ = 0;
 }
 
@@ -285,25 +251,21 @@ Phase Peer::phase_at(base::TimePoint now) const
     return Phase::ended;
 }
 
-void Peer::note(Phase phase, double freshness, base::TimePoint now)
+void Peer::note(Phase phase, base::TimePoint now)
 {
     const bool in_session = phase == Phase::running || phase == Phase::hands_off;
     if (phase != phase_) {
-        if (phase == Phase::running) {
-            events_.put(session()->joined_late ? Event::joined : Event::started);
-        }
-        if (phase == Phase::hands_off) events_.put(Event::hands_off);
-        if (phase == Phase::ended && !refusal_) {
-            events_.put(session() ? Event::ended : Event::stopped);
-        }
+        if (phase == Phase::running) tell(session()->joined_late ? Event::joined : Event::started);
+        if (phase == Phase::hands_off) tell(Event::hands_off);
+        if (phase == Phase::ended && !refusal_) tell(session() ? Event::ended : Event::stopped);
         phase_ = phase;
     }
-    if (!in_session || gone_) return;
-    const bool may_be_on_its_way = now - std::max(session()->start, agreed_at_) < first_word_within;
-    if (!remote_.arrived() && may_be_on_its_way) return;
-    const bool lost = freshness <= 0.0;
-    if (lost != lost_) events_.put(lost ? Event::lost : Event::back);
-    lost_ = lost;
+    if (!in_session) return;
+    for (Member& other : circle_.members()) {
+        const Member::Change change = other.look(now);
+        if (change != Member::Change::none)
+            tell(change == Member::Change::lost ? Event::lost : Event::back, &other);
+    }
 }
 
 Tick Peer::tick(base::TimePoint now, const Hand& hand)
@@ -311,45 +273,102 @@ Tick Peer::tick(base::TimePoint now, const Hand& hand)
     const Phase phase = phase_at(now);
     const bool in_session = phase == Phase::running || phase == Phase::hands_off;
     Tick tick;
-    tick.phase = gone_ && in_session ? Phase::alone : phase;
-    tick.freshness = gone_ ? 0.0 : remote_.freshness(now);
-    note(phase, tick.freshness, now);
+    tick.phase = in_session && is_alone() ? Phase::alone : phase;
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const Member& other = others()[i];
+        others_[i] = {&other.remote(), other.freshness(now)};
+        tick.freshness = std::max(tick.freshness, others_[i].freshness);
+    }
+    note(phase, now);
     if (phase == Phase::ended) {
         leave(wire::ByeReason::finished);
         say_bye(now);
         return tick;
     }
-    if (const auto hello = handshake_.hello(now)) outbox_.put(wire::encode(*hello));
+    circle_.say_hello(now);
     if (in_session) play(tick, now, hand);
     return tick;
 }
 
+/// The one with the lowest id of those that are heard; where none is, of those that were.
+std::size_t Peer::chief() const
+{
+    const auto is_heard = [](const Other& other) { return other.freshness > 0.0; };
+    const auto was_heard = [](const Other& other) { return other.remote->body().has_value(); };
+    auto found = std::ranges::find_if(others_, is_heard);
+    if (found == others_.end()) found = std::ranges::find_if(others_, was_heard);
+    return found == others_.end() ? 0 : static_cast<std::size_t>(found - others_.begin());
+}
+
+/// One who joins late starts with the body where one of the others has it.
+void Peer::take_body_over()
+{
+    if (body_known_) return;
+    for (const Other& other : others_) {
+        const auto& body = other.remote->body();
+        if (!body) continue;
+        world_.place(body_, body->position, body->velocity);
+        body_known_ = true;
+        return;
+    }
+}
+
+/// Whether what the others do is known well enough for a hand to feel it: one of them is fresh, and
+/// so are all whose hands may be on the body.
+bool Peer::are_others_fresh(base::TimePoint now) const
+{
+    if (circle_.is_pair()) return others_.front().freshness >= 1.0;
+    bool any = false;
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const Member& other = others()[i];
+        if (others_[i].freshness >= 1.0) {
+            any = true;
+        } else if (!other.counts_as_gone(gone_after, now)) {
+            const auto& state = other.remote().state();
+            if (state && state->touching) return false;
+        }
+    }
+    return any;
+}
+
 void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
 {
-    if (!body_known_ && remote_.body()) {
-        world_.place(body_, remote_.body()->position, remote_.body()->velocity);
-        body_known_ = true;
-    }
+    take_body_over();
     const bool usable = is_usable(hand);
     if (!usable) ++counters_.unusable_hand;
     const scene::HandInput input{.position = usable ? hand.hip : base::Position{},
                                  .velocity = usable ? hand.velocity : base::Velocity{},
                                  .present = usable,
                                  .gripping = hand.gripping};
+    const std::size_t lowest = chief();
     const Situation situation{.now = now,
                               .body = body_,
-                              .remote = remote_,
-                              .freshness = tick.freshness,
-                              .yields = !session()->is_left,
+                              .others = others_,
+                              .remote = others()[lowest].remote(),
+                              .freshness = others_[lowest].freshness,
+                              .yields = others()[lowest].id() < settings_.introduction.id,
                               .tick = settings_.tick,
-                              .clock = handshake_.clock(),
+                              .clock = clock(lowest),
                               .force_max_n = force_max_n_};
     const base::Position before = position();
     if (body_known_) move_world(tick, situation, input);
+    keep_within_reach();
     account(tick, position() - before, now);
-    // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
-    tick.permitted = usable && body_known_ && tick.freshness >= 1.0 && tick.phase == Phase::running;
-    if (!gone_) say_state(tick, now, usable ? hand : Hand{});
+    // The governor's own fade runs along with the others': zero when one of them counts as lost.
+    tick.permitted = usable && body_known_ && are_others_fresh(now) && tick.phase == Phase::running;
+    say_states(tick, now, usable ? hand : Hand{});
+}
+
+/// A remote side that lies can drag the body to where the other copy would not believe it to be any
+/// more; then the two would never agree again.
+void Peer::keep_within_reach()
+{
+    const base::Position place = position();
+    if (scene::is_within(place.value, remote_reach_m_)) return;
+    constexpr double inside = 0.99; // whatever is rounded on the wire
+    const glm::dvec3 back =
+        glm::clamp(place.value, -inside * remote_reach_m_, inside * remote_reach_m_);
+    world_.place(body_, {back}, {});
 }
 
 void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand)
@@ -391,21 +410,17 @@ void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint n
     if (touching || base::norm(moved) > 1e-9) last_stir_ = now;
 }
 
-bool Peer::mentions_body(base::TimePoint now) const
+/// Whether the others must hear of the body: it moves, or did a moment ago.
+bool Peer::body_stirs(base::TimePoint now) const
 {
-    if (!body_known_) return false;
-    const bool stirs = last_stir_ && now - *last_stir_ < body_lingers;
-    return stirs || current_.sequence % body_every == 1;
+    return last_stir_ && now - *last_stir_ < body_lingers;
 }
 
-void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
+/// The same to each of the others, but for what belongs to the two of them: number and clock.
+void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
 {
-    tick.sequence = ++current_.sequence;
     wire::State state;
-    state.session = current_.number;
-    state.sequence = current_.sequence;
     state.sent = now;
-    state.echo = handshake_.echo(now);
     state.touching = tick.touched.touching;
     state.holding = tick.touched.holding;
     state.hip = hand.hip;
@@ -413,16 +428,25 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
     state.work_uj = static_cast<std::uint32_t>(std::llround(1e6 * hand.work_j));
     state.intention_velocity = hand.velocity; // no algorithm asks for more than the HIP yet
     state.contact_force = tick.touched.on_body;
-    if (mentions_body(now)) {
-        state.bodies.add({.body = static_cast<std::uint16_t>(body_),
-                          .position = position(),
-                          .velocity = velocity(),
-                          .caused_displacement_um = effects_.displacement_um(),
-                          .caused_impulse_uns = effects_.impulse_uns(),
-                          .turning = {}});
+    const wire::BodyState body{.body = static_cast<std::uint16_t>(body_),
+                               .position = position(),
+                               .velocity = velocity(),
+                               .caused_displacement_um = effects_.displacement_um(),
+                               .caused_impulse_uns = effects_.impulse_uns(),
+                               .turning = {}};
+    const bool stirs = body_stirs(now);
+    for (Member& other : circle_.members()) {
+        if (!other.session() || other.is_gone()) continue;
+        state.session = other.numbering().number;
+        state.sequence = other.next_sequence();
+        state.echo = other.handshake().echo(now);
+        state.bodies.clear();
+        if (body_known_ && (stirs || other.is_body_due())) state.bodies.add(body);
+        other.post(wire::encode(state));
+        ++counters_.sent;
     }
-    outbox_.put(wire::encode(state));
-    ++counters_.sent;
+    const Member& first = others().front();
+    if (first.session() && !first.is_gone()) tick.sequence = first.numbering().sequence;
 }
 
 void Peer::say_bye(base::TimePoint now)
@@ -430,7 +454,10 @@ void Peer::say_bye(base::TimePoint now)
     if (byes_left_ == 0 || (last_bye_ && now - *last_bye_ < bye_every)) return;
     last_bye_ = now;
     --byes_left_;
-    outbox_.put(wire::encode(wire::Bye{current_.number, leaving_because_}));
+    for (Member& other : circle_.members()) {
+        if (other.handshake().has_met() || refusal_)
+            other.post(wire::encode(wire::Bye{other.numbering().number, leaving_because_}));
+    }
 }
 
 } // namespace hapnet::peer

@@ -2,18 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/circle.hpp"
 #include "peer/core/effect_sums.hpp"
 #include "peer/core/finger_friction.hpp"
-#include "peer/core/handshake.hpp"
-#include "peer/core/outbox.hpp"
-#include "peer/core/remote.hpp"
-#include "peer/core/sequence_guard.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/record/rows.hpp"
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace hapnet::peer {
 
@@ -28,6 +26,7 @@ struct Hand {
 
 struct Settings {
     Introduction introduction;
+    Roster roster; // the others; with more than one the algorithm must be base
     scene::Description scene = scene::paper_scene(); // one that shared_body() accepts
     Algorithm algorithm;
     /// Damping of the device and the loosest grip on it. It bounds the contacts that can be
@@ -79,55 +78,65 @@ struct Counters {
     std::uint64_t sent = 0;
 };
 
+/// An event, and the id of the other that it is about; 0: it is about all, or that one's id is not
+/// known.
+struct Notice {
+    Event event = Event::met;
+    std::uint16_t about = 0;
+};
+
 /// The result of one tick.
 struct Tick {
     Phase phase = Phase::waiting;
     bool permitted = false; // whether the hand may feel anything at all
     base::Force force;      // on the hand, before the governor
     scene::HandTouch touched;
-    bool remote_touching = false;
-    base::Force remote_force;                 // that counted
+    bool remote_touching = false;             // the hand of one of the others
+    base::Force remote_force;                 // that counted, of all the others
     std::optional<base::Position> remote_hip; // as the algorithm shows it
-    double freshness = 0.0;
-    std::uint32_t sequence = 0; // of the state that was sent; 0: none
+    double freshness = 0.0;                   // of the others' newest state
+    std::uint32_t sequence = 0;               // of the state that was sent to the first; 0: none
 };
 
 /// One peer without device, socket or clock: its copy of the scene, its hand, what it knows of
-/// the other side, and the session between them. The two share one body of the scene. Call
-/// on_datagram() for what arrives, tick() once per millisecond, and then poll() and event() until
-/// they are empty.
+/// the others, and the session with them. They share one body of the scene. Call on_datagram() for
+/// what arrives, tick() once per millisecond, and then poll() for each of the others and notice()
+/// until they are empty.
 class Peer {
 public:
     static constexpr base::Duration hands_off_length{std::chrono::seconds{3}};
-    /// The other side counts as silent when no state came for this long after the start.
-    static constexpr base::Duration first_word_within{std::chrono::seconds{1}};
+    /// Among more than two, one that was silent for so long counts as gone until it is heard again:
+    /// the others play on. Until then its hand may be on the body.
+    static constexpr base::Duration gone_after{std::chrono::seconds{1}};
     static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
     /// For this long after its last touch, a hand is taken to have caused the body's motion.
     static constexpr base::Duration push_lasts{std::chrono::milliseconds{200}};
-    static constexpr std::uint32_t body_every = 64; // messages
     static constexpr int byes = 5;
     static constexpr base::Duration bye_every{std::chrono::milliseconds{5}};
     /// A refusal counts when it came three times, at least this far apart: one damaged datagram
     /// must not end a session.
     static constexpr int refusals_needed = 3;
     static constexpr base::Duration refusal_every{std::chrono::milliseconds{4}};
-    static constexpr base::Duration::rep sequence_slack = 1000; // ticks
-    /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
-    /// damaged. Those that it overtook on its way do not count.
-    static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
-    /// So many states without a body, and for a second, are no chance: every 64th has it.
-    static constexpr std::uint32_t states_without_body_max = 10 * body_every;
-    static constexpr base::Duration body_missed_after{std::chrono::seconds{1}};
 
     /// The scene must be one that shared_body() and World::freeze() accept.
     explicit Peer(const Settings& settings);
 
-    void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived);
+    /// `from`: which of the others sent it, in the order of the roster.
+    void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived,
+                     std::size_t from = 0);
     [[nodiscard]] Tick tick(base::TimePoint now, const Hand& hand);
 
-    /// The next datagram for the other side.
-    [[nodiscard]] std::optional<wire::Datagram> poll() { return outbox_.take(); }
-    [[nodiscard]] std::optional<Event> event() { return events_.take(); }
+    /// The next datagram for one of the others.
+    [[nodiscard]] std::optional<wire::Datagram> poll(std::size_t to = 0)
+    {
+        return circle_.members()[to].poll();
+    }
+    [[nodiscard]] std::optional<Notice> notice() { return notices_.take(); }
+    [[nodiscard]] std::optional<Event> event()
+    {
+        const auto next = notice();
+        return next ? std::optional{next->event} : std::nullopt;
+    }
 
     /// Ends the session: byes follow, then finished() holds.
     void leave(wire::ByeReason reason);
@@ -139,10 +148,24 @@ public:
     [[nodiscard]] scene::BodyState body() const { return world_.body(body_); }
     [[nodiscard]] base::Position position() const { return world_.position(body_); } // of body()
     [[nodiscard]] base::Velocity velocity() const { return world_.velocity(body_); }
-    [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
-    [[nodiscard]] std::optional<ClockEstimate> clock() const { return handshake_.clock(); }
+    [[nodiscard]] const std::optional<Session>& session() const { return circle_.session(); }
+    [[nodiscard]] std::span<const Member> others() const { return circle_.members(); }
+    [[nodiscard]] std::optional<ClockEstimate> clock(std::size_t of = 0) const
+    {
+        return others()[of].handshake().clock();
+    }
     [[nodiscard]] const Counters& counters() const { return counters_; }
-    [[nodiscard]] bool is_alone() const { return gone_; }
+    [[nodiscard]] bool is_alone() const; // all others said goodbye
+    /// Its place among all in the order of their ids, from 0: the 1st, 3rd, ... hand acts as L, the
+    /// others as R.
+    [[nodiscard]] std::size_t rank() const { return circle_.rank(); }
+    [[nodiscard]] bool is_left() const { return rank() % 2 == 0; }
+    /// One of so many that act on its side.
+    [[nodiscard]] double share_of_side() const
+    {
+        const std::size_t all = others().size() + 1;
+        return 1.0 / static_cast<double>(is_left() ? all - all / 2 : all / 2);
+    }
     [[nodiscard]] std::optional<wire::ByeReason> refusal() const { return refusal_; }
     /// Time from the start until the hands let go.
     [[nodiscard]] base::Duration hands_on() const;
@@ -161,58 +184,41 @@ private:
         base::TimePoint last{};
     };
 
-    void on_message(const wire::Hello& hello, base::TimePoint arrived);
-    void on_message(const wire::State& state, base::TimePoint arrived);
-    void on_message(const wire::Bye& bye, base::TimePoint arrived);
+    void on_message(const wire::Hello& hello, base::TimePoint arrived, std::size_t from);
+    void on_message(const wire::State& state, base::TimePoint arrived, std::size_t from);
+    void on_message(const wire::Bye& bye, base::TimePoint arrived, std::size_t from);
     [[nodiscard]] bool is_plausible(const wire::State& state) const;
-    [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
-    void look_for_body(const wire::State& state, base::TimePoint arrived);
     void consider_refusal(const PendingRefusal& refusal, base::TimePoint arrived);
-    [[nodiscard]] std::uint32_t sequence_max(base::TimePoint arrived) const;
+    void tell(Event event, const Member* about = nullptr);
 
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
-    void note(Phase phase, double freshness, base::TimePoint now);
+    void note(Phase phase, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
+    [[nodiscard]] std::size_t chief() const;
+    void take_body_over();
+    [[nodiscard]] bool are_others_fresh(base::TimePoint now) const;
     void move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand);
+    void keep_within_reach();
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
-    void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
+    void say_states(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);
-    [[nodiscard]] bool mentions_body(base::TimePoint now) const;
+    [[nodiscard]] bool body_stirs(base::TimePoint now) const;
 
     Settings settings_;
-    Handshake handshake_;
-    Remote remote_;
-    scene::BodyId body_; // the shared one
+    Circle circle_;
+    std::vector<Other> others_; // of this tick, as the algorithm is to see them
+    scene::BodyId body_;        // the shared one
     scene::World world_;
     std::optional<FingerFriction> friction_; // where the scene's hands have any
     double force_max_n_;                     // of the remote hand
     double share_;                           // of the forces on the hand, that may be rendered
     double remote_reach_m_;                  // of what the other side may claim
     EffectSums effects_;
-    Outbox<wire::Datagram, 8> outbox_;
-    Outbox<Event, 32> events_;
+    Outbox<Notice, 32> notices_;
     Counters counters_;
 
     Phase phase_ = Phase::waiting;
-    bool gone_ = false; // the other side said goodbye
-    struct Goodbye {
-        base::TimePoint heard;
-        std::optional<base::TimePoint> last_sent; // of its states until then, on its clock
-    };
-    Goodbye goodbye_;
-    SequenceGuard sequences_;
-    base::TimePoint last_body_; // of the other side, or the session's agreement
-    std::uint32_t states_without_body_ = 0;
-    bool body_missed_ = false; // and a person has been told
-    bool lost_ = false;        // the other side fell silent
-    bool body_known_ = true;   // false: joined late, the other side's body not seen yet
-    struct Numbering {
-        std::uint32_t number = 0; // of the session
-        std::uint32_t sequence = 0;
-    };
-    Numbering current_;
-    Numbering former_; // the session before
-    base::TimePoint agreed_at_;
+    bool body_known_ = true;                    // false: joined late, the others' body not seen yet
     std::optional<base::TimePoint> last_touch_; // by this hand
     std::optional<base::TimePoint> last_stir_;  // the body was touched or moved
     std::optional<PendingRefusal> pending_refusal_;

@@ -31,7 +31,8 @@ device::Cue Side::take_cue()
 {
     const Session& session = *peer_.session();
     cued_ = session.start;
-    return {session.start, peer_.hands_on(), base::Seed{session.seed}, id_, session.is_left};
+    return {session.start, peer_.hands_on(), base::Seed{session.seed},
+            id_,           peer_.is_left(),  peer_.share_of_side()};
 }
 
 double Side::work_since(const device::Sample& before) const

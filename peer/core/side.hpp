@@ -43,9 +43,10 @@ public:
         : peer_{settings}, id_{settings.introduction.id}, mount_scale_{settings.mount_scale}
     {}
 
-    void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived)
+    void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived,
+                     std::size_t from = 0)
     {
-        peer_.on_datagram(datagram, arrived);
+        peer_.on_datagram(datagram, arrived, from);
     }
 
     /// One tick, in this order: reads the device, moves session and scene on, has the force
@@ -64,8 +65,8 @@ public:
         return tick_;
     }
 
-    /// The next datagram for the other side.
-    [[nodiscard]] std::optional<wire::Datagram> poll() { return peer_.poll(); }
+    /// The next datagram for one of the others.
+    [[nodiscard]] std::optional<wire::Datagram> poll(std::size_t to = 0) { return peer_.poll(to); }
     [[nodiscard]] std::optional<Event> event() { return peer_.event(); }
 
     [[nodiscard]] Peer& peer() { return peer_; }

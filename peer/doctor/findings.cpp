@@ -147,6 +147,21 @@ Finding on_hd(const Facts& facts)
         "install OpenHaptics and the device's driver from 3D Systems, or give --hd-library FILE"};
 }
 
+/// Handshakes carry the date, and one that is older than the last is refused.
+Finding on_date(bool is_set)
+{
+    if (is_set) return {"date", Level::ok, "the clock is set, as sessions with keys want it"};
+    return {"date", Level::warning,
+            "the clock is years behind: sessions with keys may take seconds to begin",
+            "sudo timedatectl set-ntp true"};
+}
+
+Finding on_key(const KeyFact& key)
+{
+    if (!key.trouble.empty()) return {"key file", Level::bad, key.trouble};
+    return {"key file", Level::ok, key.path + " is readable, and for its owner alone"};
+}
+
 } // namespace
 
 std::string_view name_of(Level level)
@@ -167,6 +182,8 @@ std::vector<Finding> judge(const Facts& facts)
     judge_nodes(facts, findings);
     findings.push_back(on_firewire(facts));
     findings.push_back(on_hd(facts));
+    findings.push_back(on_date(facts.is_date_set));
+    if (facts.key) findings.push_back(on_key(*facts.key));
     return findings;
 }
 

@@ -44,6 +44,12 @@ struct Node {
     std::string rule{}; // a udev rule of its own that it needs; "": ours will do
 };
 
+/// A key file that was asked about.
+struct KeyFact {
+    std::string path;
+    std::string trouble{}; // why a session would refuse it, with the cure; "": it would not
+};
+
 /// What the system was found to be.
 struct Facts {
     Timing timing;
@@ -55,8 +61,10 @@ struct Facts {
     std::vector<Node> nodes;
     bool has_firewire_card = false;
     bool has_firewire_driver = false;
-    std::string hd_trouble; // why libHD cannot be loaded; "": it can
-    bool hd_wanted = false; // a device that needs it is there
+    std::string hd_trouble;  // why libHD cannot be loaded; "": it can
+    bool hd_wanted = false;  // a device that needs it is there
+    bool is_date_set = true; // the day is one on which this version can run
+    std::optional<KeyFact> key;
 };
 
 /// What to think of it.

@@ -164,6 +164,8 @@ bool has_firewire_card(const fs::path& root)
 }
 
 /// As the loop of a peer has it, on a thread that ends.
+constexpr double year_2026_unix_s = 1'767'225'600.0;
+
 Timing try_timing()
 {
     Timing timing;
@@ -191,6 +193,7 @@ Facts look_at(const fs::path& root, const std::string& hd_library)
 {
     Facts facts;
     facts.timing = try_timing();
+    facts.is_date_set = net::wall_clock_seconds() > year_2026_unix_s;
     std::set<std::string> governors;
     for (const fs::path& cpu : entries_of(root / "sys/devices/system/cpu")) {
         if (auto name = word_in(cpu / "cpufreq/scaling_governor"); !name.empty()) {

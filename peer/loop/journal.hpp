@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/peer.hpp"
+#include "peer/line/news.hpp"
 #include "peer/monitor/device_news.hpp"
 #include "proto/record/rows.hpp"
 
@@ -24,8 +25,14 @@ struct TimedDeviceNews {
     base::TimePoint at;
 };
 
+/// Likewise for the line to the other peer.
+struct TimedLineNews {
+    line::News news = line::News::sealed;
+    base::TimePoint at;
+};
+
 /// A message of the servo thread for the record, the status line and the log.
-using Entry = std::variant<record::Row, TimedEvent, TimedDeviceNews>;
+using Entry = std::variant<record::Row, TimedEvent, TimedDeviceNews, TimedLineNews>;
 
 /// The one way out of the servo thread: a bounded queue that never makes that thread wait. Entries
 /// that do not fit are dropped and counted.

@@ -19,7 +19,9 @@ constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 } // namespace
 
 Servo::Servo(const Parts& parts)
-    : parts_{parts}, reporter_{monitor::recovery_of(parts.rig.device())}
+    : parts_{parts},
+      remote_place_{parts.remote.packed()},
+      reporter_{monitor::recovery_of(parts.rig.device())}
 {}
 
 void Servo::run()
@@ -97,14 +99,15 @@ void Servo::tick(const TickTime& time, base::TimePoint now)
 void Servo::play(base::TimePoint now)
 {
     WatchedRig rig{parts_.rig, parts_.watchdog, &parts_.gate};
-    receive();
+    receive(now);
     if (parts_.watchdog.take_fault()) {
         parts_.rig.governor().latch({device::Fault::timeout, device::Trip::loop});
     }
     parts_.side.step(now, rig);
     withheld_ = rig.withheld();
     if (withheld_ != Withheld::no) ++counters_.withheld;
-    send();
+    tend_line(now);
+    send(now);
     while (const auto event = parts_.side.event()) parts_.journal.put(TimedEvent{*event, now});
     report_device(now);
     note_session(now);
@@ -127,6 +130,7 @@ void Servo::describe(ServoStatus& status) const
     status.is_remote_heard = parts_.side.tick().freshness > 0.0;
     status.force = parts_.side.told();
     status.loop = counters_;
+    status.line = line::status_of(parts_.line, last_tick_);
     status.messages = peer.counters();
     status.session = peer.session();
     status.clock = peer.clock();
@@ -153,50 +157,65 @@ void Servo::report_device(base::TimePoint now)
     if (news) parts_.journal.put(TimedDeviceNews{*news, now});
 }
 
-void Servo::receive()
+void Servo::receive(base::TimePoint now)
 {
     // Bounded: a flood must not keep the loop from its device.
     for (int round = 0; round < receive_rounds_max; ++round) {
         const auto batch = parts_.socket.receive();
         for (const net::Received& received : batch) {
-            if (!(received.from == parts_.remote)) {
-                ++counters_.strangers;
-                continue;
-            }
-            if (!is_worth_a_row(received)) {
-                ++counters_.unrecorded;
-                continue;
-            }
-            if (received.bytes.size() > record::MessageRow::bytes_max) continue;
-            record::MessageRow row{.tick = counters_.ticks,
-                                   .received_at = received.at,
-                                   .size = static_cast<std::uint16_t>(received.bytes.size())};
-            std::copy(received.bytes.begin(), received.bytes.end(), row.bytes.begin());
-            parts_.journal.put(row);
+            const auto message = parts_.line.open(received.bytes, received.from.packed(), now);
+            if (message) hear(*message, received.at);
         }
         if (batch.size() < net::UdpSocket::batch_max) return;
     }
 }
 
-/// Lets the session hear a datagram, and says whether the record is to have it: one that changed
-/// something always; others, such as duplicates, as long as they are no flood, which would fill the
-/// disk.
-bool Servo::is_worth_a_row(const net::Received& received)
+/// A message that came in by the line; the record has it as it was before it was sealed.
+void Servo::hear(std::span<const std::byte> message, base::TimePoint at)
 {
-    const std::uint64_t states_before = parts_.side.peer().counters().states;
-    parts_.side.on_datagram(received.bytes, received.at);
-    if (parts_.side.peer().counters().states != states_before) return true;
-    return without_effect_.admits(received.at);
+    if (!is_worth_a_row(message, at)) {
+        ++counters_.unrecorded;
+        return;
+    }
+    if (message.size() > record::MessageRow::bytes_max) return;
+    record::MessageRow row{.tick = counters_.ticks,
+                           .received_at = at,
+                           .size = static_cast<std::uint16_t>(message.size())};
+    std::copy(message.begin(), message.end(), row.bytes.begin());
+    parts_.journal.put(row);
 }
 
-void Servo::send()
+/// Lets the session hear a message, and says whether the record is to have it: one that changed
+/// something always; others, such as duplicates, as long as they are no flood, which would fill the
+/// disk.
+bool Servo::is_worth_a_row(std::span<const std::byte> message, base::TimePoint at)
 {
-    while (const auto datagram = parts_.side.poll()) {
-        const auto outcome = parts_.socket.send(parts_.remote, datagram->bytes());
+    const std::uint64_t states_before = parts_.side.peer().counters().states;
+    parts_.side.on_datagram(message, at);
+    if (parts_.side.peer().counters().states != states_before) return true;
+    return without_effect_.admits(at);
+}
+
+/// After the force: a handshake may take a multiplication on the curve.
+void Servo::tend_line(base::TimePoint now)
+{
+    if (parts_.line.is_sealed()) parts_.line.tick({now, net::wall_clock_nanoseconds()});
+    while (const auto news = parts_.line.news()) parts_.journal.put(TimedLineNews{*news, now});
+}
+
+void Servo::send(base::TimePoint now)
+{
+    const auto send_one = [this](std::span<const std::byte> bytes, const secure::Place& to) {
+        if (to != remote_place_) {
+            parts_.remote = parts_.remote.unpacked(to);
+            remote_place_ = to;
+        }
+        const auto outcome = parts_.socket.send(parts_.remote, bytes);
         if (outcome != net::SendOutcome::sent) ++counters_.send_failures;
         counters_.last_send = outcome;
         sending_.store(outcome, std::memory_order_relaxed);
-    }
+    };
+    parts_.line.send_all([this] { return parts_.side.poll(); }, send_one, now);
 }
 
 void Servo::note_session(base::TimePoint now)

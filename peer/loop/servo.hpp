@@ -4,6 +4,7 @@
 
 #include "device/rig.hpp"
 #include "peer/core/side.hpp"
+#include "peer/line/line.hpp"
 #include "peer/loop/force_gate.hpp"
 #include "peer/loop/journal.hpp"
 #include "peer/loop/servo_status.hpp"
@@ -32,7 +33,8 @@ public:
         Side& side;
         device::Rig& rig;
         net::UdpSocket& socket;
-        net::Endpoint remote;
+        net::Endpoint remote; // where the line begins
+        line::Line& line;
         Journal& journal;
         Watchdog& watchdog;
         ForceGate& gate;
@@ -73,13 +75,16 @@ private:
     void tick(const TickTime& time, base::TimePoint now);
     void play(base::TimePoint now);
     void report_device(base::TimePoint now);
-    void receive();
-    [[nodiscard]] bool is_worth_a_row(const net::Received& received);
-    void send();
+    void receive(base::TimePoint now);
+    void hear(std::span<const std::byte> message, base::TimePoint at);
+    [[nodiscard]] bool is_worth_a_row(std::span<const std::byte> message, base::TimePoint at);
+    void tend_line(base::TimePoint now);
+    void send(base::TimePoint now);
     void note_session(base::TimePoint now);
     void describe(ServoStatus& status) const;
 
     Parts parts_;
+    secure::Place remote_place_; // of parts_.remote
     monitor::DeviceReporter reporter_;
     LoopCounters counters_;
     std::optional<base::TimePoint> first_tick_;

@@ -4,6 +4,7 @@
 
 #include "device/rig.hpp"
 #include "peer/core/peer.hpp"
+#include "peer/line/status.hpp"
 #include "peer/loop/force_gate.hpp"
 #include "proto/base/histogram.hpp"
 #include "proto/net/batch_sender.hpp"
@@ -19,7 +20,6 @@ struct LoopCounters {
     std::uint64_t ticks = 0;
     std::uint64_t missed = 0; // ticks skipped because the one before ended too late
     base::DurationHistogram late;
-    std::uint64_t strangers = 0;     // datagrams from other addresses than the remote
     std::uint64_t send_failures = 0; // not fatal: the remote's host may be down
     net::SendOutcome last_send = net::SendOutcome::sent;
     std::uint64_t withheld = 0;   // ticks in which a person or a signal had stopped the force
@@ -34,6 +34,7 @@ struct ServoStatus {
     bool is_remote_heard = false; // recently
     base::Force force;            // that the device was told, at the hand
     LoopCounters loop;
+    line::Status line;
     Counters messages;
     std::optional<Session> session;
     std::optional<ClockEstimate> clock;

@@ -87,12 +87,29 @@ std::string_view describe(Event event)
     return "";
 }
 
+std::string_view describe(line::News news)
+{
+    switch (news) {
+    case line::News::sealed: return "agreed on a key with the other peer";
+    case line::News::other_is_plain:
+        return "the other side plays without a key, and is not heard: give it --key with its file "
+               "of this circle";
+    case line::News::other_is_sealed:
+        return "the other side plays with a key: use --key with this host's file of its circle";
+    case line::News::other_circle:
+        return "handshakes come with keys that are not of this circle, and are refused: compare "
+               "the fingerprints of 'hapnet-peer key show FILE' on both hosts";
+    case line::News::moved: return "the other peer is heard from another address: sending there";
+    case line::News::same_id:
+        return "two programs seem to play with the other peer's key and push each other out: end "
+               "one of them";
+    }
+    return "";
+}
+
 Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
                  std::optional<record::Writer> writer, std::uint16_t peer_id)
-    : journal_{journal},
-      screen_{screen},
-      peer_id_{peer_id},
-      is_terminal_{isatty(STDERR_FILENO) != 0}
+    : journal_{journal}, screen_{screen}, peer_id_{peer_id}, line_{STDERR_FILENO}
 {
     if (writer) recorder_.emplace(*std::move(writer));
 }
@@ -105,6 +122,8 @@ void Monitor::drain()
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
             if (event->event == Event::met) status_.is_met = true;
             tell(event->at, describe(event->event));
+        } else if (const auto* line = std::get_if<loop::TimedLineNews>(&*entry)) {
+            tell(line->at, describe(line->news));
         } else {
             const auto& [news, at] = std::get<loop::TimedDeviceNews>(*entry);
             tell(at, describe(news));
@@ -175,21 +194,18 @@ void Monitor::tell(base::TimePoint at, std::string_view words)
 
 void Monitor::say(std::string_view text)
 {
-    screen_.put(
-        fmt::format("{}hapnet-peer {}: {}\n", line_open_ ? "\r\x1b[K" : "", peer_id_, text));
-    line_open_ = false;
+    screen_.put(fmt::format("{}hapnet-peer {}: {}\n", line_.room(), peer_id_, text));
 }
 
 void Monitor::show(base::TimePoint now)
 {
     if (!status_.tick) return;
     if (next_show_ && !base::is_due(next_show_, now)) return;
-    const base::Duration every = is_terminal_ ? on_terminal_every : elsewhere_every;
-    if (next_show_ || is_terminal_) {
+    const base::Duration every = line_.is_terminal() ? on_terminal_every : elsewhere_every;
+    if (next_show_ || line_.is_terminal()) {
         const std::string line = line_of(status_, shown_);
-        if (is_terminal_) {
-            screen_.put(fmt::format("\r\x1b[Khapnet-peer {}: {}", peer_id_, line));
-            line_open_ = true;
+        if (line_.is_terminal()) {
+            screen_.put(line_.shown(fmt::format("hapnet-peer {}: {}", peer_id_, line)));
         } else {
             say(line);
         }
@@ -211,8 +227,7 @@ void Monitor::finish()
     if (events_left_out_ > 0) {
         say(fmt::format("{} more messages were left out: too many at a time", events_left_out_));
     }
-    if (line_open_) screen_.put("\n");
-    line_open_ = false;
+    screen_.put(line_.left());
 }
 
 } // namespace hapnet::peer::monitor

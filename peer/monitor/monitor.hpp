@@ -6,6 +6,7 @@
 #include "peer/monitor/rate_limit.hpp"
 #include "peer/monitor/recorder.hpp"
 #include "proto/net/batch_sender.hpp"
+#include "proto/net/terminal_line.hpp"
 #include "proto/net/text_queue.hpp"
 
 #include <exception>
@@ -78,8 +79,7 @@ private:
     RateLimit events_{events_at_once, event_every};
     std::uint64_t events_left_out_ = 0;
     std::uint16_t peer_id_;
-    bool is_terminal_;
-    bool line_open_ = false;
+    net::TerminalLine line_;
     StatusLine status_;
     StatusLine shown_;
     std::optional<base::TimePoint> next_show_;
@@ -87,6 +87,9 @@ private:
 
 /// Why nothing leaves, in words for a person; "" when it does, or soon will.
 [[nodiscard]] std::string_view describe(net::SendOutcome outcome);
+
+/// News of the line to the other peer in words, with what to do about it.
+[[nodiscard]] std::string_view describe(line::News news);
 
 /// An event in words for a person.
 [[nodiscard]] std::string_view describe(Event event);

@@ -58,9 +58,36 @@ json messages_json(const Run& run)
             {"malformed", c.malformed},
             {"other_version", c.other_version},
             {"implausible", c.implausible},
-            {"strangers", run.status.loop.strangers},
+            {"strangers", run.status.line.strangers},
             {"overflowed", run.status.overflowed},
             {"send_failed", run.status.loop.send_failures}};
+}
+
+/// null without a key.
+json secure_json(const Run& run)
+{
+    const auto& key = run.status.line.key;
+    if (!key) return nullptr;
+    const secure::Association::Counts& c = key->counts;
+    json out{{"agreed", key->is_agreed},
+             {"handshakes", c.handshakes},
+             {"rekeys", c.rekeys},
+             {"key_age_s", nullptr},
+             {"forged", c.forged},
+             {"replayed", c.replayed},
+             {"unsealed", c.unsealed},
+             {"unknown_key", c.unknown_key},
+             {"other_circle", c.other_circle},
+             {"refused", c.refused},
+             {"misnamed", key->misnamed},
+             {"cookies", c.cookies},
+             {"roamed", c.roamed},
+             {"not_sent", c.not_sealed},
+             {"handshake_ms", nullptr}};
+    if (key->age) out["key_age_s"] = base::to_seconds(*key->age);
+    if (c.last_handshake > base::Duration{0})
+        out["handshake_ms"] = base::to_seconds(c.last_handshake) * 1e3;
+    return out;
 }
 
 json session_json(const Run& run)
@@ -276,6 +303,7 @@ json statistics_json(const Run& run)
     json out = configuration_json(run.options, run.device);
     out.erase("started_unix_s");
     out["session"] = session_json(run);
+    out["secure"] = secure_json(run);
     out["tick"] = tick_json(run.status.loop);
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);

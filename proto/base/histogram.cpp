@@ -60,6 +60,20 @@ std::optional<Duration> DurationHistogram::quantile(double q) const
     return max();
 }
 
+std::vector<DurationHistogram::Bin> DurationHistogram::filled_bins() const
+{
+    std::vector<Bin> filled;
+    const auto edge = [](std::uint64_t value) {
+        return Duration{static_cast<Duration::rep>(value)};
+    };
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        if (counts_[bin] == 0) continue;
+        const auto low = bin == 0 ? 0 : upper_edge(bin - 1) + 1;
+        filled.push_back({edge(low), edge(upper_edge(bin) + 1), counts_[bin]});
+    }
+    return filled;
+}
+
 std::optional<Duration> DurationHistogram::max() const
 {
     if (count_ == 0) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace hapnet::base {
 
@@ -30,6 +31,15 @@ public:
 
     /// How many are longer than `limit`, by whole bins: those for which a quantile would say so.
     [[nodiscard]] std::uint64_t count_above(Duration limit) const;
+
+    /// A bin with something in it: the values from `low` on that are below `high`.
+    struct Bin {
+        Duration low{};
+        Duration high{};
+        std::uint64_t count = 0;
+    };
+    /// Those with something in them, ascending.
+    [[nodiscard]] std::vector<Bin> filled_bins() const;
 
 private:
     static constexpr int sub_bits = 6; // 64 bins to an octave

@@ -34,6 +34,9 @@ const std::error_category& name_lookup()
     return category;
 }
 
+constexpr std::size_t host_bytes_max = 16; // of an IPv6 address
+static_assert(std::tuple_size_v<Endpoint::Packed> == host_bytes_max + sizeof(in_port_t));
+
 template <typename SocketAddress>
 SocketAddress address_as(const sockaddr_storage& storage)
 {
@@ -111,6 +114,42 @@ bool Endpoint::is_one_host() const
     }
     const auto host = address_as<sockaddr_in6>(address_).sin6_addr;
     return !IN6_IS_ADDR_MULTICAST(&host);
+}
+
+Endpoint::Packed Endpoint::packed() const
+{
+    Packed packed{};
+    in_port_t port = 0;
+    if (family() == AF_INET) {
+        const auto address = address_as<sockaddr_in>(address_);
+        std::memcpy(packed.data(), &address.sin_addr, sizeof address.sin_addr);
+        port = address.sin_port;
+    } else {
+        const auto address = address_as<sockaddr_in6>(address_);
+        std::memcpy(packed.data(), &address.sin6_addr, sizeof address.sin6_addr);
+        port = address.sin6_port;
+    }
+    std::memcpy(packed.data() + host_bytes_max, &port, sizeof port);
+    return packed;
+}
+
+Endpoint Endpoint::unpacked(const Packed& packed) const
+{
+    Endpoint other = *this;
+    in_port_t port = 0;
+    std::memcpy(&port, packed.data() + host_bytes_max, sizeof port);
+    if (family() == AF_INET) {
+        auto address = address_as<sockaddr_in>(address_);
+        std::memcpy(&address.sin_addr, packed.data(), sizeof address.sin_addr);
+        address.sin_port = port;
+        std::memcpy(&other.address_, &address, sizeof address);
+    } else {
+        auto address = address_as<sockaddr_in6>(address_);
+        std::memcpy(&address.sin6_addr, packed.data(), sizeof address.sin6_addr);
+        address.sin6_port = port;
+        std::memcpy(&other.address_, &address, sizeof address);
+    }
+    return other;
 }
 
 std::string Endpoint::to_text() const

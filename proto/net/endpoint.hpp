@@ -4,6 +4,8 @@
 
 #include "proto/base/result.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -29,6 +31,12 @@ public:
 
     /// Whether what is sent here arrives at a socket of this machine that listens at `listen`.
     [[nodiscard]] bool reaches(const Endpoint& listen) const;
+
+    /// Address and port in a fixed number of bytes, which compare as endpoints do.
+    using Packed = std::array<std::byte, 18>;
+    [[nodiscard]] Packed packed() const;
+    /// The endpoint of those bytes in the family of this one, and in its IPv6 zone.
+    [[nodiscard]] Endpoint unpacked(const Packed& packed) const;
 
     /// "127.0.0.1:7001", "[::1]:7001"
     [[nodiscard]] std::string to_text() const;

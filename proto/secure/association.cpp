@@ -47,7 +47,7 @@ Association::Responding::Responding(KeyIndex own_index, const Initiation& initia
     : own{own_index},
       other{initiation.sender},
       noise{Role::responder, keys, prologue, std::move(ephemeral)},
-      cause{mac_of(initiation.mac1)},
+      cause{mac_of(initiation.macs.mac1)},
       to{from}
 {}
 
@@ -93,8 +93,8 @@ Association::Epoch* Association::epoch_of(KeyIndex index)
 
 // --- what comes ---
 
-std::optional<Association::Received> Association::on_datagram(std::span<std::byte> datagram,
-                                                              const Place& from, Moment moment)
+std::optional<Association::Received>
+Association::on_datagram(std::span<std::byte> datagram, const Place& from, base::TimePoint now)
 {
     const auto type = frame_type_of(datagram);
     if (!type) {
@@ -102,9 +102,9 @@ std::optional<Association::Received> Association::on_datagram(std::span<std::byt
         return std::nullopt;
     }
     switch (*type) {
-    case FrameType::initiation: on_initiation(datagram, from, moment.now); return std::nullopt;
-    case FrameType::response: on_response(datagram); return std::nullopt;
-    case FrameType::cookie: on_cookie_reply(datagram, moment.now); return std::nullopt;
+    case FrameType::initiation: on_initiation(datagram, from, now); return std::nullopt;
+    case FrameType::response: on_response(datagram, from); return std::nullopt;
+    case FrameType::cookie: on_cookie_reply(datagram, now); return std::nullopt;
     case FrameType::hello:
     case FrameType::state:
     case FrameType::bye: break;
@@ -114,7 +114,7 @@ std::optional<Association::Received> Association::on_datagram(std::span<std::byt
         ++counts_.unsealed;
         return std::nullopt;
     }
-    return on_message(datagram, *index, from, moment.now);
+    return on_message(datagram, *index, from, now);
 }
 
 std::optional<Association::Received> Association::on_message(std::span<std::byte> datagram,
@@ -132,22 +132,29 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
     if (opened.outcome == Opener::Outcome::replayed) ++counts_.replayed;
     if (opened.size == 0) return std::nullopt;
     last_opened_ = now;
+    if (current_ && epoch == &*current_) confirm_at_.reset();
     if (next_ && epoch == &*next_) { // the other side has it: use it, too
         use(std::move(*std::exchange(next_, std::nullopt)), now);
         epoch = &*current_;
         answered_.reset(); // it has come
     }
-    const bool is_newest = opened.is_state && opened.outcome == Opener::Outcome::opened_newest;
+    // A state shows where the other side is now; until there is one under this key, other messages
+    // do, as a peer that was started again elsewhere says hello first.
+    epoch->has_opened_state = epoch->has_opened_state || opened.is_state;
+    const bool is_newest = opened.outcome == Opener::Outcome::opened_newest &&
+                           (opened.is_state || !epoch->has_opened_state);
     const bool has_moved = is_newest && epoch == &*current_ && config_.may_roam;
-    if (!place_) {
-        place_ = from;
-    } else if (has_moved && *place_ != from) {
-        ++counts_.roamed;
-        place_ = from;
-    }
+    if (!place_ || has_moved) move_to(from);
+    if (opened.size == empty_bytes) return std::nullopt;
     if (datagram[type_place] != plain_hello)
         ByteWriter{datagram.subspan(session_place, 4)}.u32(epoch->session);
     return Received{opened.size, epoch->other_run};
+}
+
+void Association::move_to(const Place& place)
+{
+    if (place_ && *place_ != place) ++counts_.roamed;
+    place_ = place;
 }
 
 void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoint now)
@@ -155,11 +162,11 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
     const auto initiation = read_initiation(datagram);
     const Ends expected{config_.other_id, config_.own_id};
     if (!initiation || initiation->ends != expected ||
-        !door_.knows_us(initiation->covered_by_mac1, initiation->mac1)) {
+        !door_.knows_us(initiation->macs.covered_by_mac1, initiation->macs.mac1)) {
         ++counts_.other_circle;
         return;
     }
-    const Mac cause = mac_of(initiation->mac1);
+    const Mac cause = mac_of(initiation->macs.mac1);
     if (answered_ && answered_->cause == cause) {
         answered_->to = from;
         return send_answer(now);
@@ -174,10 +181,10 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
     responding_->noise.read(initiation->noise);
 }
 
-void Association::on_response(Bytes datagram)
+void Association::on_response(Bytes datagram, const Place& from)
 {
     const auto response = read_response(datagram);
-    if (!response || !door_.knows_us(response->covered_by_mac1, response->mac1)) {
+    if (!response || !door_.knows_us(response->macs.covered_by_mac1, response->macs.mac1)) {
         ++counts_.other_circle;
         return;
     }
@@ -185,6 +192,7 @@ void Association::on_response(Bytes datagram)
         initiating_->other)
         return; // a repetition
     initiating_->other = response->sender;
+    initiating_->answered_from = from;
     initiating_->noise.read(response->noise);
 }
 
@@ -264,16 +272,22 @@ void Association::step_initiation(Moment moment)
     unanswered_since_.reset();
     Epoch made{own.own,   *own.other, own.noise.split(), other_run, session_with(other_run),
                moment.now};
+    if (config_.may_roam) move_to(own.answered_from);
     initiating_.reset();
     next_.reset();
     last_opened_ = moment.now;
     use(std::move(made), moment.now);
+    confirm_at_ = moment.now;
 }
 
 void Association::use(Epoch epoch, base::TimePoint now)
 {
     ++counts_.handshakes;
-    if (current_ && current_->other_run == epoch.other_run) ++counts_.rekeys;
+    if (current_ && current_->other_run == epoch.other_run) {
+        ++counts_.rekeys;
+    } else {
+        run_since_ = now;
+    }
     previous_.reset();
     if (current_) previous_.emplace(std::move(*current_));
     previous_until_ = now + previous_lasts;
@@ -285,7 +299,7 @@ void Association::step_response(base::TimePoint now)
     const auto progress = responding_->noise.step();
     if (progress == NoiseKk::Progress::working) return;
     const bool goes_on =
-        progress == NoiseKk::Progress::done && (responding_->is_writing || take_initiation());
+        progress == NoiseKk::Progress::done && (responding_->is_writing || take_initiation(now));
     if (!goes_on) {
         responding_.reset();
         return;
@@ -297,14 +311,27 @@ void Association::step_response(base::TimePoint now)
     responding_->noise.write(payload);
 }
 
+/// Whether another run than the one that is heard begins, and too soon after the last change: two
+/// programs with one key would push each other out for ever. A run that has fallen silent may be
+/// followed at once.
+bool Association::pushes_another_out(base::TimePoint now) const
+{
+    return current_ && responding_->other_run != current_->other_run &&
+           now - run_since_ < runs_change_every && now - last_opened_ < silence;
+}
+
 /// Whether an initiation that is proven to be the other side's is new, too.
-bool Association::take_initiation()
+bool Association::take_initiation(base::TimePoint now)
 {
     ByteReader in{responding_->noise.payload()};
     const std::int64_t timestamp = in.i64();
     responding_->other_run = in.u32();
     const bool is_canonical = in.u32() == 0 && in.complete() && responding_->other_run != 0;
     if (!is_canonical) {
+        ++counts_.refused;
+        return false;
+    }
+    if (pushes_another_out(now)) {
         ++counts_.refused;
         return false;
     }
@@ -328,6 +355,7 @@ void Association::answer(base::TimePoint now)
     send_answer(now);
     responding_.reset();
     initiating_.reset(); // what the other side began has come farther
+    confirm_at_.reset();
     unanswered_since_.reset();
 }
 
@@ -339,13 +367,33 @@ void Association::send_answer(base::TimePoint now)
     send(answered_->frame, answered_->to);
 }
 
+void Association::repeat_answer(base::TimePoint now)
+{
+    if (!answered_ || answered_->repeats_left == 0 || now < answered_->repeat_at) return;
+    --answered_->repeats_left;
+    answered_->repeat_at = now + repeat_every;
+    send(answered_->frame, answered_->to);
+}
+
+/// Until the other side is heard under the key that this one began: it waits for that with all that
+/// it has to say, and this side may have nothing to say.
+void Association::confirm(base::TimePoint now)
+{
+    if (!confirm_at_ || now < *confirm_at_ || !place_) return;
+    std::array<std::byte, empty_bytes + control_overhead> room{};
+    ByteWriter out{room};
+    out.u16(magic);
+    out.u8(version);
+    out.u8(std::to_integer<std::uint8_t>(plain_hello));
+    if (const auto size = seal(room, empty_bytes, now))
+        send(HandshakeFrame::confirmation(Bytes{room}.first(*size)), *place_);
+    confirm_at_ = now + repeat_every;
+}
+
 void Association::repeat(base::TimePoint now)
 {
-    if (answered_ && answered_->repeats_left > 0 && now >= answered_->repeat_at) {
-        --answered_->repeats_left;
-        answered_->repeat_at = now + repeat_every;
-        send(answered_->frame, answered_->to);
-    }
+    repeat_answer(now);
+    confirm(now);
     if (!initiating_ || !initiating_->frame || initiating_->other) return;
     if (now - initiating_->began >= fresh_after) {
         // The lower id listens for a while: perhaps the other side can reach us.
@@ -358,6 +406,8 @@ void Association::repeat(base::TimePoint now)
     if (initiating_->last_sent && now - *initiating_->last_sent < every) return;
     initiating_->last_sent = now;
     if (place_) send(*initiating_->frame, *place_);
+    // Somebody on the path may have made both sides look for each other elsewhere.
+    if (config_.place && config_.place != place_) send(*initiating_->frame, *config_.place);
 }
 
 // --- what goes ---

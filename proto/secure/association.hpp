@@ -31,7 +31,8 @@ struct Moment {
 /// beginning, whatever comes.
 ///
 /// The lower id wins when both begin at the same time. The responder goes on with the old key until
-/// something opens under the new one. A key is for one run of each side, so it names their session.
+/// something opens under the new one; the initiator says something under it until it is answered. A
+/// key is for one run of each side, so it names their session.
 class Association {
 public:
     static constexpr base::Duration silence{std::chrono::seconds{1}};
@@ -45,6 +46,8 @@ public:
     static constexpr base::Duration fresh_after{std::chrono::seconds{5}};
     static constexpr base::Duration listen_for{std::chrono::seconds{1}};
     static constexpr int response_repeats = 2;
+    /// While the other side is heard, another run of it takes its place no more often than this.
+    static constexpr base::Duration runs_change_every{std::chrono::seconds{5}};
 
     struct Config {
         std::uint8_t own_id = 0, other_id = 0; // they differ
@@ -67,7 +70,7 @@ public:
     };
     /// Opens a message in place, or takes in a part of a handshake.
     std::optional<Received> on_datagram(std::span<std::byte> datagram, const Place& from,
-                                        Moment moment);
+                                        base::TimePoint now);
     /// Goes on with handshakes, and begins one when it is time.
     void tick(Moment moment);
 
@@ -123,7 +126,8 @@ private:
         std::uint32_t other_run;
         std::uint32_t session;
         base::TimePoint made;
-        std::uint32_t controls = 0; // sealed
+        std::uint32_t controls = 0;    // sealed
+        bool has_opened_state = false; // until then hellos tell where the other side is
     };
     struct Initiating {
         Initiating(KeyIndex index, const StaticKeys& keys, Bytes prologue, Secret ephemeral,
@@ -137,6 +141,7 @@ private:
         std::optional<HandshakeFrame> frame; // when it is written
         std::optional<base::TimePoint> last_sent;
         std::optional<KeyIndex> other; // while the response is read
+        Place answered_from{};
     };
     struct Responding {
         Responding(KeyIndex own_index, const Initiation& initiation, const StaticKeys& keys,
@@ -160,15 +165,19 @@ private:
     std::optional<Received> on_message(std::span<std::byte> datagram, KeyIndex index,
                                        const Place& from, base::TimePoint now);
     void on_initiation(Bytes datagram, const Place& from, base::TimePoint now);
-    void on_response(Bytes datagram);
+    void on_response(Bytes datagram, const Place& from);
+    void move_to(const Place& place);
     void on_cookie_reply(Bytes datagram, base::TimePoint now);
     void step_response(base::TimePoint now);
     void step_initiation(Moment moment);
-    [[nodiscard]] bool take_initiation();
+    [[nodiscard]] bool take_initiation(base::TimePoint now);
+    [[nodiscard]] bool pushes_another_out(base::TimePoint now) const;
     void answer(base::TimePoint now);
     void send_answer(base::TimePoint now);
     void begin(Moment moment);
     void repeat(base::TimePoint now);
+    void repeat_answer(base::TimePoint now);
+    void confirm(base::TimePoint now);
     void use(Epoch epoch, base::TimePoint now);
     void send(const HandshakeFrame& frame, const Place& to);
     [[nodiscard]] bool needs_key(base::TimePoint now) const;
@@ -190,10 +199,12 @@ private:
     std::optional<Epoch> current_, next_, previous_;
     base::TimePoint previous_until_;
     base::TimePoint last_opened_;
+    base::TimePoint run_since_; // the other side is in its present run
 
     std::optional<Initiating> initiating_;
     std::optional<base::TimePoint> unanswered_since_;
     base::TimePoint listens_until_;
+    std::optional<base::TimePoint> confirm_at_; // this side began, and is not heard under the key
     std::optional<Responding> responding_;
     std::optional<Answer> answered_;
     std::optional<std::int64_t> last_timestamp_; // of the other side's newest initiation

@@ -51,8 +51,8 @@ bool Door::is_busy(base::TimePoint now)
 bool Door::lets_in(const Initiation& initiation, const Place& from, base::TimePoint now)
 {
     if (!is_busy(now)) return true;
-    const Mac expected = keyed_hash(cookie_for(from, now), initiation.covered_by_mac2);
-    return are_equal(expected, initiation.mac2);
+    const Mac expected = keyed_hash(cookie_for(from, now), initiation.macs.covered_by_mac2);
+    return are_equal(expected, initiation.macs.mac2);
 }
 
 Mac Door::cookie_for(const Place& place, base::TimePoint now)
@@ -71,7 +71,7 @@ HandshakeFrame Door::cookie_reply(const Initiation& initiation, const Place& fro
     std::array<std::byte, sizeof(Mac) + tag_bytes> sealed{};
     std::ranges::copy(cookie, sealed.begin());
     const WideNonce nonce = entropy_.bytes<wide_nonce_bytes>();
-    seal(key_of_cookies(mac1_key_), nonce, initiation.mac1, sealed);
+    seal(key_of_cookies(mac1_key_), nonce, initiation.macs.mac1, sealed);
     return HandshakeFrame::cookie(initiation.sender, nonce, sealed);
 }
 

@@ -42,10 +42,6 @@ void put_head(ByteWriter& out, FrameType type)
     out.u8(static_cast<std::uint8_t>(type));
 }
 
-/// The last two of a handshake's message.
-struct Macs {
-    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
-};
 Macs macs_of(Bytes datagram)
 {
     const std::size_t first = datagram.size() - 2 * mac_bytes;
@@ -140,11 +136,7 @@ std::optional<Initiation> read_initiation(Bytes datagram)
     initiation.ends.to = in.u8();
     if (in.u16() != 0) return std::nullopt;
     initiation.noise = in.raw(key_bytes + initiation_payload_bytes + tag_bytes);
-    const Macs macs = macs_of(datagram);
-    initiation.covered_by_mac1 = macs.covered_by_mac1;
-    initiation.mac1 = macs.mac1;
-    initiation.covered_by_mac2 = macs.covered_by_mac2;
-    initiation.mac2 = macs.mac2;
+    initiation.macs = macs_of(datagram);
     return initiation;
 }
 
@@ -157,11 +149,7 @@ std::optional<Response> read_response(Bytes datagram)
     response.receiver = in.u32();
     response.sender = in.u32();
     response.noise = in.raw(key_bytes + response_payload_bytes + tag_bytes);
-    const Macs macs = macs_of(datagram);
-    response.covered_by_mac1 = macs.covered_by_mac1;
-    response.mac1 = macs.mac1;
-    response.covered_by_mac2 = macs.covered_by_mac2;
-    response.mac2 = macs.mac2;
+    response.macs = macs_of(datagram);
     return response;
 }
 
@@ -215,6 +203,15 @@ HandshakeFrame HandshakeFrame::cookie(KeyIndex receiver, const WideNonce& nonce,
     out.raw(nonce);
     out.raw(sealed);
     frame.size_ = cookie_bytes;
+    return frame;
+}
+
+HandshakeFrame HandshakeFrame::confirmation(Bytes sealed)
+{
+    HandshakeFrame frame;
+    base::ensure(sealed.size() <= frame.bytes_.size());
+    std::ranges::copy(sealed, frame.bytes_.begin());
+    frame.size_ = sealed.size();
     return frame;
 }
 

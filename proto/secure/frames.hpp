@@ -45,6 +45,9 @@ inline constexpr std::size_t control_overhead = 4 + tag_bytes;
 /// What stays readable: magic, version, type, key, sequence, time of sending.
 inline constexpr std::size_t state_head_bytes = 20;
 inline constexpr std::size_t control_head_bytes = 12;
+/// A plain hello that says nothing: sealed it shows that its sender has the key, as a side that has
+/// been silent may have nothing to say.
+inline constexpr std::size_t empty_bytes = 8;
 
 /// A plain message in its room, which has `control_overhead` bytes more, is sealed in place.
 /// `number` is the seal's for hello and bye. Returns the size; nullopt for what is no message of
@@ -79,19 +82,24 @@ inline constexpr std::size_t initiation_bytes = 108;
 inline constexpr std::size_t response_bytes = 96;
 inline constexpr std::size_t cookie_bytes = 64;
 
+/// The two MACs at the end of an initiation or response, and the bytes that each covers.
+struct Macs {
+    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+};
+
 /// The handshake's first message, and what it needs to be answered.
 struct Initiation {
     KeyIndex sender{};
     Ends ends;
     Bytes noise;
-    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+    Macs macs;
 };
 [[nodiscard]] std::optional<Initiation> read_initiation(Bytes datagram);
 
 struct Response {
     KeyIndex receiver{}, sender{};
     Bytes noise;
-    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+    Macs macs;
 };
 [[nodiscard]] std::optional<Response> read_response(Bytes datagram);
 
@@ -102,7 +110,7 @@ struct CookieReply {
 };
 [[nodiscard]] std::optional<CookieReply> read_cookie_reply(Bytes datagram);
 
-/// Bytes of one of the three, not more.
+/// Bytes of one of the three, or of a confirmation: what a handshake sends.
 class HandshakeFrame {
 public:
     [[nodiscard]] Bytes bytes() const { return Bytes{bytes_}.first(size_); }
@@ -111,6 +119,8 @@ public:
     [[nodiscard]] static HandshakeFrame response(KeyIndex receiver, KeyIndex sender, Bytes noise);
     [[nodiscard]] static HandshakeFrame cookie(KeyIndex receiver, const WideNonce& nonce,
                                                Bytes sealed);
+    /// A sealed hello that says nothing.
+    [[nodiscard]] static HandshakeFrame confirmation(Bytes sealed);
     /// Of an initiation or response: what proves that the sender knows whom it speaks to, and that
     /// it can be reached where it says; zeros until they are set.
     void set_macs(Bytes key_of_mac1, const std::optional<Mac>& cookie);

@@ -128,7 +128,7 @@ bool is_canonical(const HandModel& hand)
 
 void put(ByteWriter& out, const Hello& hello)
 {
-    base::ensure(hello.nonce != 0);
+    base::ensure(hello.nonce != 0 && hello.peer_id != 0);
     put_header(out, type_hello, 0);
     const int flags = flag_if(hello.echo.has_value(), flag_echo) |
                       flag_if(hello.start.has_value(), flag_start) |
@@ -192,7 +192,8 @@ Fault take(ByteReader& in, Hello& hello)
     std::transform(name.begin(), end, std::back_inserter(text),
                    [](std::byte b) { return static_cast<char>(b); });
     const auto task = TaskName::from_text(text);
-    if (!task || hello.nonce == 0 || (flags & ~flags_known) != 0 || !canonical) {
+    canonical = canonical && hello.nonce != 0 && hello.peer_id != 0;
+    if (!task || (flags & ~flags_known) != 0 || !canonical) {
         return "hello: not canonical";
     }
     hello.task = *task;
@@ -371,6 +372,17 @@ Result<Message> taken(ByteReader& in)
 } // namespace
 
 /// FNV-1a, folded to 32 bits.
+std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
+{
+    std::uint64_t mixed = (static_cast<std::uint64_t>(low_nonce) << 32 | high_nonce);
+    mixed ^= mixed >> 31; // the finalizer of SplitMix64 (Steele, Lea, Flood 2014)
+    mixed *= 0xbf58476d1ce4e5b9U;
+    mixed ^= mixed >> 27;
+    mixed *= 0x94d049bb133111ebU;
+    const auto number = static_cast<std::uint32_t>(mixed >> 32);
+    return number == 0 ? 1 : number;
+}
+
 std::uint32_t boot_of(std::string_view boot_id)
 {
     if (boot_id.empty()) return 0;
@@ -535,6 +547,13 @@ std::optional<std::uint8_t> version_of(std::span<const std::byte> datagram)
     const std::uint8_t version = in.u8();
     if (!ours || !in.ok()) return std::nullopt;
     return version;
+}
+
+bool is_hello(std::span<const std::byte> datagram)
+{
+    constexpr std::size_t type_place = 3;
+    return datagram.size() > type_place && version_of(datagram) == protocol_version &&
+           datagram[type_place] == std::byte{type_hello};
 }
 
 } // namespace hapnet::wire

@@ -68,7 +68,7 @@ struct HandModel {
 struct Hello {
     std::uint32_t nonce = 0;       // this run of the sender; never 0
     std::uint32_t nonce_heard = 0; // the other side's nonce; 0: nothing heard yet
-    std::uint16_t peer_id = 0;
+    std::uint16_t peer_id = 0;     // never 0
     std::uint16_t tick_rate_hz = 0;
     std::uint64_t scene_hash = 0;
     std::uint64_t seed = 0;
@@ -248,6 +248,10 @@ private:
     std::size_t size_ = 0;
 };
 
+/// The number of the session of two runs, told by their nonces; the peer with the lower id comes
+/// first. The same on both sides, another one for every pair of runs; never 0.
+[[nodiscard]] std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce);
+
 /// Ensures what decode() checks: finite vectors, times within 2^60 ns, no zero nonce, echo age in
 /// range. Positions, velocities and forces are rounded to single precision (4 nm at 10 cm); an
 /// intention that is farther from the HIP than can be said is said as far as it can be.
@@ -263,5 +267,8 @@ private:
 /// The protocol version of a datagram that starts like one of ours, whatever follows: the first
 /// three bytes are the same in every version.
 [[nodiscard]] std::optional<std::uint8_t> version_of(std::span<const std::byte> datagram);
+
+/// Whether it begins as a hello of this version does, whatever follows.
+[[nodiscard]] bool is_hello(std::span<const std::byte> datagram);
 
 } // namespace hapnet::wire

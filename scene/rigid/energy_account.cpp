@@ -62,6 +62,7 @@ struct EnergyAccount::Motion {
 
 EnergyAccount::EnergyAccount(const Bodies& bodies)
     : balances_{bodies.movable + std::size_t{1}},
+      gaining_{bodies.moving + std::size_t{1}},
       islands_{bodies.moving + std::size_t{1}},
       moved_{bodies.movable}
 {}
@@ -241,6 +242,35 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
     return balance;
 }
 
+std::span<const std::uint8_t> EnergyAccount::gaining(const Tick& tick)
+{
+    const std::span<const Slot> slots = tick.active.slots();
+    balances_.resize(tick.state.bodies.awake + std::size_t{1});
+    bool any = false;
+    for (const Slot slot : slots) {
+        balances_[slot + 1] = balance_of(tick, tick_of(tick, slot));
+        any = any || balances_[slot + 1].is_exceeded();
+    }
+    if (!any) return {};
+    join_islands(tick, slots);
+    sum_islands(tick, slots);
+    for (const ContactBlock& block : tick.solver.blocks()) {
+        if (!tick.solver.is_kinematic(block.a) && !tick.solver.is_kinematic(block.b)) continue;
+        const SolverIndex body = tick.solver.responds(block.a) ? block.a : block.b;
+        balances_[islands_.root_of(body)].is_settled = true;
+    }
+    gaining_.resize(tick.integrations.size());
+    std::fill(gaining_.all().begin(), gaining_.all().end(), std::uint8_t{0});
+    any = false;
+    for (const Slot slot : slots) {
+        if (!balances_[islands_.root_of(slot + 1)].is_exceeded()) continue;
+        gaining_[slot + 1] = 1;
+        any = true;
+        if (islands_.root_of(slot + 1) == slot + 1) ++tick.state.interventions.islands_anew;
+    }
+    return any ? gaining_.all() : std::span<const std::uint8_t>{};
+}
+
 bool EnergyAccount::settle(const Tick& tick)
 {
     const std::span<const Slot> slots = tick.active.slots();
@@ -297,6 +327,39 @@ void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& 
     });
 }
 
+void EnergyAccount::cut_ways(const Tick& tick, const ContinuousCollision& touches)
+{
+    Bodies& bodies = tick.state.bodies;
+    double fastest = 0.0; // m/s, of all at the start and at the end
+    double there = 0.0;   // J, at the start
+    for (const Slot slot : moved_) {
+        const BodyTick body = moved_tick_of(tick, slot, touches);
+        const BodyProperties& properties = bodies.properties[slot];
+        const glm::dvec3 spin =
+            Bodies::apply_inverse_inertia(properties, body.orientation, body.angular_momentum);
+        const double radius = length(properties.half);
+        fastest =
+            std::max({fastest, body.driven_speed, length(body.velocity) + radius * length(spin),
+                      length(body.end_velocity) + radius * length(bodies.angular_velocity(slot))});
+        there += 0.5 * (properties.mass * glm::dot(body.velocity, body.velocity) +
+                        glm::dot(body.angular_momentum, spin));
+    }
+    constexpr double cornerwise = 2.0;
+    touches.for_changed(bodies, [&](Slot slot) {
+        const ContinuousCollision::Beginning& beginning = touches.beginning(slot);
+        if (!(beginning.driven_speed > 0.0)) return;
+        const BodyProperties& properties = bodies.properties[slot];
+        const double beyond =
+            tick.scales.rate *
+            (length(bodies.position.at(slot) - beginning.position) - length(properties.half));
+        if (beyond <= cornerwise * fastest || 0.5 * properties.mass * beyond * beyond <= there)
+            return;
+        bodies.position.put(slot, beginning.position);
+        bodies.orientation.put(slot, beginning.orientation);
+        ++tick.state.interventions.paths_cut;
+    });
+}
+
 void EnergyAccount::join_islands(const Tick& tick, std::span<const Slot> slots)
 {
     for (const Slot slot : slots) islands_.reset(slot + 1);
@@ -316,15 +379,20 @@ void EnergyAccount::leave_joined(const JointSolver& joints)
 }
 
 /// One body may gain what others of its island lose.
-template <typename TickOf>
-void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
-                                TickOf&& tick_of_slot)
+void EnergyAccount::sum_islands(const Tick& tick, std::span<const Slot> slots)
 {
     for (const Slot slot : slots) {
         const SolverIndex root = islands_.root_of(slot + 1);
         if (root != slot + 1) balances_[root].add(balances_[slot + 1]);
     }
     leave_joined(tick.solver.joints());
+}
+
+template <typename TickOf>
+void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
+                                TickOf&& tick_of_slot)
+{
+    sum_islands(tick, slots);
     // What may be gained shrinks with the share: with that of hands, and of what turns.
     for (int round = 0; round < share_rounds_max; ++round) {
         bool any = false;

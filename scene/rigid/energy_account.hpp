@@ -37,12 +37,18 @@ public:
         HandContacts& hands;
     };
 
+    /// Which bodies, by solver index, are in an island that gains as it is; nothing when none is.
+    [[nodiscard]] std::span<const std::uint8_t> gaining(const Tick& tick);
     /// Looks at all active bodies, before they move; changes the motions and impulses of the
     /// islands that gain. Returns whether any did.
     bool settle(const Tick& tick);
     /// The same when they have moved, of those that continuous collision changed: by the way that
     /// they went at last. Their touches are impulses of the tick like all others.
     void settle_touches(const Tick& tick, const ContinuousCollision& touches);
+    /// After that: between two touches a body may be faster than at its ends, but not beyond what
+    /// all the energy that there was can make it. Where locks drove it farther, by a kinematic body
+    /// that wedges it, it stays where it began.
+    void cut_ways(const Tick& tick, const ContinuousCollision& touches);
 
 private:
     struct BodyTick;
@@ -80,13 +86,15 @@ private:
     [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body,
                                             double share = 1.0);
     void join_islands(const Tick& tick, std::span<const Slot> slots);
+    void sum_islands(const Tick& tick, std::span<const Slot> slots);
     void leave_joined(const JointSolver& joints);
     template <typename TickOf>
     void find_shares(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
     template <typename Scale>
     bool scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale);
 
-    Scratch<Balance> balances_; // by solver index; then by the first body of an island
+    Scratch<Balance> balances_;     // by solver index; then by the first body of an island
+    Scratch<std::uint8_t> gaining_; // by solver index
     Islands islands_;
     Bounded<Slot> moved_;
 };

@@ -17,7 +17,8 @@ namespace hapnet::scene {
 struct FirstTouch {
     double time = std::numeric_limits<double>::infinity(); // s, within the tick
     glm::dvec3 normal{0.0};                                // from it to the other
-    BodyId other = 0;
+    PartId other = 0;
+    PartId own = 0;
 };
 
 /// One body's integration over a tick.
@@ -51,10 +52,13 @@ struct BodyIntegration {
     BodyMotion mean_to_there; // the mean motion that goes there
 };
 
-[[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
+[[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const glm::dmat3& axes);
 
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
+
+/// The same in the middle of a tick, for one that is solved anew: with what a torque adds alone.
+void begin_again(BodyIntegration& integration, const glm::dvec3& twist);
 
 /// Starts with no bounce yet.
 void begin_bounces(BodyIntegration& integration);

@@ -23,6 +23,9 @@ constexpr double owed_max = 0.01;
 constexpr double little = 5e-7;
 // An island that keeps less of its motion than this lost a tenth of its impulses.
 constexpr double slowed = 0.9;
+constexpr int rounds_max = 4;
+// One that keeps less than this goes back to where it began.
+constexpr double halted = 0.5;
 
 double kinetic_energy(const Bodies& bodies, Slot slot)
 {
@@ -57,6 +60,18 @@ glm::dmat3 inertia_about(const BodyProperties& properties, const glm::dquat& ori
 
 } // namespace
 
+/// What impulses of contacts add counts with the inertia that the body had when they were found:
+/// see EnergyAccount.
+double JointEnergy::kinetic_energy_as_at(const Departure& from, const Bodies& bodies, Slot slot)
+{
+    const BodyProperties& properties = bodies.properties[slot];
+    const glm::dvec3 velocity = bodies.velocity.at(slot);
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
+    return 0.5 * (properties.mass * glm::dot(velocity, velocity) +
+                  glm::dot(momentum,
+                           Bodies::apply_inverse_inertia(properties, from.orientation, momentum)));
+}
+
 JointEnergy::JointEnergy(const Bodies& bodies, std::size_t groups)
     : departures_(groups > 0 ? bodies.size() : 0),
       owed_(groups, 0.0),
@@ -69,7 +84,8 @@ void JointEnergy::begin_tick(const WorldState& state)
     const Bodies& bodies = state.bodies;
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
         departures_[bodies.properties[slot].id] = {
-            bodies.position.at(slot), bodies.orientation.at(slot),
+            bodies.position.at(slot), bodies.orientation.at(slot), bodies.velocity.at(slot),
+            bodies.angular_momentum.at(slot),
             slot < bodies.awake ? kinetic_energy(bodies, slot) : 0.0};
     }
 }
@@ -100,8 +116,7 @@ void JointEnergy::find_islands(const Tick& tick)
     if (tick.is_one_island) {
         const Bodies& bodies = tick.state.bodies;
         accounts_[1].is_clean = false;
-        accounts_[1].is_held = !tick.config.planes.empty() || bodies.size() > bodies.movable ||
-                               tick.config.hands.count > 0;
+        accounts_[1].is_held = !tick.config.planes.empty() || bodies.size() > bodies.movable;
     }
 }
 
@@ -112,7 +127,7 @@ void JointEnergy::add(const Tick& tick, Slot slot)
     const BodyProperties& properties = bodies.properties[slot];
     const Departure& from = departures_[properties.id];
     Account& island = accounts_[root_of(tick, slot)];
-    const double now = kinetic_energy(bodies, slot);
+    double now = kinetic_energy(bodies, slot);
     const glm::dvec3 force = properties.mass * gravity_on(properties, tick.config.gravity) +
                              tick.state.pushes[properties.id];
     const glm::dvec3 way = bodies.position.at(slot) - from.position;
@@ -121,6 +136,8 @@ void JointEnergy::add(const Tick& tick, Slot slot)
     if (from.is_active) {
         const BodyIntegration& integration = tick.integrations[slot + 1];
         if (integration.has_hands || integration.drag != 0.0) island.is_clean = false;
+        if (integration.has_hands) island.has_hands = true;
+        if (!integration.is_joined) now = std::max(now, kinetic_energy_as_at(from, bodies, slot));
         if (!island.is_clean) {
             // Contacts move bodies apart at no cost: see EnergyAccount.
             const glm::dvec3 mean = 0.5 * (integration.start.velocity + bodies.velocity.at(slot));
@@ -137,8 +154,8 @@ void JointEnergy::add(const Tick& tick, Slot slot)
     island.there += now + from.energy + std::abs(work) + std::abs(given);
     island.kinetic += now;
     island.mass += properties.mass;
-    island.moment += properties.mass * bodies.position.at(slot);
     island.momentum += properties.mass * bodies.velocity.at(slot);
+    island.momentum_due += properties.mass * from.velocity + tick.config.tick * force;
     const glm::dvec3& light = properties.inverse_mass;
     if (properties.turning != Turning::free) island.turns_freely = false;
     if (light.x == 0.0 || light.y == 0.0 || light.z == 0.0) island.is_held = true;
@@ -161,43 +178,72 @@ void JointEnergy::add_groups(const Tick& tick)
     }
 }
 
-void JointEnergy::settle(const Tick& tick)
+/// Sums up what each island gained.
+void JointEnergy::add_all(const Tick& tick)
 {
     find_islands(tick);
     const JointSolver& solver = tick.solver.joints();
     for (const JointSolver::Group& group : solver.groups()) {
         if (group.is_awake) accounts_[root_of(tick, solver.body_of(group) - 1)].has_joints = true;
     }
-    const Slot awake = tick.state.bodies.awake;
-    for (const Slot slot : tick.active)
-        departures_[tick.state.bodies.properties[slot].id].is_active = true;
-    for (Slot slot = 0; slot < awake; ++slot)
+    for (Slot slot = 0; slot < tick.state.bodies.awake; ++slot)
         if (accounts_[root_of(tick, slot)].has_joints) add(tick, slot);
     add_groups(tick);
-    for (std::size_t g = 0; g < solver.groups().size(); ++g) {
-        const JointSolver::Group& group = solver.groups()[g];
-        if (!group.is_awake) continue;
-        const std::uint32_t root = root_of(tick, solver.body_of(group) - 1);
-        Account& island = accounts_[root];
-        // The first group of an island takes what all of it gained.
-        owed_[g] = std::max(owed_[g], -owed_max * island.there);
-        const double excess = owed_[g] + island.gain;
-        if (excess < 0.0 && !island.is_clean) {
+}
+
+void JointEnergy::settle(const Tick& tick)
+{
+    for (const Slot slot : tick.active)
+        departures_[tick.state.bodies.properties[slot].id].is_active = true;
+    const JointSolver& solver = tick.solver.joints();
+    // What grips may give shrinks with the speeds that are left.
+    bool any = true;
+    for (int round = 0; any && round < rounds_max; ++round) {
+        any = false;
+        add_all(tick);
+        for (std::size_t g = 0; g < solver.groups().size(); ++g) {
+            const JointSolver::Group& group = solver.groups()[g];
+            if (!group.is_awake) continue;
+            const std::uint32_t root = root_of(tick, solver.body_of(group) - 1);
+            // The first group of an island takes what all of it gained.
+            Account& island = accounts_[root];
+            const double excess = round == 0 ? book(tick, island, owed_[g]) : island.gain;
             island.gain = 0.0;
-            continue;
+            if (round > 0) island.is_little = excess <= little_of(tick, island);
+            if (excess <= joint_rounding * island.there || (round > 0 && island.is_little))
+                continue;
+            slow(tick, island, root, excess);
+            any = any || !island.is_little;
         }
-        island.gain = 0.0;
-        owed_[g] = excess;
-        if (excess <= joint_rounding * island.there) continue;
-        const double fall = tick.config.tick * length(tick.config.gravity);
-        island.is_little = excess <= little * island.there + island.mass * fall * fall;
-        owed_[g] = island.is_little ? std::max(0.0, excess - island.kinetic) : 0.0;
-        if (!island.is_little && excess > island.kinetic) put_back(tick, root);
-        slow(tick, island, root, excess);
     }
 }
 
-/// The velocities are the rigid ones then.
+double JointEnergy::little_of(const Tick& tick, const Account& island)
+{
+    const double fall = tick.config.tick * length(tick.config.gravity);
+    return little * island.there + island.mass * fall * fall;
+}
+
+/// What an island has gained too much, J; the rest goes into what it is owed.
+double JointEnergy::book(const Tick& tick, Account& island, double& owed)
+{
+    const double gain = island.gain;
+    owed = std::max(owed, -owed_max * island.there);
+    const double total = owed + gain;
+    if (gain < 0.0 && !island.is_clean) {
+        if (owed > 0.0) owed = std::max(0.0, total);
+        return 0.0;
+    }
+    const double excess = owed < 0.0 ? std::max(total, gain - little * island.there) : total;
+    owed = total;
+    if (excess <= joint_rounding * island.there) return 0.0;
+    island.is_little = excess <= little_of(tick, island);
+    owed = std::min(0.0, total - excess);
+    if (island.is_little) owed += std::max(0.0, excess - island.kinetic);
+    return excess;
+}
+
+/// To where they began, with the velocities that they would have without each other.
 void JointEnergy::put_back(const Tick& tick, std::uint32_t root)
 {
     Bodies& bodies = tick.state.bodies;
@@ -206,6 +252,13 @@ void JointEnergy::put_back(const Tick& tick, std::uint32_t root)
         const Departure& from = departures_[bodies.properties[slot].id];
         bodies.position.put(slot, from.position);
         bodies.orientation.put(slot, from.orientation);
+        const BodyProperties& properties = bodies.properties[slot];
+        const glm::dvec3 acceleration = gravity_on(properties, tick.config.gravity) +
+                                        properties.inverse_mass * tick.state.pushes[properties.id];
+        const glm::dvec3 torque =
+            about_unlocked_axes(properties, tick.state.torques[properties.id]);
+        bodies.velocity.put(slot, from.velocity + tick.config.tick * acceleration);
+        bodies.angular_momentum.put(slot, from.angular_momentum + tick.config.tick * torque);
         ++tick.state.interventions.paths_cut;
     }
     const JointSolver& solver = tick.solver.joints();
@@ -216,42 +269,64 @@ void JointEnergy::put_back(const Tick& tick, std::uint32_t root)
     }
 }
 
-void JointEnergy::slow(const Tick& tick, Account& island, std::uint32_t root, double excess)
+/// The rigid body's motion, and its energy, J.
+double JointEnergy::find_rigid(const Tick& tick, Account& island, std::uint32_t root)
 {
+    if (island.is_held) return 0.0;
     Bodies& bodies = tick.state.bodies;
     const auto for_bodies = [&](auto&& act) {
         for (Slot slot = 0; slot < bodies.awake; ++slot)
             if (root_of(tick, slot) == root) act(slot);
     };
-    double rigid = 0.0; // J
-    if (!island.is_held) {
-        island.velocity = island.momentum / island.mass;
-        island.centre = island.moment / island.mass;
-        rigid = 0.5 * island.mass * glm::dot(island.velocity, island.velocity);
+    glm::dvec3 moment{0.0};
+    for_bodies(
+        [&](Slot slot) { moment += bodies.properties[slot].mass * bodies.position.at(slot); });
+    island.velocity = island.momentum / island.mass;
+    island.centre = moment / island.mass;
+    island.spin = glm::dvec3{0.0};
+    const double energy = 0.5 * island.mass * glm::dot(island.velocity, island.velocity);
+    if (!island.turns_freely) return energy;
+    glm::dmat3 inertia{0.0};
+    glm::dvec3 momentum{0.0};
+    for_bodies([&](Slot slot) {
+        const BodyProperties& properties = bodies.properties[slot];
+        const glm::dvec3 from = bodies.position.at(slot) - island.centre;
+        inertia += inertia_about(properties, bodies.orientation.at(slot), from);
+        momentum += bodies.angular_momentum.at(slot) +
+                    properties.mass * glm::cross(from, bodies.velocity.at(slot));
+    });
+    island.spin = glm::inverse(inertia) * momentum;
+    return energy + 0.5 * glm::dot(momentum, island.spin);
+}
+
+void JointEnergy::slow(const Tick& tick, Account& island, std::uint32_t root, double excess)
+{
+    const auto left_of = [&](double rigid) {
+        const double relative = std::max(0.0, island.kinetic - rigid);
+        return relative > excess ? std::sqrt(1.0 - excess / relative) : 0.0;
+    };
+    // Joints that contradict each other push with forces so large that their sum is not zero.
+    if (!island.has_hands) island.momentum = island.momentum_due;
+    double left = left_of(find_rigid(tick, island, root));
+    // What goes far and is slowed has not gone so far.
+    if (left < halted && !island.is_little) {
+        put_back(tick, root);
+        find_rigid(tick, island, root);
+        left = 0.0;
     }
-    if (!island.is_held && island.turns_freely) {
-        glm::dmat3 inertia{0.0};
-        glm::dvec3 momentum{0.0};
-        for_bodies([&](Slot slot) {
-            const BodyProperties& properties = bodies.properties[slot];
-            const glm::dvec3 from = bodies.position.at(slot) - island.centre;
-            inertia += inertia_about(properties, bodies.orientation.at(slot), from);
-            momentum += bodies.angular_momentum.at(slot) +
-                        properties.mass * glm::cross(from, bodies.velocity.at(slot));
-        });
-        island.spin = glm::inverse(inertia) * momentum;
-        rigid += 0.5 * glm::dot(momentum, island.spin);
-    }
-    const double relative = std::max(0.0, island.kinetic - rigid);
-    const double left = relative > excess ? std::sqrt(1.0 - excess / relative) : 0.0;
     Interventions& interventions = tick.state.interventions;
     ++(left < slowed && !island.is_little ? interventions.islands_limited
                                           : interventions.impulses_trimmed);
-    for_bodies([&](Slot slot) {
+    Bodies& bodies = tick.state.bodies;
+    glm::dvec3 momentum{0.0};
+    for (Slot slot = 0; slot < bodies.awake; ++slot) {
+        if (root_of(tick, slot) != root) continue;
         const glm::dvec3 from = bodies.position.at(slot) - island.centre;
         const glm::dvec3 velocity =
             island.is_held ? glm::dvec3{0.0} : island.velocity + glm::cross(island.spin, from);
-        bodies.velocity.put(slot, velocity + left * (bodies.velocity.at(slot) - velocity));
+        const glm::dvec3 slower = velocity + left * (bodies.velocity.at(slot) - velocity);
+        bodies.velocity.put(slot, slower);
+        momentum += bodies.properties[slot].mass * slower;
         const glm::dvec3 now = bodies.angular_momentum.at(slot);
         glm::dvec3 rigid_momentum{0.0};
         if (!island.is_held) {
@@ -260,7 +335,12 @@ void JointEnergy::slow(const Tick& tick, Account& island, std::uint32_t root, do
             rigid_momentum = inertia * island.spin;
         }
         bodies.angular_momentum.put(slot, rigid_momentum + left * (now - rigid_momentum));
-    });
+    }
+    if (island.is_held) return;
+    // What rounding took of the momentum, where bodies are far apart and turn fast.
+    const glm::dvec3 rest = (island.momentum - momentum) / island.mass;
+    for (Slot slot = 0; slot < bodies.awake; ++slot)
+        if (root_of(tick, slot) == root) bodies.velocity.put(slot, bodies.velocity.at(slot) + rest);
 }
 
 } // namespace hapnet::scene

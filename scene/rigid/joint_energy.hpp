@@ -48,6 +48,8 @@ private:
     struct Departure {
         glm::dvec3 position{0.0};
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        glm::dvec3 velocity{0.0};
+        glm::dvec3 angular_momentum{0.0};
         double energy = 0.0; // kinetic, J
         bool is_active = false;
     };
@@ -57,21 +59,27 @@ private:
         double there = 0.0;   // J, of all that was added up
         double kinetic = 0.0; // J, at the end
         bool has_joints = false;
+        bool has_hands = false;
         bool is_clean = true;   // nothing but joints acts in it
         bool is_little = false; // what it gained
         bool is_held = false;   // from outside, or along an axis
         bool turns_freely = true;
         // For the rigid body.
         double mass = 0.0;
-        glm::dvec3 moment{0.0}; // mass times position
         glm::dvec3 momentum{0.0};
+        glm::dvec3 momentum_due{0.0}; // by what acts from outside, but for hands
         glm::dvec3 velocity{0.0}, centre{0.0}, spin{0.0};
-        double share = 1.0; // of the motion that is left
     };
 
+    [[nodiscard]] static double kinetic_energy_as_at(const Departure& from, const Bodies& bodies,
+                                                     Slot slot);
     void find_islands(const Tick& tick);
     void add(const Tick& tick, Slot slot);
     void add_groups(const Tick& tick);
+    void add_all(const Tick& tick);
+    [[nodiscard]] static double little_of(const Tick& tick, const Account& island);
+    static double book(const Tick& tick, Account& island, double& owed);
+    double find_rigid(const Tick& tick, Account& island, std::uint32_t root);
     void slow(const Tick& tick, Account& island, std::uint32_t root, double excess);
     void put_back(const Tick& tick, std::uint32_t root);
     [[nodiscard]] std::uint32_t root_of(const Tick& tick, Slot slot);

@@ -58,6 +58,8 @@ public:
     void bound_ways(ContactSolver& solver) const;
     /// At the end: coordinates, and what the springs hold.
     void end_tick(WorldState& state, const JointSolver& solver);
+    /// Reads the coordinates of a body's joints where it was put.
+    void on_placed(WorldState& state, BodyId body) const;
     /// The same for one group, whose bodies were put elsewhere.
     void read_places(WorldState& state, std::size_t group);
 

@@ -142,13 +142,15 @@ Restitution::Restitution(const WorldConfig& config, const Bodies& bodies, std::s
 {}
 
 bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
-                        const Scales& scales, Interventions& interventions)
+                        const Scales& scales, Interventions& interventions,
+                        std::span<const std::uint8_t> picked)
 {
     if (!is_needed_) return false;
     const std::span<ContactBlock> blocks = solver.blocks();
     hits_.clear();
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         if (!(blocks[i].restitution > 0.0)) continue;
+        if (!picked.empty() && picked[solver.responding_of(blocks[i])] == 0) continue;
         const Impact first =
             first_impact(blocks[i], approach_of(blocks[i], integrations), scales.tick);
         if (first.speed > bounce_threshold * scales.fall) hits_.add() = {first.time, i};

@@ -22,9 +22,10 @@ public:
 
     [[nodiscard]] bool is_needed() const { return is_needed_; }
 
-    /// Changes the tentative velocities and their means. Returns whether anything bounced.
+    /// Changes the tentative velocities and their means. Returns whether anything bounced. Where
+    /// bodies are `picked` (not 0 at their solver index), of their contacts alone.
     bool apply(ContactSolver& solver, std::span<BodyIntegration> integrations, const Scales& scales,
-               Interventions& interventions);
+               Interventions& interventions, std::span<const std::uint8_t> picked = {});
 
 private:
     /// A contact, and when its first point hits, were no other to bounce before.

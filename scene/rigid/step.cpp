@@ -4,6 +4,7 @@
 
 #include "scene/collide/sweep.hpp"
 #include "scene/hand/midpoint.hpp"
+#include "scene/maths/rotation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,8 @@ double position_bias(double separation, const Scales& scales)
 
 std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 {
-    const std::size_t others = bodies.size() - 1 + config.planes.size();
-    return bodies.movable * std::min(others, contacts_per_body_max);
+    const std::size_t others = bodies.parts_count() - 1 + config.planes.size();
+    return bodies.movable_parts() * std::min(others, contacts_per_body_max);
 }
 
 } // namespace
@@ -83,7 +84,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& description, const Wo
       joints_{description, state.bodies, scales_},
       joint_energy_{state.bodies, solver_.joints().groups().size()},
       continuous_{config, state.bodies, scales_},
-      any_round_{any_is_round(state.bodies.properties)}
+      any_round_{state.bodies.any_is_round()}
 {
     if constexpr (sleeps) {
         for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group)
@@ -114,6 +115,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
     if (has_joints) joints_.stiffen(state.bodies, solver_, integrations_.all());
     const bool changed = solve_velocities(state.tick_cost);
+    if (bounced || changed) solve_anew_what_gains(config, state);
     if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
     if (has_joints) joints_.store_impulses(state, solver_);
@@ -140,9 +142,10 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 {
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
-    pairs_.forget(body);
-    boxes_.forget(body);
-    hand_contacts_.forget(body);
+    pairs_.forget(state.bodies, body);
+    boxes_.forget(state.bodies, body);
+    hand_contacts_.forget(state.bodies, body);
+    joints_.on_placed(state, body);
 }
 
 template <BroadPhase broad_phase>
@@ -156,12 +159,13 @@ TickCost RigidStepper<broad_phase>::tick_cost_bound(const WorldConfig& config) c
 {
     const std::uint64_t pushed =
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
-    // Overlaps are looked at once more where a body is held back, sleepers by what carries them.
+    // Overlaps are looked at once more where a body is held back, sleepers by what carries them,
+    // velocities and springs where an island is solved anew.
     return {.pairs = (sleeps ? 2 + wake_rounds_max : 1) * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
-            .visits = solver_.visits_bound(velocity_limits()) +
+            .visits = 2 * solver_.visits_bound(velocity_limits()) +
                       2 * solver_.visits_bound(position_limits()),
-            .spring_rows = 2 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
+            .spring_rows = 4 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
             .looks = continuous_.looks_max()};
 }
 
@@ -193,9 +197,8 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
     modes_.resize(config.hands.count);
-    const auto target_of = [&](BodyId id) -> HandContacts::Target {
-        const Slot slot = bodies.slot_of[id];
-        return {id, slot < bodies.movable, boxes_.at(bodies, id), bodies.velocity.at(slot)};
+    const auto target_of = [&](PartId part) {
+        return HandContacts::target_of(bodies, part, boxes_.at(bodies, part));
     };
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
@@ -203,7 +206,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
             const glm::dvec3& from = input.position.value;
             const double radius =
                 config.hands.radius_m + (input.gripping ? config.hands.grip_reach_m : 0.0);
-            for (const BodyId id :
+            for (const PartId id :
                  pairs_.near_hand(hand, {from, from + scales_.tick * input.velocity.value, radius}))
                 hand_contacts_.collide(config, state, hand, target_of(id));
         }
@@ -246,14 +249,16 @@ void RigidStepper<broad_phase>::wake_carried(WorldState& state, const AreTouchin
         for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
             if (!kinematics_.of(bodies, slot).moves) continue;
             const BodyId id = bodies.properties[slot].id;
-            const auto wake = [&](PairIndex index, BodyId other) {
+            const auto wake = [&](PairIndex index, PartId other) {
                 const bool is_awake = bodies.slot_of[other] < bodies.awake;
                 const bool touches_it =
                     is_awake ? touches(pairs[index].memory) : are_touching(index);
                 if (touches_it) sleep_.wake(other, bodies, pairs_);
             };
-            pairs.for_first(id, [&](PairIndex i) { wake(i, pairs[i].b); });
-            pairs.for_second(id, [&](PairIndex i) { wake(i, pairs[i].a); });
+            bodies.for_parts(id, [&](PartId part) {
+                pairs.for_first(part, [&](PairIndex i) { wake(i, pairs[i].b); });
+                pairs.for_second(part, [&](PairIndex i) { wake(i, pairs[i].a); });
+            });
         }
     }
 }
@@ -282,7 +287,9 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
 {
     if (!active_.add(slot)) return;
     const BodyProperties& properties = bodies.properties[slot];
-    solver_.response(slot + 1) = response_of(properties, boxes_.at(bodies, properties.id).box);
+    const SweptBox& first = boxes_.at(bodies, properties.id);
+    solver_.response(slot + 1) = response_of(
+        properties, properties.has_parts() ? axes_of(first.orientation) : first.box.axes);
     reset(integrations_[slot + 1]);
 }
 
@@ -354,11 +361,12 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
         ContactBlock* const block = add_contact(points, pair.memory);
         if (block == nullptr) continue;
         contact.prepare(*block, pair.memory);
+        if (properties.has_parts()) block->arm_a = block->arm_b += now.offset;
         set_least_speeds(*block);
         activate(bodies, slot);
         block->a = 0;
         block->b = slot + 1;
-        if (any_round_) block->set_roundings(0.0, properties.rounding);
+        if (any_round_) block->set_roundings(0.0, box.rounding);
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
@@ -373,13 +381,8 @@ template <BroadPhase broad_phase>
 SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pair& pair)
 {
     const Bodies& bodies = state.bodies;
-    const auto box_sweep = [&](BodyId id) {
-        const SweptBox& now = boxes_.at(bodies, id);
-        const Slot slot = bodies.slot_of[id];
-        const bool moves = slot < bodies.awake || (slot >= bodies.movable && slot < bodies.moving);
-        return BoxSweep{now.box, bodies.velocity.at(slot), moves ? now.reach : 0.0, now.radius};
-    };
-    return collide_swept(box_sweep(pair.a), box_sweep(pair.b), scales_.tick, pair.memory.axis);
+    const auto sweep = [&](PartId part) { return sweep_of(bodies, part, boxes_.at(bodies, part)); };
+    return collide_swept(sweep(pair.a), sweep(pair.b), scales_.tick, pair.memory.axis);
 }
 
 template <BroadPhase broad_phase>
@@ -408,86 +411,18 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         block->a = index_of_active(a);
         block->b = index_of_active(b);
         if (any_round_)
-            block->set_roundings(bodies.properties[a].rounding, bodies.properties[b].rounding);
+            block->set_roundings(boxes_.at(bodies, pair.a).box.rounding,
+                                 boxes_.at(bodies, pair.b).box.rounding);
         block->friction = material.friction;
         block->restitution = material.restitution;
-        const auto note = [&](SolverIndex body, const glm::dvec3& normal, BodyId other) {
+        const auto note = [&](SolverIndex body, const glm::dvec3& normal, PartId other,
+                              PartId own) {
             FirstTouch& first = integrations_[body].first_touch;
-            if (swept.first_touch < first.time) first = {swept.first_touch, normal, other};
+            if (swept.first_touch < first.time) first = {swept.first_touch, normal, other, own};
         };
-        note(block->a, block->normal, pair.b);
-        note(block->b, -block->normal, pair.a);
+        note(block->a, block->normal, pair.b, pair.a);
+        note(block->b, -block->normal, pair.a, pair.b);
     }
-}
-
-/// Finds the velocities of the active bodies at the end of the tick, without what their contacts
-/// have to change.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, WorldState& state)
-{
-    for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
-    // A torque is held for the tick, as last tick's contact forces are.
-    for (const BodyId body : state.twisted)
-        integrations_[state.bodies.slot_of[body] + 1].contact_angular_impulse +=
-            scales_.tick * state.torques[body];
-    integrate_hand_springs(config, state);
-    for (const Slot slot : active_.slots()) {
-        BodyIntegration& integration = integrations_[slot + 1];
-        if (!integration.has_hands)
-            integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
-        if (restitution_.is_needed()) begin_bounces(integration);
-    }
-}
-
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config, WorldState& state)
-{
-    const auto springs_of_all = hand_contacts_.springs();
-    for (std::size_t i = 0; i < springs_of_all.size(); ++i) {
-        const HandContacts::Spring& spring = springs_of_all[i];
-        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // done with that
-        const Slot slot = state.bodies.slot_of[spring.body];
-        activate(state.bodies, slot);
-        BodyIntegration& integration = integrations_[slot + 1];
-        if (integration.has_hands) continue;
-        const auto [springs, work] = hand_contacts_.springs_on(spring.body);
-        const std::span<FrictionSpring> frictions = hand_contacts_.frictions_on(spring.body);
-        integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, modes_[spring.hand], config, frictions});
-        hand_contacts_.store_impulses(spring.body);
-        if (!frictions.empty()) hand_contacts_.store_friction(state, spring.body);
-        if (integration.hands_are_braked) ++state.interventions.hands_braked;
-        state.tick_cost.spring_rows += integration.hand_rows;
-    }
-}
-
-/// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
-/// the mean velocities. Returns whether last tick's contact forces had to change for that.
-template <BroadPhase broad_phase>
-bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
-{
-    for (const Slot slot : active_.slots())
-        solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
-    for (ContactBlock& block : solver_.blocks()) {
-        set_centripetal_velocity(block, integrations_[block.a].start.spin,
-                                 integrations_[block.b].start.spin, scales_.tick);
-    }
-    const SolverOutcome outcome = solver_.solve_velocities(velocity_limits());
-    cost.contacts = solver_.blocks().size();
-    cost.visits += outcome.visits;
-    counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
-    counts_.sweeps = outcome.sweeps;
-    counts_.change = outcome.change;
-    if (!joints_.is_empty()) joints_.soften(solver_);
-    for (const Slot slot : active_.slots()) {
-        const BodyIntegration& integration = integrations_[slot + 1];
-        const BodyMotion& end = solver_.end_motion(slot + 1);
-        solver_.mean_motion(slot + 1) = {
-            integration.mean.velocity + 0.5 * (end.velocity - integration.predicted.velocity),
-            integration.mean.spin + 0.5 * (end.spin - integration.predicted.spin),
-            integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
-    }
-    return !outcome.in_balance;
 }
 
 /// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.
@@ -571,8 +506,10 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
-    if (continuous_.has_changed_any())
+    if (continuous_.has_changed_any()) {
         account_.settle_touches(energy_tick(config, state), continuous_);
+        account_.cut_ways(energy_tick(config, state), continuous_);
+    }
     state.tick_cost.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);

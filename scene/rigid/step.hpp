@@ -71,6 +71,10 @@ private:
     void collide_planes(const WorldConfig& config, WorldState& state);
     void collide_bodies(WorldState& state);
     bool solve_velocities(TickCost& cost);
+    void integrate_hand_springs_on(const WorldConfig& config, WorldState& state,
+                                   const HandContacts::Spring& spring);
+    void set_mean_motions();
+    void solve_anew_what_gains(const WorldConfig& config, WorldState& state);
     void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
     void correct_positions(WorldState& state);

@@ -187,6 +187,14 @@ void store_impulses(const ContactBlock& block, double weight, ContactMemory& mem
     memory.torsion_impulse *= room;
 }
 
+void forget_impulses(ContactBlock& block)
+{
+    block.impulse = {};
+    block.start_impulse = {};
+    block.start_push = {};
+    block.bounce_impulse = 0.0;
+}
+
 void scale_impulses(ContactBlock& block, double share)
 {
     for (double& impulse : block.impulse.normal) impulse *= share;

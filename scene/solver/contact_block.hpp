@@ -144,6 +144,9 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 /// two bodies takes.
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory);
 
+/// Starts from no impulses.
+void forget_impulses(ContactBlock& block);
+
 /// Takes but a share of its impulses.
 void scale_impulses(ContactBlock& block, double share);
 

@@ -99,6 +99,28 @@ SolverOutcome ContactSolver::solve_velocities(const SolverLimits& limits)
     return run({Mode::contacts, end_motions_.all(), limits});
 }
 
+SolverOutcome ContactSolver::solve_velocities_anew(const SolverLimits& limits,
+                                                   std::span<const std::uint8_t> picked)
+{
+    const Task task{Mode::contacts, end_motions_.all(), limits};
+    count_contacts();
+    find_islands();
+    for (double& change : changes_of_joints_.all()) change = 0.0;
+    SolverOutcome outcome{.sweeps = 1, .in_balance = false};
+    for (ContactBlock& block : blocks_.all()) {
+        block.change = 0.0;
+        if (picked[responding_of(block)] == 0) continue;
+        const bool has_no_other = is_alone(block);
+        block.change =
+            solve_block(block, task, has_no_other ? Effort::full : Effort::one_iteration);
+        ++outcome.visits;
+    }
+    const SolverOutcome rest = run_islands(task);
+    outcome.visits += rest.visits;
+    outcome.change = rest.change;
+    return outcome;
+}
+
 SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
 {
     const auto overlaps = [&](const ContactBlock& block) {
@@ -159,14 +181,23 @@ SolverOutcome ContactSolver::run(const Task& task)
     outcome.in_balance = outcome.change <= task.limits.converged;
     if (outcome.in_balance || !has_several()) return outcome;
     find_islands();
+    const SolverOutcome rest = run_islands(task);
+    outcome.sweeps = rest.sweeps;
+    outcome.visits += rest.visits;
+    outcome.change = rest.change;
+    return outcome;
+}
+
+/// Those that move share the visits evenly.
+SolverOutcome ContactSolver::run_islands(const Task& task)
+{
+    SolverOutcome outcome{.sweeps = 1};
     std::size_t moving = 0;
     for_moving_islands(task, [&](Island island) { moving += island.size(); });
-    // The visits are shared evenly.
     const std::size_t share = std::max<std::size_t>(
         sweeps_min, task.limits.visits_max / std::max<std::size_t>(moving, 1));
     Task its = task;
     its.limits.sweeps_max = std::min(its.limits.sweeps_max, static_cast<std::uint32_t>(share));
-    outcome.change = 0.0;
     for_moving_islands(task, [&](Island island) {
         const SolverOutcome one = run_island(its, island);
         const Island contacts = contacts_of(island);

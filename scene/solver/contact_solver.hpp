@@ -46,6 +46,11 @@ public:
 
     /// Whether impulses move it. What does not answer joins no bodies to an island.
     [[nodiscard]] bool responds(SolverIndex body) const { return body - 1 < responding_; }
+    /// One that responds of the block's bodies.
+    [[nodiscard]] SolverIndex responding_of(const ContactBlock& block) const
+    {
+        return responds(block.a) ? block.a : block.b;
+    }
     [[nodiscard]] bool is_kinematic(SolverIndex body) const { return body > responding_; }
 
     [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
@@ -66,6 +71,9 @@ public:
 
     /// Changes the impulses of the contacts and the velocities at the end of the tick.
     SolverOutcome solve_velocities(const SolverLimits& limits);
+    /// Once more, of the islands with `picked` bodies (1 at their solver index) and without joints.
+    SolverOutcome solve_velocities_anew(const SolverLimits& limits,
+                                        std::span<const std::uint8_t> picked);
     /// The same for the mean velocities, without friction, and impulses that begin at zero.
     SolverOutcome correct_positions(const SolverLimits& limits);
     /// Once more, when bodies answer otherwise.
@@ -92,6 +100,7 @@ private:
     SolverOutcome run(const Task& task);
     template <typename Do>
     void for_moving_islands(const Task& task, Do&& act);
+    SolverOutcome run_islands(const Task& task);
     SolverOutcome run_island(const Task& task, Island island);
     void save(const Task& task, Island island);
     void restore(const Task& task, Island island);

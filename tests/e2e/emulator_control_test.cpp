@@ -148,6 +148,17 @@ TEST_F(Controlled, RestoresByItselfWhatWasChangedForATime)
     a.send(emulator.a(), 1);
     EXPECT_EQ(b.receive(1, 1s).size(), 1U);
     EXPECT_EQ(asked({"show"})["live"], json::array());
+    const json statistics = emulator.stop();
+    ASSERT_EQ(statistics["changes"].size(), 2U);
+    const json& set = statistics["changes"][0];
+    EXPECT_EQ(set["generation"], 2);
+    EXPECT_EQ(set["by"], "hand");
+    EXPECT_EQ(set["effective_at"]["up"], 0);
+    EXPECT_EQ(set["settings"], (json{{"up.loss", "100%"}}));
+    EXPECT_EQ(statistics["changes"][1]["effective_at"]["up"], 1);
+    EXPECT_EQ(statistics["changes"][1]["settings"], (json{{"up.loss", "none"}}));
+    EXPECT_EQ(statistics["changes_omitted"], 0);
+    EXPECT_EQ(statistics["configuration_at_start"], statistics["configuration_at_end"]);
 }
 
 TEST_F(Controlled, ReadsItsProfileAgainOnAHangupAndKeepsTheOldOneWhenTheNewOneIsWrong)

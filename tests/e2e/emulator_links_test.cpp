@@ -128,7 +128,10 @@ TEST(EmulatorLinks, KeepThreePairsApart)
     EXPECT_EQ(statistics["links"]["wan"]["up"]["dropped"]["random_loss"], 1);
     EXPECT_EQ(statistics["links"]["1-3"]["down"]["received"], 2);
     EXPECT_EQ(statistics["up"]["received"], 3);
-    EXPECT_EQ(statistics["configuration"]["1-3"]["down"]["delay"], "60ms");
+    EXPECT_EQ(statistics["configuration_at_start"]["down"]["delay"], "20ms");
+    const auto& of_slow = statistics["links"]["1-3"];
+    EXPECT_EQ(of_slow["configuration_at_start"]["down"]["delay"], "60ms");
+    EXPECT_EQ(of_slow["configuration_at_end"], of_slow["configuration_at_start"]);
 }
 
 TEST(EmulatorLinks, HaveFatesThatAreDrawnByTheirNamesAndThatCanBeReplayed)
@@ -189,7 +192,44 @@ TEST(EmulatorLinks, ChangeTogetherOrOneByOneOverTheControlSocketAndAreWatchedThe
     const auto shown = run("hapnet-ctl", {emulator.folder.file("s"), "show"});
     EXPECT_NE(shown.out.find("[link.\"3-2\"]"), std::string::npos) << shown.out;
     EXPECT_EQ(run("hapnet-ctl", {emulator.folder.file("s"), "set", "1-3.delay", "1ms"}).exit, 2);
-    EXPECT_EQ(emulator.stop()["generation"], 2);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["generation"], 2);
+    const auto& link = statistics["links"]["2-3"];
+    ASSERT_EQ(link["changes"].size(), 1U);
+    EXPECT_EQ(link["changes"][0]["by"], "hand");
+    EXPECT_EQ(link["changes"][0]["effective_at"]["down"], 1);
+    EXPECT_EQ(link["changes"][0]["settings"],
+              (nlohmann::json{{"2-3.mtu", "1500B"}, {"3-2.delay", "50ms"}, {"3-2.mtu", "1500B"}}));
+    EXPECT_EQ(link["configuration_at_end"]["down"]["delay"], "50ms");
+    EXPECT_FALSE(statistics["links"]["1-2"]["changes"][0]["settings"].contains("2-1.delay"));
+}
+
+TEST(EmulatorLinks, AreCheckedVerifiedAndReportedOneByOne)
+{
+    TemporaryFolder folder;
+    LinksRunning emulator{{"1-2", "1-3"},
+                          {"--loss", "20%", "--set", "1-3.jitter=1ms", "--seed", "5", "--fates",
+                           folder.file("fates.csv"), "--require", "links.1-3.up.received>=301",
+                           "--require", "links.1-2.up.received<1"}};
+    emulator.introduce();
+    stream_through(emulator, 300);
+    EXPECT_TRUE(comes_true([&] { return emulator.ctl({"stats"})["up"]["received"] == 602; }));
+    EXPECT_TRUE(comes_true([&] { return emulator.ctl({"stats"})["down"]["received"] == 602; }));
+    EXPECT_EQ(run("hapnet-ctl", {emulator.folder.file("s"), "stop"}).exit, 0);
+    EXPECT_EQ(emulator.process->wait_exit(10s), 1) << emulator.process->err();
+    EXPECT_NE(emulator.process->err().find("NOT MET: links.1-2.up.received<1"), std::string::npos);
+    EXPECT_EQ(emulator.process->err().find("NOT MET: links.1-3"), std::string::npos);
+    const auto stats = emulator.folder.file("stats.json");
+    const auto page = folder.file("run.html");
+    const auto reported = run("hapnet-emulator", {"report", stats, "--link", "1-3", "--out", page});
+    EXPECT_EQ(reported.exit, 0) << reported.err;
+    EXPECT_NE(text_of(page).find("An emulated path, 1-3"), std::string::npos);
+    EXPECT_NE(text_of(page).find("up: seed"), std::string::npos) << text_of(page);
+    EXPECT_EQ(run("hapnet-emulator", {"verify", stats, "--link", "1-3"}).exit, 0);
+    expect_refusal(run("hapnet-emulator", {"report", stats, "--out", page}), 2,
+                   {"name one with --link", "1-2, 1-3"});
+    expect_refusal(run("hapnet-emulator", {"report", stats, "--link", "2-3", "--out", page}), 2,
+                   {"has no path '2-3'"});
 }
 
 TEST(EmulatorLinks, AreNeverOpenAndNeverSendToThemselves)

@@ -102,7 +102,7 @@ TEST(Emulator, ForwardsBothWaysAndDelaysEachByItsOwnDelay)
     EXPECT_EQ(statistics["up"]["bytes_out"], 100'000);
     EXPECT_EQ(statistics["up"]["reordered"], 0);
     EXPECT_EQ(statistics["down"]["delivered"], 500);
-    EXPECT_EQ(statistics["configuration"]["down"]["delay"], "40ms");
+    EXPECT_EQ(statistics["configuration_at_start"]["down"]["delay"], "40ms");
     EXPECT_TRUE(statistics["up"]["lateness_us"]["p99"].is_number());
 }
 

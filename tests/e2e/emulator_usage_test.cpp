@@ -40,7 +40,7 @@ TEST(EmulatorUsage, PrintsHelpWithEveryOptionAndExamples)
           "--corrupt",  "--reorder",  "--rate",       "--mtu",      "--profile",   "--netem",
           "--seed",     "--stats",    "--duration",   "--timing",   "--fates",     "--replay",
           "--pcap",     "--control",  "check",        "predict",    "verify",      "--budget",
-          "--version",  "Examples",   "160ms",        "Exit codes"}) {
+          "--version",  "report",     "--require",    "Examples",   "160ms",       "Exit codes"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }
@@ -172,11 +172,39 @@ TEST(EmulatorUsage, WritesStatisticsToStdoutForADash)
     const auto outcome = run_with({"--stats", "-", "--loss", "5%", "--up.loss", "7%"});
     EXPECT_EQ(outcome.exit, 0);
     const auto statistics = nlohmann::json::parse(outcome.out.substr(outcome.out.find('\n')));
-    EXPECT_EQ(statistics["configuration"]["up"]["loss"], "7%");
-    EXPECT_EQ(statistics["configuration"]["down"]["loss"], "5%");
+    EXPECT_EQ(statistics["configuration_at_start"]["up"]["loss"], "7%");
+    EXPECT_EQ(statistics["configuration_at_start"]["down"]["loss"], "5%");
     EXPECT_EQ(statistics["seed"], 1);
     EXPECT_EQ(statistics["budget_us"], 1000.0);
     EXPECT_TRUE(statistics["valid"].get<bool>());
+}
+
+TEST(EmulatorUsage, FailsWhereTheRunDoesNotMeetWhatItRequires)
+{
+    TemporaryFolder folder;
+    const std::string profile = folder.file("profile.toml");
+    std::ofstream{profile} << "[[check]]\nrequire = \"down.received>=7\"\n";
+    const auto outcome = run_with({"--require", "up.received>=1000", "--require", "valid==true",
+                                   "--profile", profile, "--stats", "-"});
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_NE(outcome.err.find("NOT MET: up.received>=1000 is required, and it is 0\n"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("NOT MET: down.received>=7"), std::string::npos);
+    EXPECT_EQ(outcome.err.find("valid=="), std::string::npos);
+    const auto statistics = nlohmann::json::parse(outcome.out.substr(outcome.out.find('\n')));
+    ASSERT_EQ(statistics["checks"].size(), 3U);
+    EXPECT_EQ(statistics["checks"][2]["met"], true);
+    EXPECT_EQ(run_with({"--require", "up.received==0"}).exit, 0);
+}
+
+TEST(EmulatorUsage, RefusesARequirementThatNoStatisticsCanMeet)
+{
+    expect_refusal(run_with({"--require", "up.recieved>=1"}), 2, {"recieved", "received"});
+    expect_refusal(run_with({"--require", "up.received"}), 2, {"--require", "up.received>1000"});
+    expect_refusal(run("hapnet-emulator", {"--listen", "127.0.0.1:0", "--upstream", "127.0.0.1:9",
+                                           "--require", "client>1", "--duration", "50ms"}),
+                   2, {"clients"});
 }
 
 TEST(EmulatorUsage, EndsCleanlyOnEitherSignalWithItsStatisticsWritten)

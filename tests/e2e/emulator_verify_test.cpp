@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -82,6 +83,41 @@ TEST(EmulatorVerify, NamesTheFileThatItCannotUse)
     const auto outcome = verify(folder);
     EXPECT_EQ(outcome.exit, 2);
     EXPECT_NE(outcome.err.find("fates.csv"), std::string::npos) << outcome.err;
+}
+
+TEST(EmulatorReport, MakesAPageOfARunWithTheTestsOfItsFates)
+{
+    const TemporaryFolder folder;
+    write_run(folder, "0101");
+    const std::string path = folder.file("run.json");
+    const std::string page = folder.file("run.html");
+    std::ofstream{path} << nlohmann::json{
+        {"fates", folder.file("fates.csv")},
+        {"profile", "name = \"every other\"\nup.loss = { law = \"pattern\", pattern = \"01\" }"},
+        {"valid", true},
+        {"up", {{"received", 4}}},
+        {"down", {{"received", 0}}}};
+    const auto outcome = run("hapnet-emulator", {"report", path, "--out", page});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    std::ifstream file{page};
+    const std::string html{std::istreambuf_iterator<char>{file}, {}};
+    EXPECT_NE(html.find("<title>every other</title>"), std::string::npos);
+    EXPECT_NE(html.find("datagrams 1 to 1: 1 of 1 lost"), std::string::npos);
+    EXPECT_NE(html.find("No test speaks against its laws"), std::string::npos);
+    EXPECT_TRUE(html.ends_with("</html>\n"));
+}
+
+TEST(EmulatorReport, NamesTheFileThatItCannotUse)
+{
+    const TemporaryFolder folder;
+    write_run(folder, "0101");
+    const std::string page = folder.file("run.html");
+    const auto missing = run("hapnet-emulator", {"report", folder.file("no.json"), "--out", page});
+    EXPECT_EQ(missing.exit, 2);
+    EXPECT_NE(missing.err.find("no.json"), std::string::npos) << missing.err;
+    const auto other = run("hapnet-emulator", {"report", folder.file("fates.csv"), "--out", page});
+    EXPECT_EQ(other.exit, 2);
+    EXPECT_NE(other.err.find("--stats"), std::string::npos) << other.err;
 }
 
 } // namespace hapnet::e2e

@@ -30,13 +30,35 @@ TEST(PeerUsage, PrintsHelpWithEveryOptionAndExamples)
 {
     const auto outcome = run("hapnet-peer", {"--help"});
     EXPECT_EQ(outcome.exit, 0);
-    for (const char* word :
-         {"--id",         "--force-limit",  "--listen",     "--remote",    "--device",
-          "--scene",      "--grip-damping", "--task",       "--algorithm", "--seed",
-          "--key",        "--duration",     "--record",     "--stats",     "--control",
-          "--insecure",   "--version",      "Examples",     "P1",          "T1",
-          "T3",           "Exit codes",     "list-devices", "doctor",      "self-test",
-          "--mount-scale"}) {
+    for (const char* word : {"--id",
+                             "--force-limit",
+                             "--listen",
+                             "--remote",
+                             "--device",
+                             "--scene",
+                             "--grip-damping",
+                             "--task",
+                             "--algorithm",
+                             "--seed",
+                             "--key",
+                             "--duration",
+                             "--record",
+                             "--stats",
+                             "--control",
+                             "--insecure",
+                             "--no-roam",
+                             "--peer",
+                             "keygen",
+                             "--version",
+                             "Examples",
+                             "P1",
+                             "T1",
+                             "T3",
+                             "Exit codes",
+                             "list-devices",
+                             "doctor",
+                             "self-test",
+                             "--mount-scale"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }
@@ -111,14 +133,10 @@ TEST(PeerUsage, PrintsAnAlgorithmThatItTakesFromAFileAgain)
     std::filesystem::remove(file);
 }
 
-TEST(PeerUsage, RefusesKeysUntilThereAreAny)
-{
-    expect_refusal(run_peer_with({"--key", "secret"}), 2, {"--key", "not available", "--insecure"});
-}
-
 TEST(PeerUsage, PlaysOverARealNetworkOnlyWhenToldThatItIsInsecure)
 {
-    expect_refusal(run("hapnet-peer", {"--remote", "192.0.2.1:7000"}), 2, {"--insecure"});
+    expect_refusal(run("hapnet-peer", {"--remote", "192.0.2.1:7000"}), 2,
+                   {"--key", "keygen", "--insecure"});
     expect_refusal(run_peer_with({"--listen", "0.0.0.0:0"}), 2, {"--insecure"});
 }
 

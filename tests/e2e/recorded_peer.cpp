@@ -201,9 +201,9 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
                              .task = wire::TaskName::from_text("P1").value()};
     peer::Side side{settings};
     peer::loop::Watchdog watchdog{rig.device(), &crash};
-    peer::loop::Servo servo{{side, rig, socket,
-                             net::resolve(net::parse_host_port(asked.remote).value()), journal,
-                             watchdog, gate}};
+    const net::Endpoint remote = net::resolve(net::parse_host_port(asked.remote).value());
+    peer::line::Line line{remote.packed()};
+    peer::loop::Servo servo{{side, rig, socket, remote, line, journal, watchdog, gate}};
     const peer::Options unused;
     std::optional<control::Server> server;
     std::optional<peer::monitor::ControlSession> control_session;

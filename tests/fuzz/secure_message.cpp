@@ -52,11 +52,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         while (const auto out = a->poll()) {
             genuine.emplace_back(out->frame.bytes().begin(), out->frame.bytes().end());
             auto copy = genuine.back();
-            b->on_datagram(copy, {}, {now, 2});
+            b->on_datagram(copy, {}, now);
         }
         while (const auto out = b->poll()) {
             std::vector<std::byte> copy(out->frame.bytes().begin(), out->frame.bytes().end());
-            a->on_datagram(copy, {}, {now, 1});
+            a->on_datagram(copy, {}, now);
         }
         std::vector<std::byte> hello(101 + secure::control_overhead);
         base::ByteWriter head{hello};
@@ -66,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (const auto sealed = a->seal(hello, 101, now)) {
             hello.resize(*sealed);
             genuine.push_back(hello);
-            b->on_datagram(hello, {}, {now, 2});
+            b->on_datagram(hello, {}, now);
         }
     }
     base::ensure(b->has_key(now));
@@ -78,7 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             changed[i] ^= datagram[i];
         datagram = changed;
     }
-    const auto opened = b->on_datagram(datagram, {}, {now, 2});
+    const auto opened = b->on_datagram(datagram, {}, now);
     base::ensure(!opened); // what was left as it was has come before
     for (int i = 0; i < 5; ++i) b->tick({now += 1ms, 2});
     return 0;

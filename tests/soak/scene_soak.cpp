@@ -48,10 +48,11 @@ void report(const Tally& tally)
     fmt::print(
         "  guards: {} in {:.2g} of the ticks: {} islands limited, {} ways cut, {} budgets "
         "spent; mechanisms: {} impulses trimmed, {} hands braked, {} bounces limited, {} sweeps "
-        "continued, {} clusters stuck\n",
+        "continued, {} clusters stuck, {} islands solved anew\n",
         done.guards(), static_cast<double>(done.guards()) / static_cast<double>(tally.ticks),
         done.islands_limited, done.paths_cut, done.budgets_spent, done.impulses_trimmed,
-        done.hands_braked, done.bounces_limited, done.sweeps_continued, done.clusters_stuck);
+        done.hands_braked, done.bounces_limited, done.sweeps_continued, done.clusters_stuck,
+        done.islands_anew);
     std::fflush(stdout);
 }
 
@@ -70,8 +71,9 @@ int main(int argc, char** argv)
         return 0;
     }
     const bool joints = arguments.size() == 3 && arguments[2] == "joints";
-    if (arguments.size() != 2 && !joints) {
-        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints]\n"
+    const bool compounds = arguments.size() == 3 && arguments[2] == "compounds";
+    if (arguments.size() != 2 && !joints && !compounds) {
+        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints|compounds]\n"
                            "       soak_scene --worst FIRST COUNT [BODIES]\n");
         return 2;
     }
@@ -80,7 +82,8 @@ int main(int argc, char** argv)
     constexpr std::uint64_t often = 10'000;
     Tally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const auto play = hapnet::test::random_play(seed, {.joints = joints});
+        const auto play =
+            hapnet::test::random_play(seed, {.joints = joints, .compounds = compounds});
         const auto outcome = hapnet::test::judge(play, seed);
         ++tally.played;
         tally.ticks += play.ticks.size();

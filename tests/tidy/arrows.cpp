@@ -21,6 +21,7 @@ const std::vector<Folder>& map()
     static const std::vector<Folder> folders{
         {"proto/base", true, {}},
         {"proto/cli", false, {"proto/base"}},
+        {"proto/plot", true, {"proto/base"}},
         {"proto/wire", true, {"proto/base"}},
         {"proto/secure/keys", false, {"proto/secure"}},
         {"proto/secure", true, {"proto/base"}},
@@ -30,7 +31,7 @@ const std::vector<Folder>& map()
         {"proto/control", false, {"proto/control/core", "proto/net"}},
         {"scene", true, {"proto/base"}},
         {"emulator/core", true, {"proto/base"}},
-        {"emulator/tools", true, {"emulator/core"}},
+        {"emulator/tools", true, {"emulator/core", "proto/plot"}},
         {"emulator/control", true, {"emulator/core", "proto/control/core"}},
         {"emulator", false, {"emulator/tools", "emulator/control", "proto/control", "proto/cli"}},
         {"ctl", false, {"proto/net", "proto/cli"}},
@@ -44,14 +45,17 @@ const std::vector<Folder>& map()
         {"device/omni1394/transport", false, {"device"}},
         {"device", true, {"proto/base"}},
         {"peer/core", true, {"scene", "proto/wire", "proto/record", "device"}},
+        {"peer/line", true, {"proto/wire", "proto/secure"}},
         {"peer/control", true, {"proto/control/core"}},
         {"peer",
          false,
-         {"peer/core", "peer/control", "device/catalogue", "proto/record", "proto/control",
-          "proto/cli"}},
+         {"peer/core", "peer/line", "peer/control", "device/catalogue", "proto/record",
+          "proto/secure/keys", "proto/control", "proto/cli"}},
         {"lab/cli", false, {"lab/runner", "proto/cli"}},
         {"lab/runner", false, {"lab", "proto/net"}},
-        {"lab", true, {"emulator/tools", "peer/core", "proto/record", "device"}},
+        {"lab",
+         true,
+         {"emulator/tools", "peer/core", "peer/line", "proto/plot", "proto/record", "device"}},
     };
     return folders;
 }

@@ -135,8 +135,10 @@ const std::vector<KeyTable>& tables()
         {"task-options", rows_of<device::TaskOptions>()},
         {"delay-laws", grouped("law", emulator::Variation{}.law)},
         {"loss-laws", grouped("law", emulator::LossLaw{})},
-        {"stages", grouped<emulator::Mtu, emulator::Rate, emulator::Corruption,
-                           emulator::Duplication, emulator::Reordering>("stage")},
+        {"stages",
+         grouped<emulator::Mtu, emulator::Rate, emulator::QueueControl, emulator::Corruption,
+                 emulator::Duplication, emulator::Reordering>("stage")},
+        {"rate-trace", rows_of<emulator::RateTraceLaw>()},
         {"scene", rows_of<scene::Description>()},
         {"hips", rows_of<scene::HandDescription>()},
         {"hand", rows_of<scene::Feel>()},
@@ -147,6 +149,7 @@ const std::vector<KeyTable>& tables()
         {"spring", rows_of<scene::text::Spring>()},
         {"plane", rows_of<scene::PlaneDescription>()},
         {"body", rows_of<scene::BodyDescription, scene::text::Density>()},
+        {"part", rows_of<scene::PartDescription>()},
         {"array", rows_of<scene::text::Array>()},
         {"experiment", base::markdown(base::key_rows<lab::experiment::Experiment>(
                            "", lab::experiment::usual_experiment()))},
@@ -164,8 +167,8 @@ const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
         "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
-        "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "EnergyLimits", "WrittenCorner",
-        "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
+        "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "EnergyLimits",
+        "WrittenCorner", "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "Metrics", "Table1Row", "TaskRow", "LimitRow",
         "SensitivityRow", "Judged", "CurveRow", "QosRow", "TrajectoryRow", "RealTimeRow",
@@ -187,6 +190,8 @@ const std::set<std::string>& with_table()
                                              "Corruption",
                                              "Duplication",
                                              "Reordering",
+                                             "RateTraceLaw",
+                                             "QueueControl",
                                              "Description",
                                              "HandDescription",
                                              "Feel",
@@ -197,6 +202,7 @@ const std::set<std::string>& with_table()
                                              "Spring",
                                              "PlaneDescription",
                                              "BodyDescription",
+                                             "PartDescription",
                                              "Density",
                                              "Array",
                                              "Criteria",

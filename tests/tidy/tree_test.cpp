@@ -6,6 +6,7 @@
 #include "tests/tidy/source_tree.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <gtest/gtest.h>
 
 namespace hapnet::tidy {
@@ -114,6 +115,50 @@ TEST(Pages, HaveNoCommandThatNoTestRuns)
         return is_page(file) ? commands_not_run(file, file_at("tests/e2e/CMakeLists.txt"))
                              : std::vector<std::string>{};
     });
+}
+
+/// The tests that a line of a page names in backquotes: `Suite.Test`.
+std::vector<std::string> tests_named_in(const std::string& line)
+{
+    std::vector<std::string> named;
+    for (std::size_t begin = line.find('`'); begin != std::string::npos;) {
+        const std::size_t end = line.find('`', begin + 1);
+        if (end == std::string::npos) break;
+        const std::string word = line.substr(begin + 1, end - begin - 1);
+        const std::size_t dot = word.find('.');
+        const bool is_test = dot != std::string::npos && dot + 1 < word.size() && dot > 0 &&
+                             std::isupper(static_cast<unsigned char>(word.front())) != 0 &&
+                             std::isupper(static_cast<unsigned char>(word[dot + 1])) != 0;
+        if (is_test) named.push_back(word);
+        begin = line.find('`', end + 1);
+    }
+    return named;
+}
+
+bool is_a_test(const std::string& name)
+{
+    const std::size_t dot = name.find('.');
+    const std::string words = '(' + name.substr(0, dot) + ", " + name.substr(dot + 1) + ')';
+    return std::any_of(tree().begin(), tree().end(), [&](const SourceFile& file) {
+        return file.is_in("tests") &&
+               std::any_of(file.lines.begin(), file.lines.end(), [&](const std::string& line) {
+                   return line.starts_with("TEST") && line.find(words) != std::string::npos;
+               });
+    });
+}
+
+TEST(Pages, NameATestForEveryAttack)
+{
+    std::size_t attacks = 0;
+    for (const std::string& line : file_at("docs/design/security.md").lines) {
+        const bool is_row = line.starts_with("| ") && !line.starts_with("| attack |");
+        if (!is_row) continue;
+        ++attacks;
+        const auto named = tests_named_in(line);
+        EXPECT_FALSE(named.empty()) << line;
+        for (const std::string& name : named) EXPECT_TRUE(is_a_test(name)) << name;
+    }
+    EXPECT_GT(attacks, 10U);
 }
 
 TEST(Words, ThatAreRetiredAreGone)

@@ -41,7 +41,7 @@ concept DelaySamplerOf = std::constructible_from<Sampler, const Law&> &&(
     requires(Sampler sampler) {
         requires std::same_as<decltype(sampler.quantile(0.5)), base::Duration>;
     } ||
-    requires(const Sampler sampler, const Packet& packet) {
+    requires(Sampler sampler, const Packet& packet) {
         requires std::same_as<decltype(sampler.at(packet)), base::Duration>;
     });
 

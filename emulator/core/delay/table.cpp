@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/delay/table.hpp"
 
-#include "emulator/core/delay/rows.hpp"
+#include "emulator/core/trace/rows.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -130,12 +130,13 @@ base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view t
 
 base::Result<std::shared_ptr<const QuantileTable>> parse_samples(std::string_view text)
 {
-    const auto rows = read_delay_rows(text);
+    const auto rows = read_trace_rows(text, Measure::delay);
     if (!rows) return base::fail(rows.error().message);
+    const auto delays = rows->delays();
     std::vector<double> values;
-    values.reserve(rows->delays.size());
-    for (const base::Duration delay : rows->delays) {
-        values.push_back(static_cast<double>(delay.count()));
+    values.reserve(delays.size());
+    for (std::size_t i = 0; i < delays.size(); ++i) {
+        if (!rows->lost[i]) values.push_back(static_cast<double>(delays[i].count()));
     }
     return std::make_shared<const QuantileTable>(std::move(values),
                                                  QuantileTable::Unit::nanoseconds);

@@ -4,11 +4,15 @@
 
 #include "emulator/core/delay/bounds.hpp"
 #include "emulator/core/packet.hpp"
+#include "emulator/core/trace/rows.hpp"
+#include "emulator/core/trace/timing.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +22,9 @@ namespace hapnet::emulator {
 /// Delays as they were recorded, one after the other.
 ///
 /// By packet: value n is the delay of datagram n, and after the last value the first one follows.
-/// By time: a value holds from its time since the run began until that of the next one, without
-/// interpolation. The last one holds as long as the one before it, then the first one follows;
-/// a single one holds for ever.
+/// By time: a value holds from its time until that of the next one, or goes there in a straight
+/// line. The last one lasts as long as the one before it, then the first one follows; a single one
+/// holds for ever.
 class DelayTrace {
 public:
     /// By packet; at least one.
@@ -29,9 +33,14 @@ public:
     /// By time: as many times as delays, ascending from 0.
     DelayTrace(std::vector<base::Duration> delays, std::vector<base::Duration> times);
 
-    [[nodiscard]] base::Duration at(const Packet& packet) const;
+    /// Of datagram `number`, by packet; without repetition the last value holds.
+    [[nodiscard]] base::Duration of(std::uint64_t number, bool repeats = true) const;
 
-    [[nodiscard]] bool is_by_time() const { return !times_.empty(); }
+    /// At a time since the trace began, by time.
+    [[nodiscard]] base::Duration at(base::Duration time, Interpolation way = Interpolation::step,
+                                    bool repeats = true) const;
+
+    [[nodiscard]] bool is_by_time() const { return axis_.has_value(); }
 
     /// In the order of the trace.
     [[nodiscard]] const std::vector<base::Duration>& delays() const { return delays_; }
@@ -43,8 +52,7 @@ public:
 
 private:
     std::vector<base::Duration> delays_;
-    std::vector<base::Duration> times_; // empty: by packet
-    base::Duration period_{};           // by time; 0: it has only one value
+    std::optional<TimeAxis> axis_; // nullopt: by packet
 };
 
 /// Read off a trace instead of drawn: value n for datagram n, or the value at its time; either
@@ -52,6 +60,9 @@ private:
 struct TraceLaw {
     std::string file;
     std::shared_ptr<const DelayTrace> trace; // never null
+    std::string columns{};
+    Interpolation interpolate = Interpolation::step;
+    TraceTiming timing{};
 
     class Sampler;
 
@@ -65,7 +76,7 @@ struct TraceLaw {
         base::Duration delay;
         double share;
     };
-    /// The distribution function; ascending, the last share is 1.
+    /// The distribution function; ascending, the last share is 1. Straight lines count as 16 steps.
     [[nodiscard]] std::vector<Step> steps() const;
 
     /// By its contents: the same file read twice is the same law.
@@ -76,23 +87,37 @@ constexpr auto fields_of(base::Tag<TraceLaw>)
 {
     return base::fields(
         "trace",
-        base::field("file", &TraceLaw::file, "recorded delays, by datagram or by time").required());
+        base::field("file", &TraceLaw::file, "recorded delays, by datagram or by time").required(),
+        base::field("columns", &TraceLaw::columns,
+                    "columns of CSV with other names: \"time=stamp:s, delay=rtt:ms\""),
+        base::field("interpolate", &TraceLaw::interpolate,
+                    "by time: a value holds until the next one, or goes there in a straight line"),
+        base::part(&TraceLaw::timing));
 }
 
 class TraceLaw::Sampler {
 public:
     explicit Sampler(const TraceLaw& law);
 
-    [[nodiscard]] base::Duration at(const Packet& packet) const { return trace_->at(packet); }
+    [[nodiscard]] base::Duration at(const Packet& packet)
+    {
+        const bool repeats = clock_.timing().repeat;
+        if (!trace_->is_by_time()) return trace_->of(packet.number, repeats);
+        return trace_->at(clock_.on_packet(packet.at), interpolate_, repeats);
+    }
+
+    /// The same trace goes on.
+    void change(const TraceLaw& law);
 
 private:
     std::shared_ptr<const DelayTrace> trace_;
+    Interpolation interpolate_;
+    TraceClock clock_;
 };
 
-/// Reads a trace: by packet from one delay with its unit per line or from CSV with a column
-/// delay_ns, delay_us, delay_ms or delay_s; by time from CSV that also has a column time_ns, ...,
-/// time_s, ascending from 0. At most QuantileTable::values_max values. Errors name the line.
+/// Reads a trace (see read_trace_rows): by time from CSV that has a column of times, else by
+/// packet. The error names the line.
 [[nodiscard]] base::Result<std::shared_ptr<const DelayTrace>>
-parse_delay_trace(std::string_view text);
+parse_delay_trace(std::string_view text, const Columns& columns = {});
 
 } // namespace hapnet::emulator

@@ -13,6 +13,7 @@
 #include "emulator/core/loss/periodic.hpp"
 #include "emulator/core/loss/random.hpp"
 #include "emulator/core/loss/theory.hpp"
+#include "emulator/core/loss/timed_trace.hpp"
 #include "emulator/core/loss/trace.hpp"
 #include "emulator/core/packet.hpp"
 #include "proto/base/random.hpp"
@@ -31,9 +32,9 @@ namespace hapnet::emulator {
 
 /// The laws, as a person states them. A law that advances by datagrams counts every datagram of its
 /// direction, whatever other laws do to them.
-using LossLaw =
-    std::variant<RandomLoss, BlockLoss, PeriodicLoss, Burst, TimedBurst, Gilbert, GilbertElliott,
-                 TimedGilbertElliott, FourState, ListedLoss, PatternLoss, TraceLoss, Outage>;
+using LossLaw = std::variant<RandomLoss, BlockLoss, PeriodicLoss, Burst, TimedBurst, Gilbert,
+                             GilbertElliott, TimedGilbertElliott, FourState, ListedLoss,
+                             PatternLoss, TraceLoss, TimedTraceLoss, Outage>;
 
 /// A law at work: made from the law and a stream, shown every datagram in the order of their
 /// numbers, says whether it is lost, and may be changed to other numbers. One with states also has

@@ -83,10 +83,21 @@ base::Result<LossTrace> parse_loss_trace(std::string_view text)
     return trace_of(std::move(lost));
 }
 
-base::Result<LossTrace> parse_loss_table(std::string_view text)
+base::Result<LossTrace> parse_loss_table(std::string_view text, const Columns& columns)
 {
-    const auto column = column_of(take_line(text), "lost");
-    if (!column) return base::fail("line 1: there is no column named 'lost'");
+    const auto named = std::find_if(columns.begin(), columns.end(),
+                                    [](const Column& one) { return one.what == "lost"; });
+    const std::string name = named == columns.end() ? "lost" : named->name;
+    const std::string_view whole = text;
+    const auto column = column_of(take_line(text), name);
+    if (!column) {
+        auto delays = read_trace_rows(whole, Measure::delay, columns);
+        if (delays) return trace_of(std::move(delays->lost));
+        const bool has_delays = std::any_of(columns.begin(), columns.end(),
+                                            [](const Column& one) { return one.what == "delay"; });
+        if (has_delays) return tl::unexpected{delays.error()};
+        return base::fail(fmt::format("line 1: there is no column named '{}'", shortened(name)));
+    }
     std::vector<bool> lost;
     for (std::size_t number = 2; !text.empty(); ++number) {
         const auto value = cell(take_line(text), *column);
@@ -102,12 +113,14 @@ base::Result<LossTrace> parse_loss_table(std::string_view text)
 
 base::Result<void> TraceLoss::load(const base::Reading& reading)
 {
+    const auto named = parse_columns(columns);
+    if (!named) return base::fail(fmt::format("columns: {}", named.error().message));
     const auto text = reading.open(file);
     if (!text) return tl::unexpected{text.error()};
     // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
     const bool is_table =
         text->find_first_of(",abcdefghijklmnopqrstuvwxyz") < text->find_first_of("01#");
-    auto read = is_table ? parse_loss_table(*text) : parse_loss_trace(*text);
+    auto read = is_table ? parse_loss_table(*text, *named) : parse_loss_trace(*text);
     if (!read) return base::fail(fmt::format("{}: {}", file, read.error().message));
     trace = std::make_shared<const LossTrace>(*std::move(read));
     return {};
@@ -132,7 +145,7 @@ std::vector<LossProperty> TraceLoss::properties(const RunFacts& facts) const
 
 bool operator==(const TraceLoss& a, const TraceLoss& b)
 {
-    if (a.file != b.file) return false;
+    if (a.file != b.file || a.columns != b.columns) return false;
     return a.trace == b.trace || (a.trace && b.trace && *a.trace == *b.trace);
 }
 

@@ -4,6 +4,7 @@
 
 #include "emulator/core/loss/theory.hpp"
 #include "emulator/core/packet.hpp"
+#include "emulator/core/trace/rows.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 
@@ -39,13 +40,16 @@ private:
 /// nothing, and '#' begins a comment. Errors name the line.
 [[nodiscard]] base::Result<LossTrace> parse_loss_trace(std::string_view text);
 
-/// The column `lost` (0 or 1) of a table with a header line and commas.
-[[nodiscard]] base::Result<LossTrace> parse_loss_table(std::string_view text);
+/// The column `lost` (0 or 1), or the one that `columns` names, of a table with a header line and
+/// commas; without one, the delays that say that a datagram was lost (see read_trace_rows).
+[[nodiscard]] base::Result<LossTrace> parse_loss_table(std::string_view text,
+                                                       const Columns& columns = {});
 
 /// The losses of a recorded run; begins again at its end.
 struct TraceLoss {
     std::string file;
     std::shared_ptr<const LossTrace> trace; // never null
+    std::string columns{};
 
     static constexpr DropCause cause = DropCause::trace_loss;
     static constexpr bool is_in_time = false;
@@ -64,9 +68,13 @@ struct TraceLoss {
 constexpr auto fields_of(base::Tag<TraceLoss>)
 {
     return base::fields(
-        "trace", base::field("file", &TraceLoss::file,
-                             "a file of 0 (arrived) and 1 (lost), or CSV with a column `lost`")
-                     .required());
+        "trace",
+        base::field("file", &TraceLoss::file,
+                    "a file of 0 (arrived) and 1 (lost), CSV with a column `lost`, or delays of "
+                    "which some say `lost`")
+            .required(),
+        base::field("columns", &TraceLoss::columns,
+                    "columns of CSV with other names: \"lost=gone\" or \"delay=rtt:ms\""));
 }
 
 class TraceLoss::Model {

@@ -127,6 +127,7 @@ Profile joined(std::span<const NamedProfile> profiles)
     if (profiles.empty()) return all;
     all.name = profiles.front().profile.name;
     all.seed = profiles.front().profile.seed;
+    all.checks = profiles.front().profile.checks;
     // A change by its time, its ramp, and which of those of one path that have both alike.
     using Key = std::tuple<base::Duration, std::size_t, base::Duration>;
     std::map<Key, std::vector<PathPatch>> changes;

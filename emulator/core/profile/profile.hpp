@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
+#include "proto/base/condition.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
@@ -37,10 +38,11 @@ struct Change {
 /// Everything that a profile file says.
 struct Profile {
     std::string name;
-    std::optional<base::Seed> seed; // nullopt: the file does not say
-    Path path;                      // at the beginning
-    std::vector<Change> timeline;   // ascending in time
-    std::vector<PathPatch> paths{}; // ascending by their names
+    std::optional<base::Seed> seed;        // nullopt: the file does not say
+    Path path;                             // at the beginning
+    std::vector<Change> timeline;          // ascending in time
+    std::vector<PathPatch> paths{};        // ascending by their names
+    std::vector<base::Condition> checks{}; // what the statistics of a run must meet in the end
 
     friend bool operator==(const Profile&, const Profile&) = default;
 };

@@ -107,10 +107,16 @@ std::optional<Reordering> between(const Reordering& a, const Reordering& b, doub
 
 std::optional<Mtu> between(const Mtu& a, const Mtu& b, double) { return only_equal(a, b); }
 
+std::optional<QueueControl> between(const QueueControl& a, const QueueControl& b, double)
+{
+    return only_equal(a, b);
+}
+
 std::optional<Order> between(Order a, Order b, double) { return only_equal(a, b); }
 
 std::optional<Rate> between(const Rate& a, const Rate& b, double progress)
 {
+    if (a.trace || b.trace) return only_equal(a, b);
     if ((a.bits_per_second > 0) != (b.bits_per_second > 0)) return std::nullopt;
     return base::between(a, b, progress);
 }
@@ -139,8 +145,12 @@ std::string obstacle(const std::vector<LossLaw>& a, const std::vector<LossLaw>& 
                        a.empty() ? "from" : "to");
 }
 
-std::string obstacle(const Rate&, const Rate&) { return " from or to none"; }
+std::string obstacle(const Rate& a, const Rate& b)
+{
+    return a.trace || b.trace ? " from or to a trace" : " from or to none";
+}
 std::string obstacle(const Mtu&, const Mtu&) { return ""; }
+std::string obstacle(const QueueControl&, const QueueControl&) { return ""; }
 std::string obstacle(Order, Order) { return ""; }
 
 } // namespace

@@ -40,6 +40,7 @@ constexpr std::array examples{
     LawExample{"loss", "list", R"({ law = "list", numbers = [3, 17] })"},
     LawExample{"loss", "pattern", R"({ law = "pattern", pattern = "0001" })"},
     LawExample{"loss", "trace", R"({ law = "trace", file = "losses.csv" })"},
+    LawExample{"loss", "timed-trace", R"({ law = "timed-trace", file = "losses.csv" })"},
     LawExample{"loss", "outage", R"({ law = "outage", windows = [["10s", "12s"]] })"},
     LawExample{"delay", "constant", R"({ law = "constant", value = "80ms" })"},
     LawExample{"delay", "uniform", R"({ law = "uniform", half_width = "5ms" })"},

@@ -15,6 +15,9 @@ namespace hapnet::emulator {
 
 namespace {
 
+/// Of the rate; a trace has none.
+constexpr std::string_view limit_key = "limit";
+
 /// "none", the short form of the first parameter, or a table.
 template <typename Stage>
 Stage read_stage(const Node& node, Reading& reading)
@@ -32,6 +35,38 @@ Stage read_stage(const Node& node, Reading& reading)
         reading.complain(node.place, valid.error().message);
     }
     return stage;
+}
+
+/// A rate, or a table: of a constant rate, or { law = "trace", file = ... } with the other keys.
+Rate read_rate(const Node& node, Reading& reading)
+{
+    const auto* entries = std::get_if<Node::Table>(&node.value);
+    if (entries == nullptr) return read_stage<Rate>(node, reading);
+    TableReader table{*entries, node.place, reading};
+    const Node* law = table.find("law");
+    if (law == nullptr) return read_stage<Rate>(node, reading);
+    Rate rate;
+    std::string name;
+    read_value(*law, name, reading);
+    const auto known = base::described_name<RateTraceLaw>;
+    if (reading.is_good() && name != known) {
+        reading.complain(law->place, fmt::format("unknown law {}: use {}, or limit without a law",
+                                                 base::in_quotes(name), known));
+    }
+    base::read_fields(table, rate.trace.emplace());
+    base::for_each_field(
+        [&](const auto& field, auto& member) {
+            if (field.key == limit_key) return;
+            const Node* value = table.find(field.key);
+            if (value != nullptr) base::read_field(field, *value, member, reading);
+        },
+        rate);
+    table.finish();
+    const auto loaded = reading.is_good() ? rate.trace->load(reading) : base::Result<void>{};
+    if (!loaded) reading.complain(node.place, loaded.error().message);
+    const auto valid = reading.is_good() ? validate(rate) : base::Result<void>{};
+    if (!valid) reading.complain(node.place, valid.error().message);
+    return rate;
 }
 
 /// The short form when it says all.
@@ -83,6 +118,17 @@ std::string setting_text(const std::vector<LossLaw>& laws, std::string_view /*ke
 std::string setting_text(const Variation& variation, std::string_view key)
 {
     return variation_text(variation, key == "delay" ? Role::delay : Role::jitter);
+}
+std::string setting_text(const Rate& rate, std::string_view /*key*/)
+{
+    if (!rate.trace) return stage_text(rate);
+    auto texts = base::field_texts(*rate.trace, base::Print::needed);
+    texts.insert(texts.begin(),
+                 "law = " + std::string{base::quoted(base::described_name<RateTraceLaw>)});
+    for (const std::string& text : base::field_texts(rate, base::Print::needed)) {
+        if (!text.starts_with(limit_key)) texts.push_back(text);
+    }
+    return table_text(texts);
 }
 std::string setting_text(Order order, std::string_view /*key*/)
 {
@@ -193,7 +239,9 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
     if (key == "mtu") {
         patch.mtu = read_stage<Mtu>(node, reading);
     } else if (key == "rate") {
-        patch.rate = read_stage<Rate>(node, reading);
+        patch.rate = read_rate(node, reading);
+    } else if (key == "queue") {
+        patch.queue = read_stage<QueueControl>(node, reading);
     } else if (key == "loss") {
         patch.loss = read_losses(node, reading);
     } else if (key == "burst_loss") {

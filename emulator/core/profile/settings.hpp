@@ -17,9 +17,9 @@
 namespace hapnet::emulator {
 
 /// The keys of a direction, in the order of the stages. "burst_loss" is a further law of loss.
-inline constexpr std::array<std::string_view, 10> setting_keys{
-    "mtu",       "rate",  "loss",   "burst_loss", "corrupt",
-    "duplicate", "delay", "jitter", "order",      "reorder"};
+inline constexpr std::array<std::string_view, 11> setting_keys{
+    "mtu",       "rate",  "queue",  "loss",  "burst_loss", "corrupt",
+    "duplicate", "delay", "jitter", "order", "reorder"};
 
 /// What the keys of one direction say. The outer optional: the key is there; an empty list: there
 /// is no such burst.

@@ -289,6 +289,33 @@ void read_timeline(const Node* node, const PathNames& names, Profile& profile, R
     }
 }
 
+void read_checks(const Node* node, Profile& profile, Reading& reading)
+{
+    if (node == nullptr) return;
+    const auto* list = std::get_if<Node::List>(&node->value);
+    if (list == nullptr) return reading.complain(node->place, "write checks as [[check]]");
+    if (list->size() > checks_max) {
+        return reading.complain(node->place,
+                                fmt::format("a profile can have at most {} checks", checks_max));
+    }
+    for (const Node& element : *list) {
+        const auto* entries = std::get_if<Node::Table>(&element.value);
+        if (entries == nullptr) {
+            reading.complain(element.place, "expected a table with a condition: [[check]]");
+            continue;
+        }
+        TableReader table{*entries, element.place, reading};
+        std::string text;
+        const Node* require = table.require("require", "write require = \"up.received>=1000\"");
+        if (require != nullptr) read_value(*require, text, reading);
+        table.finish();
+        if (!reading.is_good()) return;
+        const auto condition = base::parse_condition(text);
+        if (!condition) return reading.complain(require->place, condition.error().message);
+        profile.checks.push_back(*condition);
+    }
+}
+
 std::optional<base::Seed> read_seed(const Node* node, Reading& reading)
 {
     if (node == nullptr) return std::nullopt;
@@ -408,6 +435,7 @@ base::Result<Profile> parse_profile(std::string_view text, const std::string& so
     profile.seed = read_seed(table.find("seed"), reading);
     read_beginning(table, names, profile);
     read_timeline(table.find("at"), names, profile, reading);
+    read_checks(table.find("check"), profile, reading);
     table.finish();
     if (!reading.is_good()) return base::fail(*reading.complaint());
     return profile;
@@ -429,6 +457,9 @@ std::string to_text(const Profile& profile)
     print_all(sections_of("", to_patch(profile.path.up), to_patch(profile.path.down)));
     for (const PathPatch& own : profile.paths) print_all(sections_of(own));
     for (const Change& change : profile.timeline) print_change(out, change);
+    for (const base::Condition& check : profile.checks) {
+        out += fmt::format("\n[[check]]\nrequire = {}\n", base::quoted(to_text(check)));
+    }
     return out;
 }
 

@@ -14,6 +14,8 @@ namespace hapnet::emulator {
 
 /// The most changes that a timeline may have.
 inline constexpr std::size_t changes_max = 10'000;
+/// The most checks.
+inline constexpr std::size_t checks_max = 100;
 
 /// Reads a profile. `source` is the name of its file in errors, which begin with
 /// "FILE:LINE:COLUMN: " and say what is wrong and what would be right. Files that the profile

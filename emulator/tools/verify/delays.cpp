@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator::tools {
@@ -52,24 +51,6 @@ Delays drawn(const Conditions& conditions, std::size_t count)
             std::max(delay.on_packet(packet) + jitter.on_packet(packet), base::Duration{0}));
     }
     return delays;
-}
-
-/// The normal quantile of each delay's rank; equal delays share a rank.
-std::vector<double> rank_scores(const Delays& delays)
-{
-    std::vector<std::size_t> order(delays.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return delays[a] < delays[b]; });
-    std::vector<double> scores(delays.size());
-    for (std::size_t i = 0; i < order.size();) {
-        std::size_t next = i;
-        while (next < order.size() && delays[order[next]] == delays[order[i]]) ++next;
-        const double rank = 0.5 * static_cast<double>(i + next);
-        const double score = normal_score(rank / static_cast<double>(order.size()));
-        for (; i < next; ++i) scores[order[i]] = score;
-    }
-    return scores;
 }
 
 TestResult verify_constant(std::span<const Fate> fates, base::Duration expected)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator::tools {
@@ -44,6 +45,23 @@ TestResult test_same_law(std::vector<base::Duration> a, std::vector<base::Durati
                     "apart at most (Kolmogorov-Smirnov)",
                     a.size(), b.size(), distance);
     return result;
+}
+
+std::vector<double> rank_scores(const std::vector<base::Duration>& delays)
+{
+    std::vector<std::size_t> order(delays.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return delays[a] < delays[b]; });
+    std::vector<double> scores(delays.size());
+    for (std::size_t i = 0; i < order.size();) {
+        std::size_t next = i;
+        while (next < order.size() && delays[order[next]] == delays[order[i]]) ++next;
+        const double rank = 0.5 * static_cast<double>(i + next);
+        const double score = normal_score(rank / static_cast<double>(order.size()));
+        for (; i < next; ++i) scores[order[i]] = score;
+    }
+    return scores;
 }
 
 TestResult test_correlation(std::span<const double> scores, double rho, double alpha)

@@ -17,6 +17,9 @@ namespace hapnet::emulator::tools {
 [[nodiscard]] TestResult test_same_law(std::vector<base::Duration> a, std::vector<base::Duration> b,
                                        double alpha);
 
+/// The normal quantile of each delay's rank; equal delays share a rank.
+[[nodiscard]] std::vector<double> rank_scores(const std::vector<base::Duration>& delays);
+
 /// Whether neighbouring normal scores are correlated as they should be: the innovations
 /// (z[i+1] - rho z[i]) / sqrt(1 - rho^2) against z[i]. `rho`: expected, |rho| < 1.
 [[nodiscard]] TestResult test_correlation(std::span<const double> scores, double rho, double alpha);

@@ -7,20 +7,21 @@
 
 namespace hapnet::peer {
 
-/// The other side as an algorithm shows it to the paper's law.
+/// The others as an algorithm shows them to the paper's law: all of them as if they were one.
 struct Presence {
     struct Pose {
         base::Position position;
         base::Velocity velocity;
     };
 
-    bool heard = false;       // its state is neither stale nor let go
-    bool touching = false;    // its hand touches the body
-    base::Force force;        // of that hand on the body; zero when it does not touch
-    std::optional<Pose> pose; // of its body, also when its state is stale
+    bool heard = false;       // the state of one is neither stale nor let go
+    bool touching = false;    // the hand of one touches the body
+    base::Force force;        // of those hands on the body, their sum; zero when none touches
+    std::optional<Pose> pose; // of the body, also when the state is stale: on average where those
+                              // who touch have it, otherwise where the lowest id has it
 };
 
-/// As it was last heard: faded with age, and with no more force than a contact can exert.
+/// As they were last heard: faded with age, and each with no more force than a contact can exert.
 [[nodiscard]] Presence presence_of(const Situation& situation, const BaseOptions& options);
 
 /// The part of a remote force that acts.

@@ -7,6 +7,7 @@
 #include "scene/world.hpp"
 
 #include <optional>
+#include <span>
 
 namespace hapnet::peer {
 
@@ -27,13 +28,20 @@ struct ReceivedState {
     double force_max_n = scene::force_max_n; // that a contact of this scene can exert
 };
 
+/// One of the others as last heard.
+struct Other {
+    const Remote* remote = nullptr;
+    double freshness = 0.0; // of its state, 0 to 1
+};
+
 /// The input of one tick of an algorithm, besides this peer's hand, which is in the world.
 struct Situation {
     base::TimePoint now;
-    scene::BodyId body = 0; // the shared one
-    const Remote& remote;   // the other side as last heard
-    double freshness = 0.0; // of its state, 0 to 1
-    bool yields = false;    // at rest, this peer takes the other's pose (the higher id)
+    scene::BodyId body = 0;        // the shared one
+    std::span<const Other> others; // at least one, in the order of their ids
+    const Remote& remote;          // the one with the lowest id of those that are heard
+    double freshness = 0.0;        // of its state
+    bool yields = false; // at rest, this peer takes the other's pose: one with a lower id is heard
     base::Duration tick{std::chrono::milliseconds{1}}; // from here on as in ReceivedState
     std::optional<ClockEstimate> clock{};
     double force_max_n = scene::force_max_n;

@@ -2,34 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/condition.hpp"
 #include "proto/base/result.hpp"
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <string_view>
+#include <optional>
 
 namespace hapnet::control {
 
-enum class Comparison : std::uint8_t { less, at_most, equal, unequal, at_least, more };
-[[nodiscard]] std::string_view to_text(Comparison comparison);
+/// The number that the condition is about; nullopt: it has no value yet (null). The error says
+/// which keys there are when the path leads nowhere or to something that is no number.
+[[nodiscard]] base::Result<std::optional<double>> value_in(const nlohmann::ordered_json& statistics,
+                                                           const base::Condition& condition);
 
-/// A statement about the statistics: "up.received>1000", "down.dropped.random_loss >= 5",
-/// "valid == true" (a truth is 1 or 0).
-struct Condition {
-    std::string path; // of keys, with dots between them
-    Comparison comparison = Comparison::more;
-    double number = 0.0; // finite
-
-    friend bool operator==(const Condition&, const Condition&) = default;
-};
-
-[[nodiscard]] base::Result<Condition> parse_condition(std::string_view text);
-[[nodiscard]] std::string to_text(const Condition& condition);
-
-/// Whether the statistics meet the condition. What has no value yet (null) meets none. The error
-/// says which keys there are when the path leads nowhere or to something that is no number.
-[[nodiscard]] base::Result<bool> is_met(const Condition& condition,
+/// Whether the statistics meet the condition. What has no value yet meets none. The error is that
+/// of value_in().
+[[nodiscard]] base::Result<bool> is_met(const base::Condition& condition,
                                         const nlohmann::ordered_json& statistics);
 
 } // namespace hapnet::control

@@ -3,6 +3,7 @@
 #include "proto/control/core/conversation.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/control/core/condition.hpp"
 #include "proto/control/core/reply.hpp"
 
 #include <algorithm>
@@ -99,7 +100,7 @@ bool Conversation::look(Waiting& waiting, const Subject& subject, base::TimePoin
     const bool is_end = base::is_due(waiting.end, now);
     if (now < waiting.next_look && !is_end) return false;
     waiting.next_look = now + look_every;
-    const Condition& until = waiting.request.until;
+    const base::Condition& until = waiting.request.until;
     const auto statistics = subject.statistics();
     const auto met = is_met(until, statistics);
     if (met && !*met && !is_end) return false;

@@ -38,7 +38,7 @@ std::string statistics_reply(const Json& statistics)
     return line_of(reply);
 }
 
-std::string wait_reply(const Condition& until, bool is_met, const Json& statistics)
+std::string wait_reply(const base::Condition& until, bool is_met, const Json& statistics)
 {
     Json reply{{"ok", true}, {"until", to_text(until)}, {"met", is_met}};
     for (const char* key : {"generation", "elapsed_s"}) {

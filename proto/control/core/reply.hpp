@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "proto/control/core/condition.hpp"
+#include "proto/base/condition.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -26,7 +26,7 @@ namespace hapnet::control {
 [[nodiscard]] std::string statistics_reply(const nlohmann::ordered_json& statistics);
 
 /// The answer to wait; says when it is by the statistics.
-[[nodiscard]] std::string wait_reply(const Condition& until, bool is_met,
+[[nodiscard]] std::string wait_reply(const base::Condition& until, bool is_met,
                                      const nlohmann::ordered_json& statistics);
 
 } // namespace hapnet::control

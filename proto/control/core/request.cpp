@@ -122,9 +122,9 @@ void Members::refuse_the_rest()
 
 WaitRequest wait_request(Members& members)
 {
-    auto until = parse_condition(members.text("until"));
+    auto until = base::parse_condition(members.text("until"));
     if (!until) members.fail(std::move(until.error().message));
-    return {until ? *std::move(until) : Condition{}, members.time("timeout", 0ms)};
+    return {until ? *std::move(until) : base::Condition{}, members.time("timeout", 0ms)};
 }
 
 WatchRequest watch_request(Members& members)

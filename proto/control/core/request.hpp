@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/condition.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
-#include "proto/control/core/condition.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace hapnet::control {
 
 /// Answered once the condition holds, or its time is over.
 struct WaitRequest {
-    Condition until;
+    base::Condition until;
     std::optional<base::Duration> timeout;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/plot/plot.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
+#include "proto/plot/plot.hpp"
 #include "tests/bench/common/host.hpp"
 #include "tests/bench/common/rows.hpp"
 #include "tests/bench/emulator/accuracy.hpp"
@@ -94,9 +94,9 @@ std::string plot_of(const Accuracy& accuracy)
     constexpr std::array colours{"#7fbf7b", "#1b7837", "#00441b", "#b2182b", "#2166ac"};
     constexpr int steps = 400;
     constexpr double error_us_max = 200.0;
-    std::vector<lab::report::plot::Curve> curves;
+    std::vector<plot::Curve> curves;
     for (const Distribution& one : accuracy.distributions) {
-        lab::report::plot::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
+        plot::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
         for (int i = 0; i <= steps; ++i) {
             const double limit_us = error_us_max * i / steps;
             const auto below = std::upper_bound(one.errors.begin(), one.errors.end(),
@@ -107,10 +107,9 @@ std::string plot_of(const Accuracy& accuracy)
         }
         curves.push_back(std::move(curve));
     }
-    return lab::report::plot::svg_plot(
-        {"Error against a configured delay of 10 ms, 1000 datagrams per second",
-         "later than configured by at most (us)", "share of datagrams (%)"},
-        curves);
+    return plot::svg_plot({"Error against a configured delay of 10 ms, 1000 datagrams per second",
+                           "later than configured by at most (us)", "share of datagrams (%)"},
+                          curves);
 }
 
 base::Result<int> run(const Options& options)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/lab/run_time_error.hpp"
 
-#include "lab/report/plot/plot.hpp"
+#include "proto/plot/plot.hpp"
 #include "tests/bench/lab/sessions.hpp"
 
 #include <algorithm>
@@ -179,7 +179,6 @@ std::string work_csv(const std::vector<WorkPoint>& points)
 
 std::string work_svg(const std::vector<WorkPoint>& points)
 {
-    namespace plot = lab::report::plot;
     std::vector<std::string> names;
     std::vector<plot::Curve> curves;
     names.reserve(points.size()); // the curves look at them

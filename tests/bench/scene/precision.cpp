@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/scene/precision.hpp"
 
-#include "lab/report/plot/plot.hpp"
+#include "proto/plot/plot.hpp"
 #include "tests/bench/scene/compare.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ const char* colour_of(std::string_view subject)
 /// One panel: the points of one scenario, which lie next to each other.
 std::string panel_of(std::span<const WorkPoint> points)
 {
-    std::vector<lab::report::plot::Curve> curves;
+    std::vector<plot::Curve> curves;
     for (const WorkPoint& point : points) {
         if (curves.empty() || curves.back().name != point.subject) {
             curves.push_back({point.subject, colour_of(point.subject), {}});
@@ -54,9 +54,8 @@ std::string panel_of(std::span<const WorkPoint> points)
             {point.ns_per_simulated_ms, std::max(point.error, drawn_error_min)});
     }
     const std::string title = points.front().scenario + ", tick 4 to 0.25 ms";
-    return lab::report::plot::svg_plot(
-        {title, "cost, ns per simulated ms", points.front().metric}, curves,
-        {.scales = {lab::report::plot::Scale::logarithmic, lab::report::plot::Scale::logarithmic}});
+    return plot::svg_plot({title, "cost, ns per simulated ms", points.front().metric}, curves,
+                          {.scales = {plot::Scale::logarithmic, plot::Scale::logarithmic}});
 }
 
 /// The power of the tick with which the errors grow, between the longest and the shortest.

@@ -47,6 +47,11 @@ public:
     [[nodiscard]] const LawFigures& worst() const { return worst_; }
 
 private:
+    /// A hand has one contact with a body at most, or one with each of its parts.
+    [[nodiscard]] double contacts_on(const scene::HandTouch& touch) const
+    {
+        return 1.0 + static_cast<double>(play_.description.bodies[touch.body].parts.size());
+    }
     struct Moment {
         scene::BodyState state;
         glm::dvec3 angular_momentum{0.0};
@@ -84,6 +89,7 @@ private:
     void add_driven(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
                                               const Moment& now, double angle);
+    [[nodiscard]] bool is_joined(scene::BodyId id) const;
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] double most_from_hand(const scene::World& world, std::uint32_t hand,
                                         double fastest) const;

@@ -58,7 +58,8 @@ TEST(EmulatorOptions, HaveACompleteHelp)
     const auto prints = cli::prints_of("hapnet-emulator", parse_command_line);
     EXPECT_EQ(cli::help_faults("hapnet-emulator", prints), std::vector<std::string>{});
     EXPECT_EQ(cli::listed_commands(prints({"--help"}).value()),
-              (std::vector<std::string>{"check", "predict", "verify"}));
+              (std::vector<std::string>{"check", "predict", "verify", "report", "learn", "probe",
+                                        "between", "bridge"}));
     EXPECT_EQ(prints({"--help"})->rfind("Usage: hapnet-emulator [OPTIONS]\n", 0), 0U);
 }
 
@@ -199,6 +200,8 @@ TEST(EmulatorOptions, OfARunAreNotThoseOfACommand)
 {
     EXPECT_EQ(refusal_alone({"--listen-a", ":7001", "check", "lte"}).rfind("unknown option", 0),
               0U);
+    EXPECT_EQ(refusal_alone({"learn"}), "FILE is required: hapnet-emulator learn ping.txt");
+    EXPECT_EQ(options_of<LearnOptions>({"learn", "x", "--rate", "50"}).spacing, 20ms);
     EXPECT_EQ(refusal_alone({"verify"}), "RUN is required: hapnet-emulator verify run.json");
     EXPECT_EQ(options_of<VerifyOptions>({"verify", "run.json", "--rate", "1000"}).spacing, 1ms);
     expect_said(refusal_alone({"verify", "run.json", "--rate", "0"}),

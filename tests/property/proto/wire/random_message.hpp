@@ -31,7 +31,7 @@ private:
         Hello hello;
         hello.nonce = u32() | 1U;
         hello.nonce_heard = u32();
-        hello.peer_id = static_cast<std::uint16_t>(bits());
+        hello.peer_id = static_cast<std::uint16_t>(bits() | 1U);
         hello.tick_rate_hz = static_cast<std::uint16_t>(bits());
         hello.scene_hash = bits();
         hello.seed = bits();

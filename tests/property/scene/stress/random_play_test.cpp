@@ -34,6 +34,14 @@ TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
     }
 }
 
+TEST(RandomPlay, OfBodiesOfSeveralPartsKeepsEveryLaw)
+{
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed, {.compounds = true}), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
 TEST(RandomPlay, IsTheSameEveryTime)
 {
     for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
@@ -41,8 +49,15 @@ TEST(RandomPlay, IsTheSameEveryTime)
     }
 }
 
-/// A hostile scene with joints may break a law of energy (docs/results/limitations.md), but never
-/// these.
+TEST(RandomPlay, WithJointsKeepsTheLaws)
+{
+    for (std::uint64_t seed = 900'020'000; seed < 900'020'200; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed, {.joints = true}), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
+/// Few hostile scenes with joints break a law (docs/results/limitations.md), but never these.
 TEST(RandomPlay, WithJointsStaysFiniteAndHasTheSameFutureAfterASnapshot)
 {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -92,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(RandomPlayOfElements, Scars,
                                          Scar{elements_from + 657, "DrivenInAHeap"},
                                          Scar{elements_from + 1028, "DrivenAmongSlow"},
                                          Scar{elements_from + 1273, "ThrownOffARoughHand"},
-                                         Scar{elements_from + 1821, "ThrownOffAStiffRoughHand"}),
+                                         Scar{elements_from + 1821, "ThrownOffAStiffRoughHand"},
+                                         Scar{elements_from + 4001, "DrivenFarAlongItsLocks"}),
                          [](const auto& each) { return std::string{each.param.name}; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -157,6 +173,29 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{1000001991, "PushedThroughItsLockedCentre"}),
     [](const auto& each) { return each.param.name; });
 
+/// Islands that lost motion because last tick's forces drove them: where drag took a part of
+/// friction's, where a hand or a grip had counted on them, in a wedge at rest, on light bodies.
+class StaleForces : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(StaleForces, GiveWayWithoutAGuard)
+{
+    const std::uint64_t seed = GetParam();
+    const PlayOutcome outcome = judge(random_play(seed), seed);
+    EXPECT_FALSE(outcome.complaint) << *outcome.complaint;
+    EXPECT_EQ(outcome.interventions.guards(), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drag, StaleForces,
+                         testing::Values(900000698, 900001820, 900002197, 900002527, 900003178,
+                                         900003571, 900004101));
+INSTANTIATE_TEST_SUITE_P(Hands, StaleForces,
+                         testing::Values(900000025, 900000547, 900000573, 900004634));
+INSTANTIATE_TEST_SUITE_P(AtRest, StaleForces,
+                         testing::Values(900000555, 900003450, 900003458, 900005403, 900005432));
+INSTANTIATE_TEST_SUITE_P(Heaps, StaleForces,
+                         testing::Values(900000082, 900000732, 900001103, 900001212, 900001646,
+                                         900002266, 900002621, 900004474, 900005361));
+
 /// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.
 class Crowds : public testing::TestWithParam<std::uint64_t> {};
 
@@ -167,9 +206,7 @@ TEST_P(Crowds, GoTheirWayWithoutAGuard)
     EXPECT_FALSE(outcome.complaint) << *outcome.complaint;
     EXPECT_EQ(outcome.interventions.paths_cut, 0U);
     EXPECT_EQ(outcome.interventions.budgets_spent, 0U);
-#ifndef __clang__ // Clang evaluates arguments in another order, so that a seed draws another play
     EXPECT_GT(outcome.interventions.clusters_stuck, 0U);
-#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomPlay, Crowds,

@@ -129,6 +129,30 @@ TEST_P(Forged, NumbersAheadDoNotMakeTrueStatesOutdated)
     }
 }
 
+TEST_P(Forged, PlacesDoNotDragTheBodyOutOfWhatTheOtherSideBelieves)
+{
+    const std::size_t victim = GetParam();
+    Pair pair = playing();
+    pair.hands = {};
+    pair.cut = true; // the forger alone is heard
+    for (int ms = 0; ms < 400; ++ms) {
+        wire::State state = pair.state_sent_by(1 - victim).value();
+        wire::BodyState body;
+        body.position = {{ms % 2 == 0 ? 0.9 : -0.9, 0.0, 0.0}};
+        state.touching = true;
+        state.bodies.clear();
+        state.bodies.add(body);
+        give(pair, victim, state);
+        pair.step();
+        ASSERT_LE(std::abs(pair.peers[victim]->position().x()), 1.0) << ms;
+    }
+    pair.cut = false;
+    const auto refused_before = pair.peers[1 - victim]->counters().implausible;
+    pair.run_for(1s);
+    EXPECT_EQ(pair.peers[1 - victim]->counters().implausible, refused_before);
+    EXPECT_TRUE(pair.ticks[1 - victim].permitted);
+}
+
 INSTANTIATE_TEST_SUITE_P(ToSide, Forged, testing::Values(0, 1));
 
 TEST(Goodbye, StaysOneWhenOnlyStatesArriveThatItHasOvertaken)

@@ -6,13 +6,12 @@
 #include "proto/wire/message.hpp"
 #include "scene/text/text.hpp"
 #include "tests/sim/peer/core/score.hpp"
+#include "tests/support/session/work_of_5s.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <gtest/gtest.h>
 #include <string>
-#include <utility>
 
 namespace hapnet::sim {
 namespace {
@@ -133,27 +132,6 @@ wire::State forged(const Attack& attack, const Player& victim, int tick)
     return state;
 }
 
-/// The largest net work into a hand within exactly 5000 ticks.
-class WorkOf5s {
-public:
-    void add(double work_j)
-    {
-        net_j_ += work_j;
-        while (!lowest_.empty() && lowest_.back().second >= net_j_) lowest_.pop_back();
-        lowest_.emplace_back(tick_, net_j_);
-        if (lowest_.front().first + 5000 < tick_) lowest_.pop_front();
-        most_j_ = std::max(most_j_, net_j_ - lowest_.front().second);
-        ++tick_;
-    }
-    [[nodiscard]] double most_j() const { return most_j_; }
-
-private:
-    int tick_ = 0;
-    double net_j_ = 0.0;
-    double most_j_ = 0.0;
-    std::deque<std::pair<int, double>> lowest_; // ever higher ones, with their ticks
-};
-
 /// The victim's energy after 12 s of it.
 struct Suffered {
     double work_5s_j = 0.0;
@@ -172,7 +150,7 @@ Suffered suffered(const Attack& attack, Task task, bool limited)
     Player& victim = world.side(0);
     auto sequence = static_cast<std::uint32_t>(victim.peer().counters().states) + 10;
     // Apart from the governor's own figures.
-    WorkOf5s work;
+    test::WorkOf5s work;
     device::EnergyGuard observer{{}, 1ms};
     base::Position before = victim.side->sample().hip;
     for (int tick = 0; tick < 12'000; ++tick) {
@@ -186,7 +164,7 @@ Suffered suffered(const Attack& attack, Task task, bool limited)
         observer.pass(held, hip, 1ms);
         const base::Displacement moved = hip - before;
         before = hip;
-        work.add(held.x() * moved.x() + held.y() * moved.y() + held.z() * moved.z());
+        work.add(held.x() * moved.x() + held.y() * moved.y() + held.z() * moved.z(), world.now());
     }
     EXPECT_GT(victim.peer().counters().states, 11'000U) << "the forged states are taken";
     return {work.most_j(), observer.figures().power_max_w,

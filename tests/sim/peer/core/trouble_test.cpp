@@ -134,6 +134,18 @@ TEST(Cut, BeforeTheStartOnlyDelaysIt)
     EXPECT_EQ(world.side(1).last().phase, Phase::running);
 }
 
+TEST(Path, ThatIsSecondsSlowerOneWayKeepsStatesUsable)
+{
+    Setting setting = under(Task::t3, {.delay = emulator::constant(50ms)});
+    setting.profile.path.up.delay = emulator::constant(4s);
+    World world{setting};
+    world.run_for(20s);
+    for (const std::size_t i : {0U, 1U}) {
+        EXPECT_TRUE(world.side(i).last().permitted) << i;
+        EXPECT_EQ(world.side(i).peer().counters().implausible, 0U) << i;
+    }
+}
+
 TEST(Goodbye, FadesTheOthersForceWithin50MsOfItsArrival)
 {
     World world = squeezing();

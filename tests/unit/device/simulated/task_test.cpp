@@ -129,7 +129,7 @@ TEST(Tasks, HaveNames)
     }
     const auto unknown = task_named("P2");
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().message, "unknown task 'P2': use P1, T1, T2, T3, T4, T5, T6");
+    EXPECT_EQ(unknown.error().message, "unknown task 'P2': use P1, T1, T2, T3, T4, T5, T6, T7");
 }
 
 TEST(TaskP1, LetsTheLeftHandAloneHoldTheCubeWhileTheHandsAreOn)
@@ -185,6 +185,19 @@ TEST(TaskT3, LetsBothSqueezeAtHalfSpeedWithTheRightOne60MsBehind)
         EXPECT_NEAR(left(Task::t3).at(start + ms * 1ms).target.x(), path_x(0.5 * t) - 0.021, 1e-12);
         EXPECT_NEAR(right(Task::t3).at(start + ms * 1ms).target.x(),
                     path_x(0.5 * (t - 0.060)) + 0.021, 1e-12);
+    }
+}
+
+TEST(TaskT7, SharesTheSqueezeOfASideAmongTheHandsOnIt)
+{
+    const double t = 5.0;
+    for (const double share : {1.0, 0.5, 0.25}) {
+        Cue of_one = cue(true);
+        of_one.share = share;
+        const Script hand{Task::t7, of_one};
+        // 4 mm of a nominal hand's aim press with the whole.
+        EXPECT_NEAR(hand.at(start + base::from_seconds(t)).target.x(),
+                    path_x(0.5 * t) - 0.025 + share * 0.004, 1e-12);
     }
 }
 

@@ -41,6 +41,12 @@ struct EmulationFake {
     [[nodiscard]] EmulatedPath& path() const { return *paths.all().front().path; }
     [[nodiscard]] const Director& director() const { return path().director(); }
 
+    static base::Result<std::string> preset(const std::string& name)
+    {
+        if (name == "slow") return "both.delay = \"700ms\"\n";
+        return base::fail("no preset " + name);
+    }
+
     /// The delay of the datagrams that come now.
     [[nodiscard]] DelayLaw delay(Direction direction) const
     {
@@ -48,12 +54,15 @@ struct EmulationFake {
     }
 
     Paths paths;
+    bool is_stopped = false;
     nlohmann::json statistics{{"up", {{"received", 0}, {"lateness_us", {{"p50", nullptr}}}}},
                               {"down", {{"received", 0}}},
                               {"program", "fake"},
                               {"valid", true}};
     Emulation emulation{paths, [this] { return statistics.dump(2); },
-                        [](const std::string& name, const std::string&) { return no_files(name); }};
+                        [](const std::string& name, const std::string&) { return no_files(name); },
+                        [](const std::string& name) { return preset(name); },
+                        [this] { is_stopped = true; }};
     control::Subject subject = subject_of(emulation);
 };
 

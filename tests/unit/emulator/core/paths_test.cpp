@@ -130,6 +130,34 @@ TEST(Paths, ThatComeLaterAreAsIfTheyHadBeenThere)
     }
 }
 
+TEST(Paths, KeepTheirOwnChanges)
+{
+    Paths paths{parsed("[[at]]\ntime = \"1s\"\nlink.\"1-2\".delay = \"20ms\"\n"),
+                {.start = start, .limits = few, .changes_max = 2}};
+    const EmulatedPath& first = paths.add("1-2");
+    const EmulatedPath& second = paths.add("1-3");
+    paths.advance(start + 1s);
+    ASSERT_EQ(first.changes().entries().size(), 1U);
+    EXPECT_EQ(first.changes().entries().front().by, ChangeCause::timeline);
+    EXPECT_TRUE(first.changes().entries().front().up.delay);
+    EXPECT_TRUE(second.changes().entries().empty());
+    ASSERT_TRUE(set(paths, "1-3", 30ms, start + 2s));
+    EXPECT_EQ(first.changes().entries().size(), 1U);
+    ASSERT_EQ(second.changes().entries().size(), 1U);
+    EXPECT_EQ(second.changes().entries().front().elapsed, 2s);
+    EXPECT_EQ(second.changes().entries().front().by, ChangeCause::hand);
+    const auto again = [](std::string_view, const Path&) -> base::Result<Command> {
+        return Apply{};
+    };
+    ASSERT_TRUE(paths.apply(again, {}, start + 3s, ChangeCause::reload));
+    ASSERT_EQ(second.changes().entries().size(), 2U);
+    EXPECT_EQ(second.changes().entries().back().by, ChangeCause::reload);
+    ASSERT_TRUE(set(paths, "", 40ms, start + 4s));
+    EXPECT_EQ(second.changes().entries().size(), 2U);
+    EXPECT_EQ(second.changes().omitted(), 1U);
+    EXPECT_EQ(paths.generation(), 5U);
+}
+
 TEST(Paths, AreToldAllOrNone)
 {
     Paths paths{Profile{}, {.start = start, .limits = few}};

@@ -17,7 +17,7 @@ constexpr Path far{.delay_min = 160ms, .delay_max = 160ms};
 wire::Hello hello_of(const Introduction& self, std::uint32_t nonce_heard = 0)
 {
     Handshake handshake{self};
-    wire::Hello hello = handshake.hello(base::TimePoint{1h}).value();
+    wire::Hello hello = handshake.hello(base::TimePoint{1h}, 0).value();
     hello.nonce_heard = nonce_heard;
     return hello;
 }
@@ -179,6 +179,15 @@ TEST(Handshake, RefusesWhoeverPlaysSomethingElse)
     EXPECT_EQ(objection([](Introduction& i) { i.task = wire::TaskName::from_text("P1").value(); }),
               ByeReason::other_task);
     EXPECT_EQ(objection([](Introduction& i) { i.tick_rate_hz = 500; }), ByeReason::other_tick_rate);
+}
+
+TEST(Handshake, IgnoresItsOwnHelloWhenSomebodySendsItBack)
+{
+    Handshake handshake{introduction(0)};
+    const auto own = handshake.hello(base::TimePoint{1h});
+    ASSERT_TRUE(own);
+    EXPECT_EQ(handshake.on_hello(*own, base::TimePoint{1h} + 1ms), std::nullopt);
+    EXPECT_FALSE(handshake.has_met());
 }
 
 TEST(Handshake, DoesNotBelieveAStartThatNoSessionCanHave)

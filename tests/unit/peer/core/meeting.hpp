@@ -51,7 +51,7 @@ public:
         for (const std::size_t to : {0U, 1U}) deliver(to);
         for (const std::size_t from : {0U, 1U}) {
             if (!sides[from]) continue;
-            if (const auto hello = sides[from]->hello(clock(from))) {
+            if (const auto hello = sides[from]->hello(clock(from), 0)) {
                 ++hellos[from];
                 send({1 - from, *hello, 0, now});
             }

@@ -123,6 +123,25 @@ TEST(Doctor, DoesNotMissALibraryThatNoDeviceNeeds)
     EXPECT_EQ(one.level, Level::ok);
 }
 
+TEST(Doctor, SaysHowToSetADateThatIsYearsBehind)
+{
+    EXPECT_EQ(finding_on("date", [](Facts&) {}).level, Level::ok);
+    const Finding one = finding_on("date", [](Facts& f) { f.is_date_set = false; });
+    EXPECT_EQ(one.level, Level::warning);
+    EXPECT_NE(one.cure.find("timedatectl"), std::string::npos);
+}
+
+TEST(Doctor, SaysWhyAKeyFileWouldBeRefused)
+{
+    const Finding good = finding_on("key file", [](Facts& f) { f.key = KeyFact{"my.key"}; });
+    EXPECT_EQ(good.level, Level::ok);
+    const Finding bad = finding_on("key file", [](Facts& f) {
+        f.key = KeyFact{"my.key", "others may use it"};
+    });
+    EXPECT_EQ(bad.level, Level::bad);
+    EXPECT_EQ(bad.text, "others may use it");
+}
+
 TEST(Doctor, PrintsATableAndJsonWithEveryFinding)
 {
     Facts facts = a_good_machine();

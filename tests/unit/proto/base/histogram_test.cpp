@@ -82,5 +82,21 @@ TEST(HistogramDeathTest, AQuantileOutsideZeroToOneIsOurMistake)
     EXPECT_DEATH(std::ignore = histogram.quantile(1.1), "must never happen");
 }
 
+TEST(DurationHistogram, GivesTheBinsThatHoldSomething)
+{
+    DurationHistogram histogram;
+    EXPECT_TRUE(histogram.filled_bins().empty());
+    for (const int value : {0, 5, 5, 1'000'000}) histogram.add(Duration{value});
+    const auto bins = histogram.filled_bins();
+    ASSERT_EQ(bins.size(), 3U);
+    EXPECT_EQ(bins[0].low, Duration{0});
+    EXPECT_EQ(bins[0].high, Duration{1});
+    EXPECT_EQ(bins[1].low, Duration{5});
+    EXPECT_EQ(bins[1].count, 2U);
+    EXPECT_LE(bins[2].low, Duration{1'000'000});
+    EXPECT_GT(bins[2].high, Duration{1'000'000});
+    EXPECT_LE((bins[2].high - bins[2].low).count(), 1'000'000 / 64 + 1);
+}
+
 } // namespace
 } // namespace hapnet::base

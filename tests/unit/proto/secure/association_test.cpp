@@ -247,6 +247,60 @@ TEST(Association, FollowsAPeerThatComesFromElsewhereUnlessItMayNot)
     }
 }
 
+TEST(Association, FollowsAPeerThatIsStartedAgainElsewhere)
+{
+    for (const bool may_roam : {true, false}) {
+        Setting stays = two;
+        stays.may_roam = may_roam;
+        World world{one, stays};
+        world.run(2s);
+        Setting again = one;
+        again.run = 33;
+        again.seed = 201;
+        world.a() = World::side(again);
+        world.a().place = place_of(50);
+        world.run(8s);
+        EXPECT_EQ(world.b().association->place(), place_of(may_roam ? 50 : 1));
+        EXPECT_EQ(world.a().received.size() > 1000, may_roam);
+    }
+}
+
+TEST(Association, KeepsOneOfTwoProgramsWithTheSameKeyForFiveSeconds)
+{
+    World world{one, two};
+    world.run(2s);
+    Setting second = one;
+    second.run = 33;
+    second.seed = 201;
+    const auto rival = association(second);
+    const std::size_t before = of_type(world, 0, FrameType::response).size();
+    std::size_t answers = 0;
+    for (int i = 0; i < 6000; ++i) {
+        rival->tick({world.now(), world.now().time_since_epoch().count() + 1'000'000});
+        while (const auto out = rival->poll()) {
+            world.give(1, Text{out->frame.bytes().begin(), out->frame.bytes().end()}, place_of(66));
+        }
+        world.run(1ms);
+        if (i == 2500) answers = of_type(world, 0, FrameType::response).size();
+    }
+    EXPECT_EQ(answers, before);
+    EXPECT_GT(of_type(world, 0, FrameType::response).size(), answers);
+    EXPECT_GT(world.b().received.size(), 7500U); // the rival never confirms its key
+}
+
+TEST(Association, ConfirmsAKeyThatItBeganAlsoWhenItHasNothingToSay)
+{
+    World world{one, two};
+    world.a().talks = false; // the lower id, which initiates
+    world.run(200ms);
+    EXPECT_GT(world.a().hellos, 0U);
+    const auto hellos_of_a = of_type(world, 1, FrameType::hello);
+    ASSERT_FALSE(hellos_of_a.empty());
+    EXPECT_EQ(hellos_of_a.front().size(), empty_bytes + control_overhead);
+    EXPECT_LT(hellos_of_a.size(), 3U); // until it heard something
+    EXPECT_EQ(world.b().hellos, 0U);   // they are no messages
+}
+
 TEST(Association, IsFoundByAPeerWhosePlaceNobodySaid)
 {
     Setting waits = one;
@@ -286,8 +340,8 @@ TEST(Association, AsksForACookieWhenManyInitiationsComeAndStillMeetsTheOther)
     again.seed = 222;
     world.a() = World::side(again);
     const std::uint64_t cookies = world.b().association->counts().cookies;
-    for (int i = 0; i < 60; ++i) {
-        world.give(1, captured[static_cast<std::size_t>(i)], place_of(66));
+    for (std::size_t i = 0; i < 160; ++i) {
+        world.give(1, captured[i % captured.size()], place_of(66));
         world.run(10ms);
     }
     EXPECT_GT(world.b().association->counts().cookies, cookies);

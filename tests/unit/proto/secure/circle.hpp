@@ -211,8 +211,7 @@ private:
     {
         Side& side = sides_[static_cast<std::size_t>(datagram.to)];
         if (!side.association) return;
-        const auto received =
-            side.association->on_datagram(datagram.bytes, datagram.from, moment(side));
+        const auto received = side.association->on_datagram(datagram.bytes, datagram.from, now_);
         if (!received) return;
         base::ByteReader in{Bytes{datagram.bytes}.subspan(3)};
         const auto type = in.u8();

@@ -118,8 +118,8 @@ TEST(Frames, OfHandshakesAreReadAsTheyWereWritten)
     EXPECT_EQ(one->sender, 7U);
     EXPECT_EQ(one->ends, (Ends{1, 2}));
     EXPECT_EQ(to_hex(one->noise), to_hex(noise1));
-    EXPECT_EQ(to_hex(one->mac1), to_hex(initiation.mac1()));
-    EXPECT_NE(to_hex(one->mac2), std::string(32, '0'));
+    EXPECT_EQ(to_hex(one->macs.mac1), to_hex(initiation.mac1()));
+    EXPECT_NE(to_hex(one->macs.mac2), std::string(32, '0'));
 
     const HandshakeFrame response = HandshakeFrame::response(7, 8, noise2);
     const auto two = read_response(response.bytes());
@@ -127,7 +127,7 @@ TEST(Frames, OfHandshakesAreReadAsTheyWereWritten)
     EXPECT_EQ(two->receiver, 7U);
     EXPECT_EQ(two->sender, 8U);
     EXPECT_EQ(to_hex(two->noise), to_hex(noise2));
-    EXPECT_EQ(to_hex(two->mac2), std::string(32, '0'));
+    EXPECT_EQ(to_hex(two->macs.mac2), std::string(32, '0'));
 
     WideNonce nonce{};
     nonce.fill(std::byte{9});

@@ -98,6 +98,9 @@ TEST(Refusal, OfWhatCannotBe)
     Bytes nameless = hello;
     std::fill(nameless.begin() + 9, nameless.begin() + 13, std::byte{0});
     EXPECT_EQ(error_of(nameless), "hello: not canonical"); // nonce 0
+    Bytes anonymous = hello;
+    std::fill(anonymous.begin() + 17, anonymous.begin() + 19, std::byte{0});
+    EXPECT_EQ(error_of(anonymous), "hello: not canonical"); // peer 0, which nobody could answer
     Bytes unnumbered = bytes_of_message(full_state());
     std::fill(unnumbered.begin() + 8, unnumbered.begin() + 12, std::byte{0});
     EXPECT_EQ(error_of(unnumbered), "state: not canonical"); // sequence 0

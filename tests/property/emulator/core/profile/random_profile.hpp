@@ -79,6 +79,10 @@ private:
         value = static_cast<std::uint32_t>(bits() >> (32 + below(32)));
     }
     void draw(std::uint64_t& value) { value = bits() >> (30 + below(34)); }
+    void draw(QueueLaw& value)
+    {
+        value = std::array{QueueLaw::drop_tail, QueueLaw::codel, QueueLaw::pie}[below(3)];
+    }
     void draw(std::string& value) { value = "file"; }
     void draw(std::variant<base::Duration, std::uint32_t>& value)
     {
@@ -177,6 +181,7 @@ private:
         if (below(3) == 0)
             drawn.order = std::array{Order::keep, Order::free, Order::sorted}[below(3)];
         if (below(3) == 0) drawn.reorder = below(2) == 0 ? Reordering{} : possible<Reordering>();
+        if (below(3) == 0) drawn.queue = below(2) == 0 ? QueueControl{} : possible<QueueControl>();
         return drawn;
     }
 

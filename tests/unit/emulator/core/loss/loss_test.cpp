@@ -35,6 +35,9 @@ std::vector<LossLaw> one_of_each()
             ListedLoss{{2, 3, 5, 7, 5000}},
             PatternLoss{{true, false, false}},
             TraceLoss{"losses.txt", trace},
+            TimedTraceLoss{"losses.csv",
+                           std::make_shared<const LossSeries>(
+                               std::vector{0.1, 0.9}, std::vector<base::Duration>{0ms, 50ms})},
             Outage{{{10ms, 20ms}, {3s, 4s}}}};
 }
 
@@ -45,7 +48,8 @@ TEST(LossProcess, NamesEveryLawAsInProfiles)
     std::string names;
     for (const LossLaw& law : one_of_each()) names += std::string{name_of(law)} + " ";
     EXPECT_EQ(names, "random k-of-n every burst timed-burst timed-burst gilbert gilbert-elliott "
-                     "timed-gilbert-elliott four-state list pattern trace outage ");
+                     "timed-gilbert-elliott four-state list pattern trace timed-trace "
+                     "outage ");
 }
 
 TEST(LossProcess, SaysWhichLawTookADatagram)
@@ -55,7 +59,7 @@ TEST(LossProcess, SaysWhichLawTookADatagram)
         DropCause::burst_loss,      DropCause::burst_loss,      DropCause::burst_loss,
         DropCause::gilbert_elliott, DropCause::gilbert_elliott, DropCause::gilbert_elliott,
         DropCause::four_state,      DropCause::listed_loss,     DropCause::pattern_loss,
-        DropCause::trace_loss,      DropCause::outage};
+        DropCause::trace_loss,      DropCause::trace_loss,      DropCause::outage};
     const auto laws = one_of_each();
     for (std::size_t i = 0; i < laws.size(); ++i) {
         LossProcess process{laws[i], stream()};

@@ -44,6 +44,47 @@ TEST(ProfileFiles, TablesAndTracesAreReadFromTheFilesTheyName)
               "test.toml:2:10: there is no file no.csv");
 }
 
+TEST(ProfileFiles, ReadsAndPrintsARateByTraceAndItsNamedColumns)
+{
+    const OpenFile open = [](const std::string& name) -> base::Result<std::string> {
+        if (name == "lte.up") return "1\n5\n9\n";
+        if (name == "lte.csv") return "stamp,Mbit,gone\n3,10,0\n4,20,0.5\n";
+        return base::fail("there is no file " + name);
+    };
+    const std::string text =
+        "\n[up]\nrate = { law = \"trace\", file = \"lte.up\", repeat = false, offset = \"2ms\", "
+        "start = \"first\", queue = \"128KiB\" }\n"
+        "\n[down]\nrate = { law = \"trace\", file = \"lte.csv\", columns = \"time=stamp:s, "
+        "rate=Mbit:Mbps\" }\n"
+        "loss = { law = \"timed-trace\", file = \"lte.csv\", columns = \"time=stamp:s, "
+        "loss=gone\", interpolate = \"linear\" }\n";
+    const auto profile = parse_profile(text, "test.toml", open);
+    ASSERT_TRUE(profile) << profile.error().message;
+    EXPECT_EQ(to_text(*profile), text);
+    const Rate& up = profile->path.up.rate;
+    EXPECT_EQ(up.trace->trace->period(), 9ms);
+    EXPECT_EQ(up.trace->timing, (TraceTiming{false, 2ms, TraceStart::first}));
+    EXPECT_EQ(up.queue_bytes_max, 128U << 10U);
+    EXPECT_EQ(profile->path.down.rate.trace->trace->mean_rate(), 15e6);
+    const auto refused = [&](const std::string& value) {
+        const auto result = parse_setting("up.rate", value, open);
+        return result ? "accepted" : result.error().message;
+    };
+    EXPECT_EQ(refused("{ law = \"trace\", file = \"x\" }"),
+              "up.rate: '{ law = \"trace\", file = \"x\" }': there is no file x");
+    EXPECT_NE(refused("{ law = \"lte\" }").find("unknown law 'lte': use trace, or limit without"),
+              std::string::npos);
+    EXPECT_NE(refused("{ law = \"trace\" }").find("missing key 'file'"), std::string::npos);
+    EXPECT_NE(refused("{ law = \"trace\", file = \"lte.up\", limit = \"1Mbit/s\" }").find("limit"),
+              std::string::npos);
+    EXPECT_NE(refused("{ law = \"trace\", file = \"lte.up\", offset = \"-1s\" }").find("offset"),
+              std::string::npos);
+    Patch to;
+    to.rate = Rate{.bits_per_second = 1000};
+    EXPECT_EQ(validate_ramp(profile->path.up, to).error().message,
+              "cannot ramp rate from or to a trace; use an [[at]] step without ramp");
+}
+
 TEST(ProfileFiles, BetweenDelaysAsMeasuredAndATableWithMeanAndSdThereIsNoRamp)
 {
     const auto table = std::make_shared<const QuantileTable>(std::vector<double>{1e6, 2e6},

@@ -55,6 +55,28 @@ up.delay = "300ms"
     EXPECT_EQ(profile.timeline[0].down, Patch{});
 }
 
+TEST(ProfileText, ReadsAndPrintsChecks)
+{
+    const std::string text =
+        "\n[both]\nloss = \"5%\"\n\n[[check]]\nrequire = \"up.received>=1000\"\n"
+        "\n[[check]]\nrequire = \"valid==1\"\n";
+    const Profile profile = parsed(text);
+    ASSERT_EQ(profile.checks.size(), 2U);
+    EXPECT_EQ(profile.checks[0],
+              (base::Condition{"up.received", base::Comparison::at_least, 1000.0}));
+    EXPECT_EQ(to_text(profile), text);
+    EXPECT_EQ(parsed(to_text(profile)), profile);
+}
+
+TEST(ProfileText, SaysWhatIsWrongWithACheck)
+{
+    EXPECT_EQ(refusal("[[check]]\nrequire = \"up.received\"\n").rfind("test.toml:2:", 0), 0U);
+    EXPECT_NE(refusal("[[check]]\n").find("require"), std::string::npos);
+    EXPECT_NE(refusal("check = \"up.received>1\"\n").find("[[check]]"), std::string::npos);
+    EXPECT_NE(refusal("[[check]]\nrequire = \"a>1\"\nrequires = 1\n").find("requires"),
+              std::string::npos);
+}
+
 TEST(ProfileText, EveryStageHasAShortForm)
 {
     const Profile profile = parsed(R"([up]
@@ -231,7 +253,7 @@ TEST(ProfileText, NamesWhatIsWrongWithTheKeyOfASetting)
     };
     EXPECT_EQ(why("upp.loss"), "upp.loss: unknown direction 'upp': use up, down or both");
     EXPECT_EQ(why("los"), "unknown key 'los': did you mean 'loss'?");
-    EXPECT_EQ(why("up.x"), "unknown key 'up.x': use one of mtu, rate, loss, burst_loss, "
+    EXPECT_EQ(why("up.x"), "unknown key 'up.x': use one of mtu, rate, queue, loss, burst_loss, "
                            "corrupt, duplicate, delay, jitter, order, reorder");
     EXPECT_EQ(why("seed"), "seed: the seed of a run cannot change: start the emulator with --seed");
     EXPECT_EQ(why("up.loss.share"),

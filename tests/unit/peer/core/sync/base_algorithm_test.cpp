@@ -43,8 +43,12 @@ public:
     scene::HandTouch tick(const scene::HandInput& hand, double freshness = 1.0, bool yields = true)
     {
         world.set_hand(own_hand, hand);
-        const Situation situation{
-            .now = now, .remote = remote_, .freshness = freshness, .yields = yields};
+        const Other other{&remote_, freshness};
+        const Situation situation{.now = now,
+                                  .others = {&other, 1},
+                                  .remote = remote_,
+                                  .freshness = freshness,
+                                  .yields = yields};
         const Outcome outcome = algorithm_.tick(world, situation);
         now += 1ms;
         return outcome.touched;
@@ -128,8 +132,12 @@ TEST(BaseAlgorithm, TakesTheRemoteForceFadedWithItsAgeAndNeverMoreThanAContactEx
     Remote remote{{}};
     remote.update(heard(true, -1e30, 0.0, 0.0), start);
     const auto force_at = [&](double freshness) {
-        const Situation situation{
-            .now = start, .remote = remote, .freshness = freshness, .force_max_n = 3.3};
+        const Other other{&remote, freshness};
+        const Situation situation{.now = start,
+                                  .others = {&other, 1},
+                                  .remote = remote,
+                                  .freshness = freshness,
+                                  .force_max_n = 3.3};
         return presence_of(situation, {}).force.x();
     };
     EXPECT_NEAR(force_at(1.0), -3.3, 1e-12);

@@ -189,7 +189,9 @@ TEST(BaseOptions, AlongXAloneTheOtherSideActsOnNothingElse)
     body.position = {{0.001, 0.002, 0.003}};
     body.velocity = {{0.1, 0.2, 0.3}};
     remote.update(state, start);
-    const Situation situation{.now = start, .remote = remote, .freshness = 1.0};
+    const Other other{&remote, 1.0};
+    const Situation situation{
+        .now = start, .others = {&other, 1}, .remote = remote, .freshness = 1.0};
     EXPECT_EQ(presence_of(situation, options).force, (base::Force{{-0.3, 0.0, 0.0}}));
     scene::World world = paper_world();
     BaseAlgorithm algorithm{options};

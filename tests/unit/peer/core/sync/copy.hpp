@@ -75,7 +75,9 @@ public:
     Outcome tick(double now_ms, const scene::HandInput& hand = away, double freshness = 1.0)
     {
         world.set_hand(own_hand, hand);
+        const Other other{&remote, freshness};
         return algorithm.tick(world, {.now = at_ms(now_ms),
+                                      .others = {&other, 1},
                                       .remote = remote,
                                       .freshness = freshness,
                                       .yields = yields,

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/condition.hpp"
+#include "proto/base/result.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+using Checks = std::vector<base::Condition>;
+
+/// The error names the first check whose key leads nowhere in the statistics. Asked before the run:
+/// a slip of the finger is not to show after it.
+[[nodiscard]] base::Result<void> ensure_keys(const Checks& checks,
+                                             const nlohmann::ordered_json& statistics);
+
+/// A list of {require, value, met}; value is null where there is none.
+[[nodiscard]] nlohmann::ordered_json judged(const Checks& checks,
+                                            const nlohmann::ordered_json& statistics);
+
+/// A line for each that was not met: "NOT MET: up.received>=1000 is required, and it is 42".
+[[nodiscard]] std::string not_met(const nlohmann::ordered_json& judged_checks);
+
+} // namespace hapnet::emulator

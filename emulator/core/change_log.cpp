@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/change_log.hpp"
+
+#include <utility>
+
+namespace hapnet::emulator {
+
+std::string_view to_text(ChangeCause cause)
+{
+    switch (cause) {
+    case ChangeCause::hand: return "hand";
+    case ChangeCause::timeline: return "timeline";
+    case ChangeCause::reload: return "reload";
+    }
+    return {};
+}
+
+void ChangeLog::add(const ConditionChange& change, bool is_step_of_ramp)
+{
+    constexpr std::uint8_t first_and_last = 2;
+    if (!is_step_of_ramp) ramp_entries_ = 0;
+    if (ramp_entries_ == first_and_last) {
+        ConditionChange last = change;
+        last.up = merged(std::move(entries_.back().up), change.up);
+        last.down = merged(std::move(entries_.back().down), change.down);
+        entries_.back() = std::move(last);
+        return;
+    }
+    if (entries_.size() >= room_) {
+        ++omitted_;
+        return;
+    }
+    entries_.push_back(change);
+    if (is_step_of_ramp) ++ramp_entries_;
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What makes conditions change: a setting made by hand, or its end; the profile's timeline; the
+/// profile read again.
+enum class ChangeCause : std::uint8_t { hand, timeline, reload };
+[[nodiscard]] std::string_view to_text(ChangeCause cause);
+
+/// A change of the conditions of a path while it runs.
+struct ConditionChange {
+    std::uint64_t generation = 0;
+    base::Duration elapsed{};         // since the start of the run
+    std::uint64_t effective_up = 0;   // number of the first datagram for which it holds
+    std::uint64_t effective_down = 0; // the same of the other direction
+    ChangeCause by = ChangeCause::hand;
+    Patch up; // the settings that changed, as they are from then on
+    Patch down;
+};
+
+/// The changes of a path, in their order. A ramp changes the conditions a thousand times a second:
+/// of a row of its steps only the first and the last are kept. Bounded: what comes later than the
+/// first `room` of them is counted.
+class ChangeLog {
+public:
+    static constexpr std::size_t entries_max = 1000;
+
+    explicit ChangeLog(std::size_t room = entries_max) : room_{room} {}
+
+    void add(const ConditionChange& change, bool is_step_of_ramp);
+
+    [[nodiscard]] const std::vector<ConditionChange>& entries() const { return entries_; }
+    /// Changes that are not among the entries, for want of room.
+    [[nodiscard]] std::uint64_t omitted() const { return omitted_; }
+
+private:
+    std::size_t room_;
+    std::vector<ConditionChange> entries_;
+    std::uint64_t omitted_ = 0;
+    std::uint8_t ramp_entries_ = 0; // how many of the last entries are of the ramp that goes on
+};
+
+} // namespace hapnet::emulator

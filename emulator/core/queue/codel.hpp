@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::emulator {
+
+/// Controlled delay (RFC 8289, section 5): drops at the head of the queue once datagrams have
+/// waited longer than the target for an interval, and then ever more often until they do not.
+///
+/// Each time the line is free, show it the datagram at the head, and as long as it drops, the next.
+class Codel {
+public:
+    /// Less in the queue is no reason to drop: one datagram of the usual largest size.
+    static constexpr std::size_t bytes_min = 1514;
+
+    Codel(base::Duration target, base::Duration interval) : target_{target}, interval_{interval} {}
+
+    /// What it may know of the datagram at the head.
+    struct Head {
+        base::Duration waited{};
+        std::size_t bytes_behind = 0; // in the queue
+        bool is_first = false;        // of those shown at this moment
+    };
+
+    [[nodiscard]] bool drops(const Head& head, base::TimePoint now)
+    {
+        const bool may_drop = has_waited_long(head, now);
+        if (!head.is_first) return drops_another(may_drop, now);
+        if (is_dropping_) {
+            is_dropping_ = may_drop;
+            if (!is_dropping_ || now < drop_next_) return false;
+            ++count_;
+            return true;
+        }
+        begins_ = may_drop;
+        return may_drop;
+    }
+
+    /// The one before was dropped, and there is none behind it.
+    void on_empty(base::TimePoint now)
+    {
+        first_above_.reset();
+        static_cast<void>(drops_another(false, now));
+    }
+
+    void change(base::Duration target, base::Duration interval)
+    {
+        target_ = target;
+        interval_ = interval;
+    }
+
+private:
+    [[nodiscard]] bool has_waited_long(const Head& head, base::TimePoint now)
+    {
+        if (head.waited < target_ || head.bytes_behind <= bytes_min) {
+            first_above_.reset();
+            return false;
+        }
+        if (!first_above_) {
+            first_above_ = now + interval_;
+            return false;
+        }
+        return now >= *first_above_;
+    }
+
+    [[nodiscard]] bool drops_another(bool may_drop, base::TimePoint now)
+    {
+        if (begins_) {
+            begin(now);
+            return false;
+        }
+        is_dropping_ = may_drop;
+        if (!may_drop) return false;
+        drop_next_ = after(drop_next_);
+        if (now < drop_next_) return false;
+        ++count_;
+        return true;
+    }
+
+    /// Begins to drop, as often as it did at last if that was not long ago.
+    void begin(base::TimePoint now)
+    {
+        begins_ = false;
+        is_dropping_ = true;
+        const std::uint32_t delta = count_ - last_count_;
+        count_ = delta > 1 && now - drop_next_ < 16 * interval_ ? delta : 1;
+        drop_next_ = after(now);
+        last_count_ = count_;
+    }
+
+    [[nodiscard]] base::TimePoint after(base::TimePoint time) const
+    {
+        const double part = static_cast<double>(interval_.count()) / std::sqrt(count_);
+        return time + base::Duration{static_cast<base::Duration::rep>(part)};
+    }
+
+    base::Duration target_;
+    base::Duration interval_;
+    std::optional<base::TimePoint> first_above_; // when it will have been too long for an interval
+    base::TimePoint drop_next_{};
+    std::uint32_t count_ = 0; // of drops since it began to drop
+    std::uint32_t last_count_ = 0;
+    bool is_dropping_ = false;
+    bool begins_ = false; // the first of a time of dropping was just dropped
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/queue/control.hpp"
+
+#include "emulator/core/delay/bounds.hpp"
+
+namespace hapnet::emulator {
+
+base::Result<void> validate(const QueueControl& queue)
+{
+    constexpr base::Duration zero{0};
+    const bool has_target = queue.target.has_value();
+    return all(
+        {require(!has_target || *queue.target > zero, "target must be more than 0"),
+         require(!has_target || *queue.target <= longest_delay, "target must be at most 1000000s"),
+         require(!has_target || queue.law != QueueLaw::drop_tail,
+                 "target belongs to codel or pie: drop-tail aims at nothing"),
+         require(queue.interval > zero && queue.interval <= longest_delay,
+                 "interval must be more than 0 and at most 1000000s"),
+         require(queue.time_max >= zero, "time must not be negative")});
+}
+
+} // namespace hapnet::emulator

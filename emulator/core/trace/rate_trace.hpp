@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/trace/rows.hpp"
+#include "emulator/core/trace/timing.hpp"
+#include "proto/base/reading.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What a line sends, as bits times 10^9: bits a second times nanoseconds.
+using Work = std::uint64_t;
+inline constexpr Work work_per_byte = 8 * 1'000'000'000ULL;
+
+/// When a line is through with some work, and what it could have sent besides by then: a part of a
+/// nanosecond, or of an opportunity.
+struct Completion {
+    base::Duration at{};
+    Work spare = 0;
+
+    friend bool operator==(const Completion&, const Completion&) = default;
+};
+
+/// Moments at which so many bytes may leave: the rule of Mahimahi (Netravali et al., USENIX ATC
+/// 2015, src/frontend/link_queue.cc). An opportunity that finds nothing waiting is lost; one that a
+/// datagram does not fill goes to the next that waits; a larger datagram takes several. What
+/// arrives at the moment of an opportunity comes too late for it. The trace begins again at its
+/// last opportunity.
+class Opportunities {
+public:
+    static constexpr std::size_t bytes_each = 1504;
+
+    /// Not descending, not negative, the last above 0; at least one.
+    explicit Opportunities(std::vector<base::Duration> times);
+
+    [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
+                                                   bool repeats) const;
+    [[nodiscard]] Work sent(base::Duration from, base::Duration to, bool repeats) const;
+    [[nodiscard]] double mean_rate() const;
+    [[nodiscard]] base::Duration period() const { return times_.back(); }
+
+    friend bool operator==(const Opportunities&, const Opportunities&) = default;
+
+private:
+    [[nodiscard]] std::uint64_t count(base::Duration until, bool repeats) const;
+
+    std::vector<base::Duration> times_;
+};
+
+/// Rates that hold from their time until that of the next one.
+class RateSteps {
+public:
+    /// As many times as rates, ascending from 0; at least one rate is above 0.
+    RateSteps(std::vector<std::uint64_t> rates, std::vector<base::Duration> times);
+
+    [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
+                                                   bool repeats) const;
+    [[nodiscard]] Work sent(base::Duration from, base::Duration to, bool repeats) const;
+    [[nodiscard]] double mean_rate() const;
+    [[nodiscard]] base::Duration period() const { return axis_.period(); }
+
+    friend bool operator==(const RateSteps&, const RateSteps&) = default;
+
+private:
+    /// The rate at a time, and how long it still holds; nullopt: for ever.
+    struct Segment {
+        std::uint64_t rate = 0;
+        std::optional<base::Duration> left;
+    };
+    [[nodiscard]] Segment segment(base::Duration time, bool repeats) const;
+
+    std::vector<std::uint64_t> rates_;
+    TimeAxis axis_;
+    Work per_period_ = 0; // at most 2^63
+};
+
+/// What a line may send over time, as it was recorded.
+class RateTrace {
+public:
+    explicit RateTrace(std::variant<Opportunities, RateSteps> trace);
+
+    /// When the line is through with work that it begins at `from`, both since the trace began;
+    /// nullopt: never, or not within 10^6 s.
+    [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
+                                                   bool repeats) const;
+
+    /// What the line can send after `from`, up to and including `to`; at most 2^63.
+    [[nodiscard]] Work sent(base::Duration from, base::Duration to, bool repeats) const;
+
+    /// In bits a second.
+    [[nodiscard]] double mean_rate() const;
+
+    /// After which it begins again; 0: one rate for ever.
+    [[nodiscard]] base::Duration period() const;
+
+    friend bool operator==(const RateTrace&, const RateTrace&) = default;
+
+private:
+    std::variant<Opportunities, RateSteps> trace_;
+};
+
+/// Reads Mahimahi's format, a line for each opportunity with its time in whole milliseconds, or CSV
+/// with a column of times and one of rates (see read_trace_rows). The error names the line.
+[[nodiscard]] base::Result<RateTrace> parse_rate_trace(std::string_view text,
+                                                       const Columns& columns = {});
+
+/// The rate of a bottleneck, read off a trace.
+struct RateTraceLaw {
+    std::string file;
+    std::shared_ptr<const RateTrace> trace; // never null
+    std::string columns{};
+    TraceTiming timing{};
+
+    /// Reads the file.
+    [[nodiscard]] base::Result<void> load(const base::Reading& reading);
+    [[nodiscard]] base::Result<void> validate() const;
+
+    /// By its contents: the same file read twice is the same law.
+    friend bool operator==(const RateTraceLaw& a, const RateTraceLaw& b);
+};
+
+constexpr auto fields_of(base::Tag<RateTraceLaw>)
+{
+    return base::fields(
+        "trace",
+        base::field("file", &RateTraceLaw::file,
+                    "opportunities of 1504 B, a time in ms a line (Mahimahi), or CSV of times and "
+                    "rates")
+            .required(),
+        base::field("columns", &RateTraceLaw::columns,
+                    "columns of CSV with other names: \"time=stamp:s, rate=capacity:Mbps\""),
+        base::part(&RateTraceLaw::timing));
+}
+
+} // namespace hapnet::emulator

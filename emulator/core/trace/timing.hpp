@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/fields.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// When time 0 of a trace is.
+enum class TraceStart : std::uint8_t {
+    run,   // when the run begins
+    first, // when the first datagram of the direction arrives
+};
+constexpr auto names_of(base::Tag<TraceStart>) { return base::names("run", "first"); }
+
+/// What a value of a trace is until the next one.
+enum class Interpolation : std::uint8_t { step, linear };
+constexpr auto names_of(base::Tag<Interpolation>) { return base::names("step", "linear"); }
+
+/// How a trace in time is laid on a run.
+struct TraceTiming {
+    bool repeat = true;
+    base::Duration offset{}; // not negative
+    TraceStart start = TraceStart::run;
+
+    friend bool operator==(const TraceTiming&, const TraceTiming&) = default;
+};
+constexpr auto fields_of(base::Tag<TraceTiming>)
+{
+    return base::fields(
+        "timing",
+        base::field("repeat", &TraceTiming::repeat,
+                    "whether the trace begins again at its end; if not, its last value holds"),
+        base::field("offset", &TraceTiming::offset, "how far into the trace the run begins"),
+        base::field("start", &TraceTiming::start,
+                    "whether the trace begins with the run, or with the first datagram"));
+}
+
+/// Says where in a trace a moment of the run lies.
+class TraceClock {
+public:
+    explicit TraceClock(const TraceTiming& timing) : timing_{timing} {}
+
+    /// Of a datagram that arrives at `at`, since the run began; not before the one before it.
+    [[nodiscard]] base::Duration on_packet(base::Duration at)
+    {
+        if (!zero_) zero_ = timing_.start == TraceStart::first ? at : base::Duration{0};
+        return std::max(at - *zero_, base::Duration{0}) + timing_.offset;
+    }
+
+    [[nodiscard]] const TraceTiming& timing() const { return timing_; }
+
+private:
+    TraceTiming timing_;
+    std::optional<base::Duration> zero_; // nullopt: no datagram has come yet
+};
+
+/// The times of the values of a trace. The last value lasts as long as the one before it; a single
+/// one lasts for ever.
+class TimeAxis {
+public:
+    /// Ascending from 0; at least one.
+    explicit TimeAxis(std::vector<base::Duration> times);
+
+    /// Between which values a moment lies, and which share of the way to the next one has passed.
+    /// From a value that lasts for ever there is no way.
+    struct Place {
+        std::size_t index = 0;
+        std::size_t next = 0;
+        double progress = 0.0;
+    };
+    [[nodiscard]] Place place(base::Duration time, bool repeats) const;
+
+    [[nodiscard]] std::size_t size() const { return times_.size(); }
+
+    /// After which it begins again; 0: it has only one value.
+    [[nodiscard]] base::Duration period() const { return period_; }
+    [[nodiscard]] base::Duration begin(std::size_t index) const { return times_[index]; }
+    [[nodiscard]] base::Duration end(std::size_t index) const
+    {
+        return index + 1 < times_.size() ? times_[index + 1] : period_;
+    }
+
+    /// The share of a period that a value lasts.
+    [[nodiscard]] double share(std::size_t index) const;
+
+    friend bool operator==(const TimeAxis&, const TimeAxis&) = default;
+
+private:
+    std::vector<base::Duration> times_;
+    base::Duration period_{};
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/emulation.hpp"
+#include "emulator/core/paths.hpp"
+#include "emulator/options.hpp"
+#include "emulator/pacer.hpp"
+#include "emulator/ports/frames.hpp"
+#include "emulator/recorder.hpp"
+#include "emulator/report.hpp"
+#include "emulator/scenario.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+#include "proto/control/server.hpp"
+#include "proto/net/result_file.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// A run between two network interfaces, from their sockets to the written files. Everything but
+/// the recorder's writing happens on the thread that constructs it.
+class FrameSession {
+public:
+    struct Setup {
+        std::string command; // "between"
+        ports::Frames::Setup frames;
+    };
+
+    /// The options and the scenario outlive it. Throws std::system_error.
+    FrameSession(const Options& options, const Scenario& scenario, Setup setup);
+
+    /// The error names a check that no statistics can meet.
+    [[nodiscard]] base::Result<void> ensure_checks() const;
+
+    /// What holds for this run, and warnings, on stderr.
+    void announce() const;
+
+    /// One round: sleeps until a frame, one of `descriptors` or the deadline calls, and does what
+    /// is due. Gives the time.
+    base::TimePoint turn(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
+
+    /// When --duration is over; nullopt: it ends otherwise.
+    [[nodiscard]] std::optional<base::TimePoint> end() const { return end_; }
+    /// Whether a client of the control socket has ended it.
+    [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+    [[nodiscard]] const std::optional<std::string>& failure() const { return frames_.failure(); }
+
+    /// Writes the files and says how it went. False: they are not complete, or a check was not met.
+    /// Throws, after that, what kept the recorder from its files.
+    bool finish();
+
+private:
+    [[nodiscard]] nlohmann::ordered_json statistics() const;
+    [[nodiscard]] std::string summary() const;
+
+    base::TimePoint start_;
+    Setup setup_;
+    Recorder recorder_;
+    Paths paths_;
+    ports::Frames frames_;
+    AnyRun run_;
+    Emulation emulation_;
+    Pacer pacer_;
+    std::optional<control::Server> control_;
+    std::optional<net::ResultFile> stats_;
+    std::optional<base::TimePoint> end_;
+    std::vector<int> descriptors_;
+    bool has_told_of_files_ = false;
+    bool is_stopped_ = false;
+};
+
+} // namespace hapnet::emulator

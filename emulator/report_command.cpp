@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/commands.hpp"
+#include "emulator/core/profile/paths.hpp"
+#include "emulator/run_files.hpp"
+#include "emulator/tools/run_page/run_page.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/text_file.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <string>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+/// Reads the fates, and tests them as far as they can be.
+base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options)
+{
+    const auto named = fates_path_of(run.statistics, options.run);
+    if (!named && !options.fates) {
+        run.why_unverified = named.error().message;
+        return {};
+    }
+    auto fates = fates_of_path(options.fates ? *options.fates : *named, options.link);
+    if (!fates) return tl::unexpected{fates.error()};
+    run.fates = *std::move(fates);
+    auto fine = ensure_whole(*run.fates, run.statistics);
+    if (!fine) return fine;
+    fine = ensure_testable(run.statistics, run.profile, options.run);
+    if (!fine) {
+        run.why_unverified = fine.error().message;
+        return {};
+    }
+    run.verification = tools::verify({.path = profile_of(run.profile, run.link).path,
+                                      .seed = run.profile.seed,
+                                      .name = run.link},
+                                     run.fates->up, run.fates->down);
+    return {};
+}
+
+} // namespace
+
+base::Result<int> run(const ReportOptions& options)
+{
+    const auto text = net::text_of_file(options.run);
+    if (!text) return tl::unexpected{text.error()};
+    auto statistics = statistics_in(*text, options.run);
+    if (!statistics) return tl::unexpected{statistics.error()};
+    auto profile = profile_of_run(*statistics, options.run);
+    if (!profile) return tl::unexpected{profile.error()};
+    auto own = of_path(*statistics, options.link);
+    if (own.is_null()) {
+        return base::fail(fmt::format("{} has no path '{}': 'links' and 'clients' in it name those "
+                                      "that it has",
+                                      options.run, *options.link));
+    }
+    tools::RunRecord run{std::move(own),           *std::move(profile), {}, {}, {},
+                         options.link.value_or("")};
+    if (const auto fine = add_fates(run, options); !fine) return tl::unexpected{fine.error()};
+    const std::string page = run_page(run);
+    if (options.out == "-") {
+        fmt::print("{}", page);
+        return 0;
+    }
+    net::ResultFile{options.out}.commit(page);
+    net::say("hapnet-emulator", fmt::format("wrote {}", options.out));
+    return 0;
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/fates/fates.hpp"
+#include "emulator/core/profile/profile.hpp"
+#include "proto/base/result.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+namespace hapnet::emulator {
+
+// What a run has written, for the commands that read it again. Errors name the file.
+
+/// Statistics as --stats writes them: an object.
+[[nodiscard]] base::Result<nlohmann::ordered_json> statistics_in(const std::string& text,
+                                                                 const std::string& path);
+
+/// The profile of the run, from its statistics.
+[[nodiscard]] base::Result<Profile> profile_of_run(const nlohmann::ordered_json& statistics,
+                                                   const std::string& path);
+
+/// The file of fates that the statistics name: as they name it, or beside them. The error says that
+/// they name none.
+[[nodiscard]] base::Result<std::string> fates_path_of(const nlohmann::ordered_json& statistics,
+                                                      const std::string& path);
+
+// Of a run with several paths, those of one, which `link` names; nullopt: it has only one.
+
+/// The fates of the path in a table. The error names the paths that are in it.
+[[nodiscard]] base::Result<Fates> fates_of_path(const std::string& fates_path,
+                                                const std::optional<std::string>& link);
+
+/// The statistics with those of the path in the place of those of the run; null when they have
+/// none of it: of a client that was forgotten.
+[[nodiscard]] nlohmann::ordered_json of_path(const nlohmann::ordered_json& statistics,
+                                             const std::optional<std::string>& link);
+
+/// Whether the fates are those of all datagrams that the statistics count. Rows that are missing at
+/// the end of the table leave no gap in it.
+[[nodiscard]] base::Result<void> ensure_whole(const Fates& fates,
+                                              const nlohmann::ordered_json& statistics);
+
+/// The error says why the fates of this run cannot be tested against its profile: they were
+/// replayed, or the conditions changed.
+[[nodiscard]] base::Result<void> ensure_testable(const nlohmann::ordered_json& statistics,
+                                                 const Profile& profile, const std::string& path);
+
+} // namespace hapnet::emulator

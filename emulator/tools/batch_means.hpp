@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// How far mean and standard deviation of a series are known, as shares of their values: half the
+/// width of a 95 % interval.
+struct Precision {
+    double mean = 0.0;
+    double sd = 0.0; // 0 for values that are all the same
+};
+
+/// Tells by the method of batch means (Law, "Simulation Modeling and Analysis", 9.5.3) how far a
+/// series whose neighbours may be correlated has settled. Keeps 32 to 63 batches of equal length:
+/// when there would be more, neighbours are joined. What correlation is left between the batches
+/// widens the interval as for an autoregressive series of first order.
+class BatchMeans {
+public:
+    static constexpr std::size_t batches_min = 32;
+
+    void add(double value);
+
+    [[nodiscard]] std::uint64_t count() const { return count_; }
+    /// nullopt: fewer values than batches_min.
+    [[nodiscard]] std::optional<Precision> precision() const;
+
+private:
+    struct Sums {
+        double count = 0.0;
+        double first = 0.0;  // of the values less the first of all: numbers stay small
+        double second = 0.0; // of their squares
+
+        void add(const Sums& other);
+    };
+
+    double origin_ = 0.0;
+    std::uint64_t count_ = 0;
+    double batch_size_ = 1.0;
+    Sums open_; // the batch that is being filled
+    std::vector<Sums> batches_;
+};
+
+} // namespace hapnet::emulator::tools

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/delay/delay.hpp"
+#include "emulator/tools/learn/measurement.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// A law of delays with the parameters that were found for it: a constant and a jitter.
+struct DelayModel {
+    std::string_view name;
+    base::Duration base{};
+    DelayLaw jitter;
+    double distance = 0.0;           // largest, of the distribution functions
+    std::optional<double> p_value{}; // Kolmogorov and Smirnov; nullopt: too few delays to tell
+};
+
+/// What was found about the delays of a way.
+struct DelayFit {
+    std::vector<DelayModel> models{};  // the nearest first; one, constant, if they do not vary
+    double correlation = 0.0;          // of normal scores of neighbours
+    base::Duration correlation_time{}; // 0: independent, or the spacing is not known
+    std::size_t independent = 0;       // delays that were far enough apart for the test
+};
+
+/// `way` has at least one datagram that was not lost.
+[[nodiscard]] DelayFit fit_delays(const MeasuredWay& way, std::optional<base::Duration> spacing);
+
+} // namespace hapnet::emulator::tools

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/loss/loss.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// A model of losses with the parameters under which what was lost is most likely.
+struct LossModel {
+    std::string_view name;
+    LossLaw law;
+    double log_likelihood = 0.0;
+    int parameters = 0;
+    double bic = 0.0; // Schwarz, Annals of Statistics 6, 1978: the least is the best
+};
+
+/// Independent losses, Gilbert and Gilbert-Elliott (Baum and Welch's iteration), the best by BIC
+/// first; empty when nothing was lost. A model whose parameters make no law is left out.
+[[nodiscard]] std::vector<LossModel> fit_losses(const std::vector<bool>& lost);
+
+} // namespace hapnet::emulator::tools

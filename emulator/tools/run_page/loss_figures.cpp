@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/loss/loss.hpp"
+#include "emulator/tools/run_page/figures.hpp"
+#include "proto/plot/heat_map.hpp"
+#include "proto/plot/plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+namespace {
+
+using plot::Point;
+
+constexpr plot::Size half_page_of_runs{520.0, 280.0};
+constexpr plot::Size strip_size{900.0, 96.0};
+constexpr std::size_t cells_max = 120;
+
+/// From none to all lost.
+constexpr std::array<std::string_view, 6> shades{"rgba(196,13,30,.04)", "rgba(196,13,30,.2)",
+                                                 "rgba(196,13,30,.4)",  "rgba(196,13,30,.6)",
+                                                 "rgba(196,13,30,.8)",  "rgba(196,13,30,1)"};
+
+std::string_view shade_of(std::size_t lost, std::size_t all)
+{
+    if (lost == 0) return shades.front();
+    const double share = static_cast<double>(lost) / static_cast<double>(all);
+    constexpr auto steps = static_cast<double>(shades.size() - 1);
+    return shades.at(static_cast<std::size_t>(std::ceil(share * steps)));
+}
+
+/// How many runs of losses have each length; the first place is that of length 1.
+std::vector<std::uint64_t> run_lengths(std::span<const Fate> fates)
+{
+    std::vector<std::uint64_t> counts;
+    std::size_t run = 0;
+    const auto close = [&] {
+        if (run == 0) return;
+        if (counts.size() < run) counts.resize(run);
+        ++counts[run - 1];
+        run = 0;
+    };
+    for (const Fate& fate : fates) {
+        if (fate.is_lost()) {
+            ++run;
+        } else {
+            close();
+        }
+    }
+    close();
+    return counts;
+}
+
+/// The share of runs that have at least this length.
+std::vector<Point> at_least(const std::vector<std::uint64_t>& counts)
+{
+    double left = 0.0;
+    for (const auto count : counts) left += static_cast<double>(count);
+    const double all = left;
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > 0) points.push_back({static_cast<double>(i + 1), left / all});
+        left -= static_cast<double>(counts[i]);
+    }
+    return points;
+}
+
+std::string with_caption(const std::string& svg, std::string_view caption)
+{
+    return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, caption);
+}
+
+} // namespace
+
+std::string loss_figure(const RunDirection& run)
+{
+    if (run.fates.empty()) return "";
+    const std::size_t length = (run.fates.size() + cells_max - 1) / cells_max;
+    plot::HeatMap strip;
+    strip.rows.emplace_back(to_text(run.direction));
+    for (std::size_t begin = 0; begin < run.fates.size(); begin += length) {
+        const auto part = run.fates.subspan(begin, std::min(length, run.fates.size() - begin));
+        const auto lost = static_cast<std::size_t>(std::count_if(
+            part.begin(), part.end(), [](const Fate& fate) { return fate.is_lost(); }));
+        const std::size_t column = strip.columns.size();
+        strip.columns.push_back(column % 20 == 0 ? fmt::format("{}", begin) : "");
+        strip.cells.push_back({column, 0, shade_of(lost, part.size()), "",
+                               fmt::format("datagrams {} to {}: {} of {} lost", begin,
+                                           begin + part.size() - 1, lost, part.size())});
+    }
+    return with_caption(
+        plot::svg_heat_map(
+            {fmt::format("Losses, {}", to_text(run.direction)), "number of the datagram", ""},
+            strip, strip_size),
+        fmt::format("Each field stands for {} datagrams; the darker, the more of them the laws "
+                    "dropped. Rest the pointer on a field for its numbers.",
+                    length));
+}
+
+std::string loss_runs_figure(const RunDirection& run)
+{
+    const auto counts = run_lengths(run.fates);
+    if (counts.empty()) return "";
+    std::vector<plot::Curve> curves{{.name = "this run",
+                                     .colour = "var(--missed)",
+                                     .points = at_least(counts),
+                                     .width = 1.6,
+                                     .shows_points = true}};
+    const bool has_law =
+        run.conditions != nullptr && run.conditions->loss.size() == 1 && run.spacing_s > 0.0;
+    if (has_law) {
+        const auto theory =
+            theory_of(run.conditions->loss.front(), {base::from_seconds(run.spacing_s),
+                                                     std::max<std::size_t>(run.fates.size(), 1)});
+        if (theory.mean_run && *theory.mean_run >= 1.0) {
+            const double stays = 1.0 - 1.0 / *theory.mean_run;
+            std::vector<Point> points;
+            for (std::size_t k = 1; k <= counts.size() + 1; ++k) {
+                points.push_back(
+                    {static_cast<double>(k), std::pow(stays, static_cast<double>(k - 1))});
+            }
+            curves.push_back({.name = "geometric, the law's mean",
+                              .colour = "var(--muted)",
+                              .points = std::move(points),
+                              .stroke = plot::Stroke::dashed});
+        }
+    }
+    return with_caption(
+        plot::svg_plot({fmt::format("Runs of losses, {}", to_text(run.direction)),
+                        "length (datagrams)", "share at least so long"},
+                       curves,
+                       {.scales = {.y = plot::Scale::logarithmic}, .size = half_page_of_runs}),
+        "The runs of independent losses, and of Gilbert's model, are geometric; those of other "
+        "laws need not be.");
+}
+
+std::string changes_figure(const nlohmann::ordered_json& statistics)
+{
+    const auto changes = statistics.value("changes", nlohmann::ordered_json::array());
+    if (changes.empty()) return "";
+    std::vector<Point> points{{0.0, 1.0}};
+    for (const auto& change : changes) {
+        const double at = change.value("elapsed_s", 0.0);
+        points.push_back({at, points.back().y});
+        points.push_back({at, change.value("generation", 1.0)});
+    }
+    points.push_back({statistics.value("duration_s", points.back().x), points.back().y});
+    const std::array curves{plot::Curve{
+        .name = "", .colour = "var(--accent)", .points = std::move(points), .width = 2.0}};
+    return with_caption(plot::svg_plot({"Changes of the conditions", "time (s)", "generation"},
+                                       curves, {.size = {900.0, 180.0}}),
+                        "Each step is a change; the table below says which. A ramp changes the "
+                        "conditions every millisecond.");
+}
+
+} // namespace hapnet::emulator::tools

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/fates/fates.hpp"
+#include "emulator/core/profile/profile.hpp"
+#include "emulator/tools/verify/verify.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace hapnet::emulator::tools {
+
+/// What a run has left behind.
+struct RunRecord {
+    nlohmann::ordered_json statistics; // as --stats writes them; an object
+    Profile profile;                   // of the start
+    std::optional<Fates> fates;        // nullopt: the run wrote none
+    std::optional<Verification> verification;
+    std::string why_unverified; // where there is no verification
+    std::string link{};         // whose statistics these are, of a run with several paths
+};
+
+/// One page about one run, without any other file: what was asked and what came out.
+[[nodiscard]] std::string run_page(const RunRecord& run);
+
+} // namespace hapnet::emulator::tools

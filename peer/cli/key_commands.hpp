@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/cli/command.hpp"
+#include "proto/secure/primitives.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace hapnet::peer {
+
+/// `hapnet-peer keygen --peers N [--name NAME] --out DIR`: the files of a whole circle.
+struct KeygenCircleCommand {
+    std::uint8_t peers = 2;
+    std::string name = "lab";
+    std::string folder;
+};
+
+/// `hapnet-peer keygen --own --id ID [--name NAME] --out FILE`: one host's file; nothing secret has
+/// to travel.
+struct KeygenOwnCommand {
+    std::uint8_t id = 1;
+    std::string name = "lab";
+    std::string file;
+};
+
+/// `hapnet-peer key show FILE`
+struct KeyShowCommand {
+    std::string file;
+};
+
+/// `hapnet-peer key add FILE --id ID --public KEY [--endpoint HOST:PORT]`
+struct KeyAddCommand {
+    std::string file;
+    std::uint8_t id = 0;
+    secure::PublicKey key{};
+    std::string endpoint;
+};
+
+using KeyCommand =
+    std::variant<KeygenCircleCommand, KeygenOwnCommand, KeyShowCommand, KeyAddCommand>;
+
+/// The commands about keys: adds them to a program, and says afterwards which one was chosen.
+class KeyCommands {
+public:
+    explicit KeyCommands(cli::Command& program);
+    KeyCommands(const KeyCommands&) = delete;
+    KeyCommands& operator=(const KeyCommands&) = delete;
+    ~KeyCommands() = default;
+
+    [[nodiscard]] bool is_chosen() const;
+    /// The one that was chosen; an error when its options contradict each other.
+    [[nodiscard]] base::Result<KeyCommand> chosen() const;
+
+private:
+    void add_keygen(cli::Command& program);
+    void add_key(cli::Command& program);
+    [[nodiscard]] base::Result<KeyCommand> keygen() const;
+
+    cli::Command* keygen_ = nullptr;
+    cli::Command* key_ = nullptr;
+    std::optional<std::uint8_t> peers_, id_;
+    bool own_ = false;
+    std::string name_ = "lab";
+    std::string out_;
+    std::string action_, file_;
+    KeyAddCommand adding_;
+};
+
+// Each gives its exit code.
+
+[[nodiscard]] base::Result<int> run(const KeygenCircleCommand& command);
+[[nodiscard]] base::Result<int> run(const KeygenOwnCommand& command);
+[[nodiscard]] base::Result<int> run(const KeyShowCommand& command);
+[[nodiscard]] base::Result<int> run(const KeyAddCommand& command);
+
+} // namespace hapnet::peer

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/handshake.hpp"
+#include "peer/core/outbox.hpp"
+#include "peer/core/remote.hpp"
+#include "peer/core/sequence_guard.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+/// Another peer of the session, as this one knows it: the handshake with it, its newest state, what
+/// was heard of its leaving, and the datagrams that wait to be sent to it. Between any two peers
+/// the messages are numbered anew.
+class Member {
+public:
+    /// The other side counts as silent when no state came for this long after the start.
+    static constexpr base::Duration first_word_within{std::chrono::seconds{1}};
+    /// In ticks. A path that is slower one way than the other shifts the two starts by half the
+    /// difference, which nobody can see: as much as the slowest path that is believed.
+    static constexpr base::Duration::rep sequence_slack = 5000;
+    static constexpr std::uint32_t body_every = 64; // messages
+    /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
+    /// damaged. Those that it overtook on its way do not count.
+    static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
+    /// So many states without a body, and for a second, are no chance: every 64th has it.
+    static constexpr std::uint32_t states_without_body_max = 10 * body_every;
+    static constexpr base::Duration body_missed_after{std::chrono::seconds{1}};
+
+    struct Config {
+        Introduction introduction; // of this peer
+        std::uint16_t id = 0;      // of the other one; 0: whoever answers
+        Handshake::StartSetBy start_set_by = Handshake::StartSetBy::lower_id;
+        Staleness staleness{};
+        Stale stale = Stale::drop;
+        base::Duration tick{std::chrono::milliseconds{1}};
+    };
+    explicit Member(const Config& config);
+
+    /// What a hello has changed.
+    struct Greeting {
+        std::optional<wire::ByeReason> refused;
+        bool met = false;         // heard for the first time
+        bool in_session = false;  // with this run of it, from now on
+        bool had_session = false; // with another run, until now
+    };
+    [[nodiscard]] Greeting on_hello(const wire::Hello& hello, base::TimePoint arrived);
+    /// Whether its hello may be listened to: the one that is expected here.
+    [[nodiscard]] bool is_expected(std::uint16_t id) const { return id_ == 0 || id == id_; }
+
+    /// A state that is plausible in itself: whether its number can be true.
+    [[nodiscard]] bool can_be_numbered(const wire::State& state, base::TimePoint arrived) const;
+    /// Whether it goes on although it has said goodbye; then the goodbye is forgotten.
+    [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
+    struct Heard {
+        bool taken = false;       // newer than what was known
+        bool body_missed = false; // from now on: the first time in this run
+    };
+    [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint arrived);
+    /// True the first time in a session.
+    [[nodiscard]] bool on_goodbye(const wire::Bye& bye, base::TimePoint arrived);
+
+    /// Begins the session that the circle has agreed on; see Handshake::tell().
+    void join(const Session& agreed, bool late, base::TimePoint now);
+
+    [[nodiscard]] const Handshake& handshake() const { return handshake_; }
+    [[nodiscard]] Handshake& handshake() { return handshake_; }
+    [[nodiscard]] const Remote& remote() const { return remote_; }
+    [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
+    /// Its id: as it was named, or as it has said; 0: neither.
+    [[nodiscard]] std::uint16_t id() const { return id_ != 0 ? id_ : handshake_.id(); }
+    [[nodiscard]] bool is_gone() const { return gone_; } // it said goodbye
+    /// Of its state, 0 to 1; 0 when it is gone.
+    [[nodiscard]] double freshness(base::TimePoint now) const
+    {
+        return gone_ ? 0.0 : remote_.freshness(now);
+    }
+    /// Heard by hellos or states within `length` before now.
+    [[nodiscard]] bool is_heard_within(base::Duration length, base::TimePoint now) const
+    {
+        return last_heard_ && now - *last_heard_ <= length;
+    }
+    /// Whether its forces have just faded to zero, or it is heard again.
+    enum class Change : std::uint8_t { none, lost, back };
+    [[nodiscard]] Change look(base::TimePoint now);
+    /// So long silent, or gone: it does not hold the others up any more.
+    [[nodiscard]] bool counts_as_gone(base::Duration silence, base::TimePoint now) const;
+
+    /// The number of the pair's session and of the last state to it.
+    struct Numbering {
+        std::uint32_t number = 0;
+        std::uint32_t sequence = 0;
+    };
+    [[nodiscard]] const Numbering& numbering() const { return current_; }
+    std::uint32_t next_sequence() { return ++current_.sequence; }
+    /// Whether its next state has the body although nothing moves: the first, and every 64th.
+    [[nodiscard]] bool is_body_due() const { return current_.sequence % body_every == 1; }
+
+    void post(const wire::Datagram& datagram) { outbox_.put(datagram); }
+    [[nodiscard]] std::optional<wire::Datagram> poll() { return outbox_.take(); }
+
+private:
+    void begin_session(base::TimePoint now);
+    [[nodiscard]] bool misses_body(const wire::State& state, base::TimePoint arrived);
+
+    std::uint16_t id_;
+    Handshake handshake_;
+    Remote remote_;
+    SequenceGuard sequences_;
+    base::Duration tick_;
+    Outbox<wire::Datagram, 8> outbox_;
+    Numbering current_;
+    Numbering former_; // the session before
+    base::TimePoint agreed_at_;
+    std::optional<base::TimePoint> last_heard_; // a hello or a state
+
+    bool gone_ = false;
+    struct Goodbye {
+        base::TimePoint heard;
+        std::optional<base::TimePoint> last_sent; // of its states until then, on its clock
+    };
+    Goodbye goodbye_;
+    base::TimePoint last_body_; // of the other side, or the session's agreement
+    std::uint32_t states_without_body_ = 0;
+    bool body_missed_ = false; // and a person has been told
+    bool lost_ = false;        // it fell silent
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::peer::line {
+
+/// What a person should be told of the line to the other peer.
+enum class News : std::uint8_t {
+    sealed,          // the two have agreed on a key: from now on messages go
+    other_is_plain,  // the other side plays without a key
+    other_is_sealed, // the other side has a key, and this one has none
+    other_circle,    // somebody has other keys than ours
+    moved,           // the other side is heard from another place
+    same_id,         // two programs seem to have the same key and push each other out
+};
+inline constexpr std::size_t kinds_of_news = 6;
+
+/// News that nobody has taken yet, each once.
+class PendingNews {
+public:
+    void put(News news) { waiting_.set(static_cast<std::size_t>(news)); }
+    [[nodiscard]] std::optional<News> take()
+    {
+        for (std::size_t i = 0; waiting_.any() && i < kinds_of_news; ++i) {
+            if (!waiting_.test(i)) continue;
+            waiting_.reset(i);
+            return static_cast<News>(i);
+        }
+        return std::nullopt;
+    }
+
+private:
+    std::bitset<kinds_of_news> waiting_;
+};
+
+} // namespace hapnet::peer::line

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/line/line.hpp"
+#include "proto/base/time.hpp"
+#include "proto/secure/association.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::peer::line {
+
+/// The line to the other peer at a moment; statistics are made from it.
+struct Status {
+    /// With a key.
+    struct Key {
+        bool is_agreed = false;
+        std::optional<base::Duration> age; // of the key in use
+        secure::Association::Counts counts;
+        std::uint64_t misnamed = 0;
+        std::optional<secure::Place> place; // of the other side
+    };
+    std::uint64_t strangers = 0; // datagrams from elsewhere
+    std::optional<Key> key;      // nullopt: messages are plain
+};
+
+[[nodiscard]] inline Status status_of(const Line& line, base::TimePoint now)
+{
+    Status status{.strangers = line.strangers(), .key = {}};
+    if (const Sealed* sealed = line.sealed()) {
+        status.key = Status::Key{.is_agreed = sealed->has_key(now),
+                                 .age = sealed->key_age(now),
+                                 .counts = sealed->counts(),
+                                 .misnamed = sealed->misnamed(),
+                                 .place = sealed->place()};
+    }
+    return status;
+}
+
+} // namespace hapnet::peer::line

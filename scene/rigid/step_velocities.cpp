@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+//
+// The velocities of a tick: what acts on bodies from outside, and what their contacts change.
+#include "scene/rigid/step.hpp"
+
+namespace hapnet::scene {
+
+/// Finds the velocities of the active bodies at the end of the tick, without what their contacts
+/// have to change.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, WorldState& state)
+{
+    for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
+    // A torque is held for the tick, as last tick's contact forces are.
+    for (const BodyId body : state.twisted)
+        integrations_[state.bodies.slot_of[body] + 1].contact_angular_impulse +=
+            scales_.tick * state.torques[body];
+    integrate_hand_springs(config, state);
+    for (const Slot slot : active_.slots()) {
+        BodyIntegration& integration = integrations_[slot + 1];
+        if (!integration.has_hands)
+            integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
+        if (restitution_.is_needed()) begin_bounces(integration);
+    }
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config, WorldState& state)
+{
+    const auto springs_of_all = hand_contacts_.springs();
+    for (std::size_t i = 0; i < springs_of_all.size(); ++i) {
+        const HandContacts::Spring& spring = springs_of_all[i];
+        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // done with that
+        const Slot slot = state.bodies.slot_of[spring.body];
+        activate(state.bodies, slot);
+        if (!integrations_[slot + 1].has_hands) integrate_hand_springs_on(config, state, spring);
+    }
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::integrate_hand_springs_on(const WorldConfig& config,
+                                                          WorldState& state,
+                                                          const HandContacts::Spring& spring)
+{
+    const Slot slot = state.bodies.slot_of[spring.body];
+    BodyIntegration& integration = integrations_[slot + 1];
+    const auto [springs, work] = hand_contacts_.springs_on(spring.body);
+    const std::span<FrictionSpring> frictions = hand_contacts_.frictions_on(spring.body);
+    integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
+                                  {springs, work, modes_[spring.hand], config, frictions});
+    hand_contacts_.store_impulses(spring.body);
+    if (!frictions.empty()) hand_contacts_.store_friction(state, spring.body);
+    if (integration.hands_are_braked) ++state.interventions.hands_braked;
+    state.tick_cost.spring_rows += integration.hand_rows;
+}
+
+/// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
+/// the mean velocities. Returns whether last tick's contact forces had to change for that.
+template <BroadPhase broad_phase>
+bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
+{
+    for (const Slot slot : active_.slots())
+        solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
+    for (ContactBlock& block : solver_.blocks()) {
+        set_centripetal_velocity(block, integrations_[block.a].start.spin,
+                                 integrations_[block.b].start.spin, scales_.tick);
+    }
+    const SolverOutcome outcome = solver_.solve_velocities(velocity_limits());
+    cost.contacts = solver_.blocks().size();
+    cost.visits += outcome.visits;
+    counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
+    counts_.sweeps = outcome.sweeps;
+    counts_.change = outcome.change;
+    if (!joints_.is_empty()) joints_.soften(solver_);
+    set_mean_motions();
+    return !outcome.in_balance;
+}
+
+/// From the velocities at the end.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::set_mean_motions()
+{
+    for (const Slot slot : active_.slots()) {
+        const BodyIntegration& integration = integrations_[slot + 1];
+        const BodyMotion& end = solver_.end_motion(slot + 1);
+        solver_.mean_motion(slot + 1) = {
+            integration.mean.velocity + 0.5 * (end.velocity - integration.predicted.velocity),
+            integration.mean.spin + 0.5 * (end.spin - integration.predicted.spin),
+            integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
+    }
+}
+
+/// Last tick's contact forces count as constant forces. Where they do not fit any more, bodies that
+/// bore them are gone or a wedge has opened, and the sweeps may end before they have given way:
+/// they drive bodies. Islands that gain so begin the tick again without them. From nothing every
+/// visit takes energy away, so that stopping anywhere is valid.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::solve_anew_what_gains(const WorldConfig& config, WorldState& state)
+{
+    const std::span<const std::uint8_t> gaining = account_.gaining(energy_tick(config, state));
+    if (gaining.empty()) return;
+    const auto is_gaining = [&](const ContactBlock& block) {
+        return gaining[solver_.responding_of(block)] != 0;
+    };
+    for (ContactBlock& block : solver_.blocks()) {
+        if (!is_gaining(block)) continue;
+        forget_impulses(block);
+        set_least_speeds(block);
+        set_centripetal_velocity(block, integrations_[block.a].start.spin,
+                                 integrations_[block.b].start.spin, scales_.tick);
+    }
+    for (const Slot slot : active_.slots()) {
+        if (gaining[slot + 1] == 0) continue;
+        const BodyId body = state.bodies.properties[slot].id;
+        BodyIntegration& integration = integrations_[slot + 1];
+        begin_again(integration, scales_.tick * state.torques[body]);
+        if (integration.has_hands)
+            integrate_hand_springs_on(config, state, hand_contacts_.first_spring_on(body));
+        else
+            integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
+        if (restitution_.is_needed()) begin_bounces(integration);
+    }
+    restitution_.apply(solver_, integrations_.all(), scales_, state.interventions, gaining);
+    for (const Slot slot : active_.slots()) {
+        if (gaining[slot + 1] != 0)
+            solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
+    }
+    state.tick_cost.visits += solver_.solve_velocities_anew(velocity_limits(), gaining).visits;
+    set_mean_motions();
+}
+
+template void RigidStepper<BroadPhase::none>::integrate_velocities(const WorldConfig&, WorldState&);
+template bool RigidStepper<BroadPhase::none>::solve_velocities(TickCost&);
+template void RigidStepper<BroadPhase::none>::solve_anew_what_gains(const WorldConfig&,
+                                                                    WorldState&);
+template void RigidStepper<BroadPhase::all_pairs>::integrate_velocities(const WorldConfig&,
+                                                                        WorldState&);
+template bool RigidStepper<BroadPhase::all_pairs>::solve_velocities(TickCost&);
+template void RigidStepper<BroadPhase::all_pairs>::solve_anew_what_gains(const WorldConfig&,
+                                                                         WorldState&);
+template void RigidStepper<BroadPhase::grid>::integrate_velocities(const WorldConfig&, WorldState&);
+template bool RigidStepper<BroadPhase::grid>::solve_velocities(TickCost&);
+template void RigidStepper<BroadPhase::grid>::solve_anew_what_gains(const WorldConfig&,
+                                                                    WorldState&);
+
+} // namespace hapnet::scene

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/bench/secure/costs.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace hapnet::bench {
+namespace {
+
+TEST(CostsOfKeys, AreRowsWithTargetsAndTheTurnHasABaseline)
+{
+    const auto rows = measure_costs_of_keys(1);
+    ASSERT_EQ(rows.size(), 8U);
+    EXPECT_EQ(std::ranges::count_if(rows, [](const Row& row) { return row.target.has_value(); }),
+              7);
+    EXPECT_EQ(rows[1].baseline, "without");
+    EXPECT_TRUE(rows[1].baseline_value);
+    for (const std::size_t timed : {0U, 1U, 6U, 7U}) EXPECT_GT(rows[timed].value, 0.0) << timed;
+}
+
+} // namespace
+} // namespace hapnet::bench

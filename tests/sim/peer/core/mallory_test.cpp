@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Sessions under an attacker who owns the path, on networks as bad as they come.
+#include "tests/support/session/attacked_session.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::test {
+namespace {
+
+void expect_to_hold(std::uint64_t seed, Seal seal)
+{
+    const AttackedSession session = play_attacked(seed, seal);
+    EXPECT_FALSE(session.complaint)
+        << *session.complaint << "\nrepeat it: build/release/bin/soak_session "
+        << (seal == Seal::keys ? "keys " : "none ") << seed << " 1";
+    EXPECT_GT(session.datagrams, 0U);
+}
+
+class Mallory : public testing::TestWithParam<std::uint64_t> {};
+TEST_P(Mallory, BringsNoForceBeyondItsLimits) { expect_to_hold(GetParam(), Seal::none); }
+INSTANTIATE_TEST_SUITE_P(Seed, Mallory, testing::Range(std::uint64_t{0}, std::uint64_t{50}));
+
+class MalloryWithoutKey : public testing::TestWithParam<std::uint64_t> {};
+TEST_P(MalloryWithoutKey, HasNothingAcceptedThatTheOtherSideHasNotSealed)
+{
+    expect_to_hold(GetParam(), Seal::keys);
+}
+INSTANTIATE_TEST_SUITE_P(Seed, MalloryWithoutKey,
+                         testing::Range(std::uint64_t{0}, std::uint64_t{30}));
+
+} // namespace
+} // namespace hapnet::test

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace hapnet::test {
+
+/// What became of a session under attack.
+struct AttackedSession {
+    std::optional<std::string> complaint; // the invariant that broke, when, and where
+    std::uint64_t datagrams = 0;          // that reached a side
+    double work_5s_max_j = 0.0;           // the largest net work into a hand within 5 s
+    bool compared = false;                // the copies were, after the attacker had left
+    /// Without a key nothing tells forged and damaged messages from true ones: they may end a
+    /// session, or keep it from beginning. Then there is nothing to compare. Never with keys.
+    bool is_forged = false;
+};
+
+/// Whether the two sides have keys.
+enum class Seal : std::uint8_t { none, keys };
+
+/// Plays a session whose path, tasks, algorithms, clocks, deaths and attacker are drawn from the
+/// seed, and judges it in each tick: forces finite, limited, and zero once nothing was taken for
+/// 300 ms; the work into the hands within its budget; each message that a side was given in exactly
+/// one of its counters; and, with the attacker gone and the path healed, copies that agree to
+/// 0.1 mm within 1.2 s of hands off. With keys also: nothing is accepted that the other side has
+/// not sealed for this run, nothing twice, and opening takes no memory.
+[[nodiscard]] AttackedSession play_attacked(std::uint64_t seed, Seal seal);
+
+} // namespace hapnet::test

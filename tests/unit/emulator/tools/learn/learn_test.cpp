@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/tools/learn/learn.hpp"
+
+#include "emulator/core/pipeline.hpp"
+#include "emulator/core/profile/text.hpp"
+#include "emulator/tools/learn/delays.hpp"
+#include "emulator/tools/learn/losses.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace hapnet::emulator::tools {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace base::literals; // NOLINT(google-build-using-namespace): literals only
+
+/// What a sender at even distances would measure of one way under these conditions.
+Measurement measured(const Conditions& conditions, std::size_t count, std::uint64_t seed = 42,
+                     base::Duration spacing = 20ms)
+{
+    Pipeline pipeline{conditions, base::Seed{seed}, Direction::down};
+    Measurement measurement{.up = std::nullopt, .down = {}, .spacing = spacing};
+    for (std::uint64_t number = 0; number < count; ++number) {
+        const auto at = spacing * static_cast<base::Duration::rep>(number);
+        const Fate fate = pipeline.on_packet({number, 96, at});
+        measurement.down.delays.push_back(fate.delay);
+        measurement.down.lost.push_back(fate.drop.has_value());
+    }
+    return measurement;
+}
+
+const DelayModel& of_name(const DelayFit& fit, std::string_view name)
+{
+    for (const DelayModel& model : fit.models) {
+        if (model.name == name) return model;
+    }
+    throw std::runtime_error{"no such model"};
+}
+
+template <typename Law>
+Law best_loss(const LossLaw& law, std::size_t count, std::uint64_t seed = 42)
+{
+    const auto models = fit_losses(measured({.loss = {law}}, count, seed).down.lost);
+    const auto* found = std::get_if<Law>(&models.front().law);
+    EXPECT_NE(found, nullptr) << name_of(law) << " was taken for " << models.front().name;
+    return found == nullptr ? Law{} : *found;
+}
+
+TEST(LearnLosses, FindsIndependentLossesWithinTheirStandardError)
+{
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const auto law = best_loss<RandomLoss>(RandomLoss{3_percent}, 20'000, seed);
+        EXPECT_NEAR(law.share.fraction(), 0.03, 4.0 * std::sqrt(0.03 * 0.97 / 20'000));
+    }
+}
+
+TEST(LearnLosses, FindsGilbertsChainWithinItsStandardErrors)
+{
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const auto law = best_loss<Gilbert>(Gilbert{5_percent, 4.0}, 50'000, seed);
+        // Some 625 runs, geometric with mean 4: sd sqrt(12); the share has 7 times the variance
+        // of independent losses, (1 + decay) / (1 - decay) with decay = 0.737.
+        EXPECT_NEAR(law.mean_burst, 4.0, 4.0 * std::sqrt(12.0 / 625));
+        EXPECT_NEAR(law.share.fraction(), 0.05, 4.0 * std::sqrt(7.0 * 0.05 * 0.95 / 50'000));
+    }
+}
+
+TEST(LearnLosses, FindsTheFourParametersOfGilbertAndElliott)
+{
+    const GilbertElliott truth{1_percent, 5_percent, 1_percent, 60_percent};
+    const auto law = best_loss<GilbertElliott>(truth, 100'000);
+    EXPECT_NEAR(law.good_to_bad.fraction(), 0.01, 0.002);
+    EXPECT_NEAR(law.bad_to_good.fraction(), 0.05, 0.008);
+    EXPECT_NEAR(law.loss_good.fraction(), 0.01, 0.002);
+    EXPECT_NEAR(law.loss_bad.fraction(), 0.60, 0.03);
+}
+
+TEST(LearnLosses, RejectWrongModelsByTheirBic)
+{
+    const auto models = fit_losses(measured({.loss = {Gilbert{5_percent, 4.0}}}, 20'000).down.lost);
+    for (const LossModel& model : models) {
+        if (model.name != "random") continue;
+        EXPECT_GT(model.bic, models.front().bic + 100.0);
+        return;
+    }
+    FAIL() << "independent losses were not tried";
+}
+
+TEST(LearnLosses, SayNothingOfAPathWithoutLosses)
+{
+    EXPECT_TRUE(fit_losses(std::vector<bool>(1000)).empty());
+}
+
+TEST(LearnDelays, FindEachLawAndRejectOthers)
+{
+    struct Case {
+        std::string_view name;
+        DelayLaw jitter;
+        std::string_view wrong;
+    };
+    for (const auto& [name, jitter, wrong] : {Case{"normal", NormalLaw{{}, 3ms}, "exponential"},
+                                              Case{"uniform", UniformLaw{{}, 5ms}, "normal"},
+                                              Case{"exponential", ExponentialLaw{4ms}, "normal"},
+                                              Case{"gamma", GammaLaw{4ms, 3ms}, "uniform"},
+                                              Case{"log-normal", LogNormalLaw{6ms, 5ms}, "normal"},
+                                              Case{"pareto", ParetoLaw{4ms, 3.0}, "gamma"}}) {
+        const auto data = measured({.delay = constant(40ms), .jitter = {jitter}}, 4000);
+        const auto fit = fit_delays(data.down, data.spacing);
+        EXPECT_EQ(fit.correlation_time, 0ms) << name;
+        EXPECT_GE(of_name(fit, name).p_value.value_or(0.0), 1e-3) << name;
+        EXPECT_LT(of_name(fit, wrong).p_value.value_or(1.0), 1e-3) << name << " and " << wrong;
+        EXPECT_GE(fit.models.front().p_value.value_or(0.0), 1e-3) << name;
+    }
+}
+
+TEST(LearnDelays, FindTheParametersOfANormalLawAndItsCorrelationTime)
+{
+    const auto data =
+        measured({.delay = constant(40ms), .jitter = {NormalLaw{{}, 3ms}, 100ms}}, 20'000);
+    const auto fit = fit_delays(data.down, data.spacing);
+    // With the correlation rho = exp(-0.2) of neighbours, 20 000 are worth n (1 - rho) / (1 + rho)
+    // = 1993 for the mean and n (1 - rho^2) / (1 + rho^2) = 3948 for the sd.
+    const auto& normal = of_name(fit, "normal");
+    EXPECT_GE(normal.p_value.value_or(0.0), 1e-3);
+    EXPECT_NEAR(base::to_seconds(normal.base), 0.040, 4.0 * 0.003 / std::sqrt(1993.0));
+    EXPECT_NEAR(base::to_seconds(std::get<NormalLaw>(normal.jitter).sd), 0.003,
+                4.0 * 0.003 / std::sqrt(2.0 * 3948.0));
+    // sd of rho: sqrt((1 - rho^2) / n) = 0.0041, of tau: tau^2 / spacing / rho times that.
+    EXPECT_NEAR(base::to_seconds(fit.correlation_time), 0.1, 4.0 * 0.5 / 0.819 * 0.0041);
+}
+
+TEST(Learn, PrintsAProfileThatReadsBackAndSaysWhatARoundTripDoesNotTell)
+{
+    const auto data = measured({.loss = {Gilbert{5_percent, 4.0}},
+                                .delay = constant(40ms),
+                                .jitter = {GammaLaw{4ms, 3ms}}},
+                               5000);
+    const auto lesson = learn(data);
+    ASSERT_TRUE(lesson);
+    const auto text = to_text(*lesson);
+    const auto again = parse_profile(text, "learned.toml", [](const std::string& name) {
+        return base::Result<std::string>{base::fail("no file " + name)};
+    });
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(*again, lesson->profile);
+    EXPECT_TRUE(std::holds_alternative<Gilbert>(again->path.down.loss.front()));
+    EXPECT_TRUE(again->path.up.loss.empty());
+    EXPECT_EQ(std::get<ConstantLaw>(again->path.up.delay.law).value,
+              std::get<ConstantLaw>(again->path.down.delay.law).value);
+    EXPECT_NE(text.find("# A round trip does not tell its two ways apart"), std::string::npos);
+}
+
+TEST(ReadMeasurement, ReadsWhatPingPrints)
+{
+    const auto ping = read_measurement("PING example.org (192.0.2.1) 56(84) bytes of data.\n"
+                                       "64 bytes from 192.0.2.1: icmp_seq=1 ttl=57 time=12.5 ms\n"
+                                       "64 bytes from 192.0.2.1: icmp_seq=4 ttl=57 time=14 ms\n"
+                                       "64 bytes from 192.0.2.1: icmp_seq=3 ttl=57 time=13 ms\n"
+                                       "64 bytes from 192.0.2.1: icmp_seq=3 ttl=57 time=13 ms "
+                                       "(DUP!)\n\n--- example.org ping statistics ---\n"
+                                       "5 packets transmitted, 3 received, 40% packet loss, time "
+                                       "804ms\nrtt min/avg/max/mdev = 12.5/13/14/0.6 ms\n");
+    ASSERT_TRUE(ping);
+    EXPECT_EQ(ping->down.lost, (std::vector{false, true, false, false, true}));
+    EXPECT_EQ(ping->down.delays[0], 12'500us);
+    EXPECT_EQ(ping->down.delays[3], 14ms);
+    EXPECT_EQ(ping->down.reordered, 1U);
+    EXPECT_EQ(ping->spacing, 201ms);
+    EXPECT_FALSE(ping->up);
+}
+
+TEST(ReadMeasurement, FollowsNumbersOfPingThatBeginAgain)
+{
+    std::string text = "PING x\n";
+    for (const int sequence : {65'534, 65'535, 0, 2}) {
+        text += "64 bytes: icmp_seq=" + std::to_string(sequence) + " time=1 ms\n";
+    }
+    const auto ping = read_measurement(text);
+    ASSERT_TRUE(ping);
+    ASSERT_EQ(ping->down.lost.size(), 65'538U); // from 1 on
+    EXPECT_FALSE(ping->down.lost[65'535]);
+    EXPECT_TRUE(ping->down.lost[65'536]);
+    EXPECT_FALSE(ping->down.lost[65'537]);
+}
+
+TEST(ReadMeasurement, ReadsBothWaysOfAProbeWithOneClockAndTheRoundTripOfTwo)
+{
+    const std::string header = "sequence,sent_s,round_trip_ms,there_ms,back_ms,answers\n";
+    const auto one = read_measurement(header + "0,0,30,10,20,1\n1,0.1,,,,0\n2,0.2,33,11,22,1\n");
+    ASSERT_TRUE(one);
+    ASSERT_TRUE(one->up);
+    EXPECT_EQ(one->up->delays[2], 11ms);
+    EXPECT_EQ(one->down.delays[2], 22ms);
+    EXPECT_EQ(one->down.lost, (std::vector{false, true, false}));
+    EXPECT_EQ(one->spacing, 100ms);
+    const auto two = read_measurement(header + "0,0,30,,,1\n1,0.1,33,,,1\n");
+    ASSERT_TRUE(two);
+    EXPECT_FALSE(two->up);
+    EXPECT_EQ(two->down.delays[1], 33ms);
+}
+
+TEST(ReadMeasurement, NamesWhatItCannotRead)
+{
+    EXPECT_EQ(read_measurement("PING x\nnothing\n").error().message,
+              "line 2: no line has icmp_seq= and time=: nothing answered");
+    EXPECT_EQ(read_measurement("PING x\nicmp_seq=70000 time=1 ms\n").error().message,
+              "line 2: icmp_seq must be a whole number from 0 to 65535");
+    EXPECT_EQ(read_measurement("a,b\n1,2\n").error().message,
+              "line 1: no column is named delay_ns, delay_us, delay_ms or delay_s");
+    EXPECT_FALSE(learn({.down = {{1ms}, {true}, 0}}));
+}
+
+} // namespace
+} // namespace hapnet::emulator::tools
