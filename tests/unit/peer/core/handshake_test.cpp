@@ -184,7 +184,7 @@ TEST(Handshake, RefusesWhoeverPlaysSomethingElse)
 TEST(Handshake, IgnoresItsOwnHelloWhenSomebodySendsItBack)
 {
     Handshake handshake{introduction(0)};
-    const auto own = handshake.hello(base::TimePoint{1h});
+    const auto own = handshake.hello(base::TimePoint{1h}, 0);
     ASSERT_TRUE(own);
     EXPECT_EQ(handshake.on_hello(*own, base::TimePoint{1h} + 1ms), std::nullopt);
     EXPECT_FALSE(handshake.has_met());
