@@ -47,6 +47,7 @@ Examples:
 
 constexpr const char* learn_exit_codes = R"(  0  done
   2  bad usage, or a file that cannot be used)";
+
 constexpr const char* report_description =
     "Makes one page of a run, for a browser: delay as drawn and as it came out, lateness, losses, "
     "changes, and the tests of verify.";

@@ -162,6 +162,15 @@ TEST(EmulatorUpstream, ChangesTheConditionsOfAllClientsOrOfOneAlsoBeforeItComes)
     const auto statistics = emulator.stop();
     EXPECT_EQ(statistics["clients"][0]["up"]["dropped"]["random_loss"], 1);
     EXPECT_EQ(statistics["generation"], 3);
+    // Of whoever comes next, and of each that is there.
+    EXPECT_EQ(statistics["configuration_at_end"]["down"]["delay"], "20ms");
+    EXPECT_EQ(statistics["configuration_at_end"]["up"]["delay"], "5ms");
+    const auto& second = statistics["clients"][1];
+    EXPECT_EQ(second["name"], "client.2");
+    EXPECT_EQ(second["configuration_at_end"]["up"]["delay"], "80ms");
+    EXPECT_TRUE(second["changes"].empty()); // it came after them
+    EXPECT_EQ(statistics["clients"][0]["changes"][0]["settings"],
+              (nlohmann::json{{"client.1.up.loss", "100%"}}));
 }
 
 TEST(EmulatorUpstream, RecordsTheFatesOfEachClientAndReplaysThem)
