@@ -79,6 +79,8 @@ Member::Heard Member::on_state(const wire::State& state, base::TimePoint arrived
     handshake_.on_echo(state.echo, state.sent, arrived);
     last_heard_ = arrived;
     Heard heard{.taken = remote_.update(state, arrived)};
+    const std::uint32_t jumps = handshake_.clock_sync().jumps();
+    heard.clock_jumped = std::exchange(jumps_told_, jumps) < jumps;
     if (heard.taken) {
         sequences_.on_taken(state, arrived);
         heard.body_missed = misses_body(state, arrived);

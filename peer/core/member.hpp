@@ -21,7 +21,7 @@ public:
     /// In ticks. A path that is slower one way than the other shifts the two starts by half the
     /// difference, which nobody can see: as much as the slowest path that is believed.
     static constexpr base::Duration::rep sequence_slack = 5000;
-    static constexpr std::uint32_t body_every = 64;             // messages
+    static constexpr std::uint32_t body_every = 64; // messages
     /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
     /// damaged. Those that it overtook on its way do not count.
     static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
@@ -55,8 +55,9 @@ public:
     /// Whether it goes on although it has said goodbye; then the goodbye is forgotten.
     [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
     struct Heard {
-        bool taken = false;       // newer than what was known
-        bool body_missed = false; // from now on: the first time in this run
+        bool taken = false;        // newer than what was known
+        bool body_missed = false;  // from now on: the first time in this run
+        bool clock_jumped = false; // its clock, against this one
     };
     [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint arrived);
     /// True the first time in a session.
@@ -124,8 +125,9 @@ private:
     Goodbye goodbye_;
     base::TimePoint last_body_; // of the other side, or the session's agreement
     std::uint32_t states_without_body_ = 0;
-    bool body_missed_ = false; // and a person has been told
-    bool lost_ = false;        // it fell silent
+    bool body_missed_ = false;     // and a person has been told
+    bool lost_ = false;            // it fell silent
+    std::uint32_t jumps_told_ = 0; // of its clock, in this run
 };
 
 } // namespace hapnet::peer

@@ -178,6 +178,7 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
     const Member::Heard heard = other.on_state(state, arrived);
     ++(heard.taken ? counters_.states : counters_.outdated);
     if (heard.body_missed) tell(Event::no_body, &other);
+    if (heard.clock_jumped) tell(Event::clock_jumped, &other);
     const ReceivedState received{.state = state,
                                  .arrived = arrived,
                                  .taken = heard.taken,

@@ -60,8 +60,9 @@ enum class Event : std::uint8_t {
     refused,   // the two cannot play together: see refusal()
     hands_off,
     ended,
-    stopped, // before there was a session
-    no_body, // states come, but none that tells where the body is
+    stopped,      // before there was a session
+    no_body,      // states come, but none that tells where the body is
+    clock_jumped, // the other side's, against this one
 };
 
 /// Counters of received messages, and of those that could not be used.
