@@ -13,6 +13,10 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<int> run(const Options& options);
 /// The same for any client of a server.
 [[nodiscard]] base::Result<int> run(const UpstreamOptions& options);
+/// Runs two commands with the emulator between them; gives the exit code of the first.
+[[nodiscard]] base::Result<int> run(const BetweenOptions& options);
+/// Joins two interfaces until it is told to stop, or finds a loop.
+[[nodiscard]] base::Result<int> run(const BridgeOptions& options);
 /// Prints the profile in canonical form, each stage in words, and warnings.
 [[nodiscard]] base::Result<int> run(const CheckOptions& options);
 /// Prints what the profile will do to a stream.
@@ -23,5 +27,7 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<int> run(const LearnOptions& options);
 /// Writes the page of a run.
 [[nodiscard]] base::Result<int> run(const ReportOptions& options);
+/// Asks and measures until it has the answers, or answers until it is told to stop.
+[[nodiscard]] base::Result<int> run(const ProbeOptions& options);
 
 } // namespace hapnet::emulator

@@ -49,6 +49,8 @@ Examples:
       --down.loss 10% --seed 42 --duration 30s --stats run.json
   hapnet-emulator --listen-a :7001 --listen-b :7002 --profile wifi-busy \
       --control emulator.sock --fates fates.csv --pcap run.pcapng
+  hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
+  hapnet-emulator probe 127.0.0.1:7001 --count 10
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
 
@@ -86,59 +88,6 @@ constexpr const char* predict_footer =
 
 constexpr const char* predict_exit_codes = R"(  0  done
   2  bad usage, or a profile with an error)";
-
-constexpr const char* verify_description =
-    "Tests whether the fates of a run follow its profile: shares, runs and bursts of losses, the "
-    "steps of their chains, delays, the two directions against each other and, with the seed, "
-    "every single fate.";
-
-constexpr const char* verify_footer =
-    R"(RUN is the file that --stats wrote in a run with --fates, the file that --fates wrote, with
---profile, or a folder with fates.csv and profile.toml. A test fails when a run that follows its
-profile would look like this one time in a million. A test cannot tell ("unable" in JSON) where the
-datagrams are too few, or where fates do not show it. A run with --replay is refused, and one whose
-conditions changed, by hand or by the timeline.
-
-Examples:
-  hapnet-emulator verify run.json
-  hapnet-emulator verify fates.csv --profile wifi-busy --seed 42 --rate 1000
-  hapnet-emulator verify results/run-7 --json)";
-
-constexpr const char* verify_exit_codes = R"(  0  no test failed
-  1  a test failed
-  2  bad usage, or a file that cannot be used)";
-
-constexpr const char* learn_description =
-    "Finds the laws of a measured path, delay, correlation in time and loss, and prints a profile "
-    "that follows them. How well each law fits is told on stderr and in comments of the profile.";
-
-constexpr const char* learn_footer =
-    R"(FILE is what ping has printed, what probe --csv has written, or CSV with a column of delays:
-delay_ns, _us, _ms or _s, empty for a lost datagram, and perhaps one of times. A round trip does
-not tell its two ways apart: all that varies is put into the way down.
-
-Examples:
-  ping -i 0.2 -c 5000 example.org > ping.txt
-  hapnet-emulator learn ping.txt > home.toml
-  hapnet-emulator learn walk.csv --columns "time=stamp:s, delay=rtt:ms")";
-
-constexpr const char* learn_exit_codes = R"(  0  done
-  2  bad usage, or a file that cannot be used)";
-constexpr const char* report_description =
-    "Makes one page of a run, for a browser: delay as drawn and as it came out, lateness, losses, "
-    "changes, and the tests of verify.";
-
-constexpr const char* report_footer =
-    R"(RUN is the file that --stats wrote. With --fates in that run, the page has plots.
-
-Examples:
-  hapnet-emulator --listen-a :7001 --listen-b :7002 --profile lte \
-      --duration 30s --stats run.json --fates fates.csv
-  hapnet-emulator report run.json --out run.html)";
-
-constexpr const char* report_exit_codes = R"(  0  done
-  2  bad usage, or a file that cannot be used
-  3  the page cannot be written)";
 
 /// The words of a parameter's description as a sentence: those of profiles.
 template <auto member>
@@ -250,7 +199,7 @@ cli::Take require_into(std::vector<base::Condition>& into)
     };
 }
 
-void add_run_options(cli::Command& program, Options& options)
+void add_relay_ends(cli::Command& program, Options& options)
 {
     program.option("--listen-a", "ADDRESS",
                    "Where A sends to: HOST:PORT; :PORT listens on loopback. Required, as is "
@@ -262,6 +211,11 @@ void add_run_options(cli::Command& program, Options& options)
                    cli::into(options.a, parse_host));
     program.option("--b", "HOST:PORT", "Address of B (default: the first sender)",
                    cli::into(options.b, parse_host));
+}
+
+/// What every run takes, wherever its datagrams come from.
+void add_run_options(cli::Command& program, Options& options)
+{
     program.option("--profile", "FILE|NAME",
                    "Conditions and their timeline from a TOML file, or the name of a preset "
                    "(hapnet-emulator check --list)",
@@ -292,10 +246,6 @@ void add_run_options(cli::Command& program, Options& options)
                    "Apply the fates that --fates wrote to FILE instead of drawing them: the n-th "
                    "datagram gets the n-th fate",
                    cli::into(options.replay));
-    program.option("--pcap", "FILE",
-                   "Capture both sides to FILE, with a comment on each packet (pcapng, for "
-                   "Wireshark)",
-                   cli::into(options.capture));
     program
         .option("--require", "CONDITION",
                 "What the statistics must meet in the end, such as 'up.received>=1000', or the "
@@ -306,6 +256,14 @@ void add_run_options(cli::Command& program, Options& options)
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
                    cli::into(options.control));
+}
+
+void add_capture(cli::Command& program, Options& options)
+{
+    program.option("--pcap", "FILE",
+                   "Capture both sides to FILE, with a comment on each packet (pcapng, for "
+                   "Wireshark)",
+                   cli::into(options.capture));
 }
 
 constexpr const char* clients_group = "Any client of a server, instead of A and B";
@@ -396,26 +354,22 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools
     add_conditions(command, conditions_from, /*own_rate*/ true);
 }
 
-base::Result<base::Duration> parse_even_spacing(const std::string& text)
+cli::Command& add_check(cli::Command& program, CheckOptions& options, bool& is_list)
 {
-    constexpr std::uint64_t most = 1'000'000'000;
-    return cli::value_of<std::uint64_t>(base::Count{1, most}, text).map([](std::uint64_t rate) {
-        return base::Duration{static_cast<base::Duration::rep>(most / rate)};
-    });
-}
-
-void add_check(cli::Command& command, CheckOptions& options, bool& is_list)
-{
+    cli::Command& command = program.command("check", "Describes a profile, stage by stage");
     command.describe(check_description);
     command.add_footer(check_footer);
     command.add_exit_codes(check_exit_codes);
     add_dry_run(command, options.conditions, options.stream);
     command.flag("--list", "Print the names of the presets and exit", is_list);
+    return command;
 }
 
-void add_predict(cli::Command& command, PredictOptions& options, bool& is_list)
+cli::Command& add_predict(cli::Command& program, PredictOptions& options, bool& is_list)
 {
     constexpr std::uint64_t packets_max = 1'000'000'000;
+    cli::Command& command =
+        program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
     command.describe(predict_description);
     command.add_footer(predict_footer);
     command.add_exit_codes(predict_exit_codes);
@@ -427,51 +381,7 @@ void add_predict(cli::Command& command, PredictOptions& options, bool& is_list)
         cli::into(options.stream.packets, base::Count{1, packets_max}));
     command.flag("--json", "Print one JSON object instead of text", options.as_json);
     command.flag("--list", "Print the names of the presets and exit", is_list);
-}
-
-void add_verify(cli::Command& command, VerifyOptions& options)
-{
-    command.describe(verify_description);
-    command.add_footer(verify_footer);
-    command.add_exit_codes(verify_exit_codes);
-    command.positional("RUN", "What a run has written", cli::into(options.run))
-        .required("run.json");
-    command.option("--profile", "FILE|NAME",
-                   "The profile that the run was to follow (default: the one in RUN)",
-                   cli::into(options.profile));
-    command.option("--seed", "NUMBER", "The seed of the run (default: the one in the profile)",
-                   cli::into(options.seed, cli::seed));
-    command.option("--rate", "NUMBER",
-                   "Datagrams a second in each direction, where they came evenly: needed by laws "
-                   "in time",
-                   cli::into(options.spacing, parse_even_spacing));
-    command.flag("--json", "Print one JSON object instead of a table", options.as_json);
-}
-
-void add_learn(cli::Command& command, LearnOptions& options)
-{
-    command.describe(learn_description);
-    command.add_footer(learn_footer);
-    command.add_exit_codes(learn_exit_codes);
-    command.positional("FILE", "What was measured", cli::into(options.file)).required("ping.txt");
-    command.option("--columns", "COLUMNS", "Columns of CSV with other names: \"delay=rtt:ms\"",
-                   cli::into(options.columns));
-    command.option("--rate", "NUMBER",
-                   "Datagrams a second that were sent, where FILE does not say so",
-                   cli::into(options.spacing, parse_even_spacing));
-}
-
-void add_report(cli::Command& command, ReportOptions& options)
-{
-    command.describe(report_description);
-    command.add_footer(report_footer);
-    command.add_exit_codes(report_exit_codes);
-    command.positional("RUN", "What --stats of the run has written", cli::into(options.run))
-        .required("run.json");
-    command.option("--fates", "FILE", "The fates of the run (default: those that RUN names)",
-                   cli::into(options.fates));
-    command.option("--out", "FILE", "Where the page goes; - is stdout", cli::into(options.out))
-        .required("run.html");
+    return command;
 }
 
 /// The names of the presets, each followed by `separator`.
@@ -565,6 +475,30 @@ net::CommandLine<AnyOptions> checked(Options options, const cli::Command& progra
     return AnyOptions{std::move(options)};
 }
 
+net::CommandLine<AnyOptions> checked(BetweenOptions options, TypedCommands commands)
+{
+    auto fine = require_two_commands(commands);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    options.commands = std::move(commands);
+    return AnyOptions{std::move(options)};
+}
+
+net::CommandLine<AnyOptions> checked(BridgeOptions options)
+{
+    auto fine = require_two_interfaces(options.a, options.b);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    return AnyOptions{std::move(options)};
+}
+
+/// What the commands for frames have in common.
+void add_frames(cli::Command& command, auto& options)
+{
+    add_run_options(command, options.run);
+    add_frame_options(command, options.frames);
+}
+
 } // namespace
 
 std::string_view to_text(Timing timing)
@@ -577,41 +511,53 @@ std::string_view to_text(Timing timing)
     return {};
 }
 
-net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
+net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
 {
+    TypedCommands typed;
+    const auto words = take_commands(all_words, typed);
     cli::Command program{"hapnet-emulator"};
     program.describe(description);
     program.add_footer(footer);
     program.add_exit_codes(exit_codes);
     Options options;
+    add_relay_ends(program, options);
     add_run_options(program, options);
+    add_capture(program, options);
     UpstreamOptions through;
     add_upstream_options(program, through);
-    bool is_list = false;
-    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
-    CheckOptions checking;
-    add_check(check, checking, is_list);
-    cli::Command& predict =
-        program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
-    PredictOptions predicting;
-    add_predict(predict, predicting, is_list);
-    cli::Command& verify =
-        program.command("verify", "Tests whether the fates of a run follow its profile");
-    VerifyOptions verifying;
-    add_verify(verify, verifying);
-    cli::Command& report = program.command("report", "Makes a page of a run");
-    ReportOptions reporting;
-    add_report(report, reporting);
 
-    cli::Command& learn = program.command("learn", "Finds the profile of a measured path");
+    CheckOptions checking;
+    bool is_list = false;
+    const cli::Command& check = add_check(program, checking, is_list);
+    PredictOptions predicting;
+    const cli::Command& predict = add_predict(program, predicting, is_list);
+    VerifyOptions verifying;
+    const cli::Command& verify = add_verify(program, verifying);
+    ReportOptions reporting;
+    const cli::Command& report = add_report(program, reporting);
     LearnOptions learning;
-    add_learn(learn, learning);
+    const cli::Command& learn = add_learn(program, learning);
+    ProbeOptions probing;
+    const cli::Command& probe = add_probe(program, probing);
+
+    BetweenOptions between_two;
+    cli::Command& between = add_between(program);
+    add_frames(between, between_two);
+    BridgeOptions bridging;
+    cli::Command& bridge = add_bridge(program, bridging.a, bridging.b);
+    add_frames(bridge, bridging);
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (learn.is_chosen()) return AnyOptions{std::move(learning)};
     if (report.is_chosen()) return AnyOptions{std::move(reporting)};
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
+    if (probe.is_chosen()) {
+        if (auto fine = require_probe(probing, probe); !fine) return tl::unexpected{fine.error()};
+        return AnyOptions{std::move(probing)};
+    }
+    if (between.is_chosen()) return checked(std::move(between_two), std::move(typed));
+    if (bridge.is_chosen()) return checked(std::move(bridging));
     if (!check.is_chosen() && !predict.is_chosen()) {
         if (!program.is_given("--upstream")) return checked(std::move(options), program);
         if (auto fine = require_upstream(program); !fine) return tl::unexpected{fine.error()};

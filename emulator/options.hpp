@@ -3,6 +3,9 @@
 #pragma once
 
 #include "emulator/core/queue_limits.hpp"
+#include "emulator/file_options.hpp"
+#include "emulator/frame_options.hpp"
+#include "emulator/probe_options.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/condition.hpp"
 #include "proto/base/random.hpp"
@@ -70,6 +73,21 @@ struct UpstreamOptions {
     Options run; // its ends and the files of single datagrams are not used
 };
 
+/// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B`
+struct BetweenOptions {
+    FrameOptions frames;
+    TypedCommands commands;
+    Options run; // its ends are not used
+};
+
+/// `hapnet-emulator bridge IF_A IF_B`
+struct BridgeOptions {
+    std::string a;
+    std::string b;
+    FrameOptions frames;
+    Options run; // its ends are not used
+};
+
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
@@ -85,31 +103,9 @@ struct PredictOptions {
     bool as_json = false;
 };
 
-/// `hapnet-emulator verify RUN`
-struct VerifyOptions {
-    std::string run;                    // what --stats or --fates wrote, or a folder
-    std::optional<std::string> profile; // instead of the one in RUN
-    std::optional<base::Seed> seed;     // instead of the one in the profile
-    std::optional<base::Duration> spacing;
-    bool as_json = false;
-};
-
-/// `hapnet-emulator learn FILE`
-struct LearnOptions {
-    std::string file;
-    std::string columns{};
-    std::optional<base::Duration> spacing{}; // instead of the one in FILE
-};
-
-/// `hapnet-emulator report RUN`
-struct ReportOptions {
-    std::string run;                  // what --stats wrote
-    std::optional<std::string> fates; // instead of those that RUN names
-    std::string out;                  // "-": stdout
-};
-
-using AnyOptions = std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions,
-                                VerifyOptions, ReportOptions, LearnOptions>;
+using AnyOptions =
+    std::variant<Options, UpstreamOptions, BetweenOptions, BridgeOptions, CheckOptions,
+                 PredictOptions, VerifyOptions, ReportOptions, LearnOptions, ProbeOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

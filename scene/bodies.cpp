@@ -3,6 +3,7 @@
 #include "scene/bodies.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/collide/manifold.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -46,13 +47,15 @@ BodyProperties properties_of(const BodyDescription& body, BodyId id)
     properties.inverse_mass = {body.locked.x ? 0.0 : light, body.locked.y ? 0.0 : light,
                                body.locked.z ? 0.0 : light};
     properties.inertia = inertia_of(body);
-    properties.is_isotropic = body.half.x == body.half.y && body.half.y == body.half.z;
+    properties.is_isotropic =
+        body.parts.empty() && body.half.x == body.half.y && body.half.y == body.half.z;
     if (body.turning == Turning::free) {
         properties.inverse_inertia = 1.0 / properties.inertia;
     } else if (body.turning != Turning::locked) {
         const int axis = free_axis(body.turning);
         properties.inverse_inertia[axis] =
-            1.0 / inertia_about(axis, properties.inertia, base::normalized(body.orientation));
+            1.0 / inertia_about(axis, properties.inertia,
+                                base::normalized(frame_of_mass(body).orientation));
     }
     return properties;
 }
@@ -66,39 +69,6 @@ void swap_lanes(Lanes& lanes, Slot a, Slot b)
 }
 
 } // namespace
-
-bool any_is_round(std::span<const BodyProperties> bodies)
-{
-    return std::any_of(bodies.begin(), bodies.end(),
-                       [](const BodyProperties& body) { return body.rounding > 0.0; });
-}
-
-glm::dvec3 inertia_of(const BodyDescription& body)
-{
-    const double mass_kg = body.mass_kg;
-    const double r = rounding_of(body);
-    if (r == 0.0) return box_inertia(mass_kg, body.half);
-    const glm::dvec3 core = body.half - r;
-    const double straight = core.x + core.y + core.z; // half the length between the ends
-    // As masses are volumes: pi r^2 times these lengths.
-    const double share = straight / (straight + 2.0 / 3.0 * r);
-    const double cylinder = share * mass_kg;
-    const double ends = mass_kg - cylinder;
-    const double square = r * r;
-    const double along = 0.5 * cylinder * square + 0.4 * ends * square;
-    const double across = cylinder * (0.25 * square + straight * straight / 3.0) +
-                          ends * (0.4 * square + straight * (straight + 0.75 * r));
-    if (straight == 0.0) return glm::dvec3{along};
-    return {core.x > 0.0 ? along : across, core.y > 0.0 ? along : across,
-            core.z > 0.0 ? along : across};
-}
-
-glm::dvec3 box_inertia(double mass_kg, const glm::dvec3& half)
-{
-    const glm::dvec3 square = half * half;
-    return mass_kg / 3.0 *
-           glm::dvec3{square.y + square.z, square.z + square.x, square.x + square.y};
-}
 
 Bodies::Bodies(const Description& description)
 {
@@ -128,14 +98,50 @@ Bodies::Bodies(const Description& description)
         if (range == Range::pushed) awake = movable = size();
         if (range == Range::driven) moving = size();
     }
+    add_parts(description);
     for (BodyId id = 0; id < count; ++id) {
         const BodyDescription& body = bodies[id];
         const Slot slot = slot_of[id];
-        orientation.put(slot, base::normalized(body.orientation));
-        position.put(slot, body.position.value);
+        const MassFrame frame = frame_of_mass(body);
+        orientation.put(slot, base::normalized(frame.orientation));
+        position.put(slot, frame.centre.value);
         if (!body.movable && !body.kinematic) continue;
-        put(slot, {body.position, orientation.at(slot), body.velocity, body.angular_velocity});
+        put(slot, {frame.centre, orientation.at(slot), body.velocity, body.angular_velocity});
     }
+}
+
+/// Of the bodies that have several, after the first parts of all bodies.
+void Bodies::add_parts(const Description& description)
+{
+    const auto& bodies = description.bodies;
+    const auto has_parts = [](const BodyDescription& body) { return !body.parts.empty(); };
+    if (std::none_of(bodies.begin(), bodies.end(), has_parts)) return;
+    parts.resize(size());
+    for (BodyId id = 0; id < bodies.size(); ++id) {
+        const Slot slot = slot_of[id];
+        BodyProperties& its = properties[slot];
+        if (!has_parts(bodies[id])) {
+            parts[id] = {.half = its.half, .rounding = its.rounding};
+            parts[id].radius = outer_radius(its.half, its.rounding);
+            continue;
+        }
+        const std::vector<BodyPart> all = parts_of(bodies[id]);
+        its.half = half_around(all);
+        its.rounding = 0.0;
+        its.parts_begin = parts_count();
+        parts[id] = all.front();
+        parts.insert(parts.end(), all.begin() + 1, all.end());
+        slot_of.resize(parts.size(), slot);
+        its.parts_end = parts_count();
+    }
+}
+
+bool Bodies::any_is_round() const
+{
+    return std::any_of(properties.begin(), properties.end(),
+                       [](const BodyProperties& body) { return body.rounding > 0.0; }) ||
+           std::any_of(parts.begin(), parts.end(),
+                       [](const BodyPart& part) { return part.rounding > 0.0; });
 }
 
 void Bodies::swap(Slot a, Slot b)
@@ -148,8 +154,11 @@ void Bodies::swap(Slot a, Slot b)
     swap_lanes(angular_momentum, a, b);
     std::swap(inverse_inertia_max[a], inverse_inertia_max[b]);
     std::swap(properties[a], properties[b]);
-    slot_of[properties[a].id] = a;
-    slot_of[properties[b].id] = b;
+    for (const Slot slot : {a, b}) {
+        slot_of[properties[slot].id] = slot;
+        for (PartId part = properties[slot].parts_begin; part < properties[slot].parts_end; ++part)
+            slot_of[part] = slot;
+    }
 }
 
 Slot Bodies::put_to_sleep(Slot slot)

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "scene/description.hpp"
+#include "scene/mass.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,14 +23,20 @@ struct BodyState {
     glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
 };
 
+/// Of a body with one part its id; a body with several has its id for the first and further ones
+/// after the ids of all bodies.
+using PartId = std::uint32_t;
+
 /// Where a body lies in the lanes. It changes when the body falls asleep or wakes; its id does not.
 using Slot = std::uint32_t;
 
 /// What does not change of a body: the cold half.
 struct BodyProperties {
     BodyId id = 0;
-    glm::dvec3 half{0.02};           // half the edges of the box, or of that around it, m
-    double rounding = 0.0;           // how far a round body's surface is from its core, m
+    glm::dvec3 half{0.02};  // half the edges of the box, or of that around it, m
+    double rounding = 0.0;  // how far a round body's surface is from its core, m
+    PartId parts_begin = 0; // its further parts, if it has any: see Bodies::parts
+    PartId parts_end = 0;
     glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
     glm::dvec3 inertia{1.0};         // kg m^2 about the body's own axes
     glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot rotate; with one free axis see `turning`
@@ -38,6 +46,8 @@ struct BodyProperties {
     bool is_isotropic = false; // the three moments of inertia are equal, as a cube's
     Material material{};
     double drag = 0.0; // N s/m
+
+    [[nodiscard]] bool has_parts() const { return parts_begin != parts_end; }
 };
 
 /// An angular impulse changes the momentum only about axes that the body may turn about.
@@ -55,7 +65,6 @@ struct BodyProperties {
 {
     return body.rounding > 0.0 && body.turning != Turning::locked;
 }
-[[nodiscard]] bool any_is_round(std::span<const BodyProperties> bodies);
 
 /// The state of all bodies. The hot half lies in lanes, one number of every body after the other,
 /// so that a loop over many bodies reads only what it needs and compilers can vectorise it. Slots
@@ -91,7 +100,8 @@ struct Bodies {
     Lanes3 angular_momentum;                 // kg m^2/s
     std::vector<double> inverse_inertia_max; // the largest inverse moment of inertia, 1/(kg m^2)
     std::vector<BodyProperties> properties;
-    std::vector<Slot> slot_of; // by id
+    std::vector<Slot> slot_of;   // by id, and of the further parts, by theirs
+    std::vector<BodyPart> parts; // by PartId; empty where each body has one, its own box
 
     Slot awake = 0;
     Slot movable = 0;
@@ -101,6 +111,28 @@ struct Bodies {
     explicit Bodies(const Description& description);
 
     [[nodiscard]] Slot size() const { return static_cast<Slot>(properties.size()); }
+    [[nodiscard]] PartId parts_count() const { return static_cast<PartId>(slot_of.size()); }
+    /// Of the bodies that can be pushed.
+    [[nodiscard]] PartId movable_parts() const
+    {
+        const auto further = std::count_if(slot_of.begin() + size(), slot_of.end(),
+                                           [this](Slot slot) { return slot < movable; });
+        return movable + static_cast<PartId>(further);
+    }
+    [[nodiscard]] BodyId body_of(PartId part) const
+    {
+        return part < size() ? part : properties[slot_of[part]].id;
+    }
+    /// Calls visit(part) for each of a body's parts, by their ids.
+    template <typename Visit>
+    void for_parts(BodyId body, Visit visit) const
+    {
+        visit(PartId{body});
+        if (parts.empty()) return;
+        const BodyProperties& its = properties[slot_of[body]];
+        for (PartId part = its.parts_begin; part < its.parts_end; ++part) visit(part);
+    }
+    [[nodiscard]] bool any_is_round() const;
 
     /// Exchanges two bodies' slots.
     void swap(Slot a, Slot b);
@@ -134,6 +166,7 @@ struct Bodies {
     void put(Slot slot, const BodyState& state);
 
 private:
+    void add_parts(const Description& description);
     /// Alike about every axis, or about the world's own axes: no frame to turn into.
     [[nodiscard]] static bool responds_alike(const BodyProperties& body)
     {
@@ -143,12 +176,5 @@ private:
                                                            const glm::dquat& orientation,
                                                            const glm::dvec3& momentum);
 };
-
-/// The moments of inertia about its axes, kg m^2: as below; of a sphere 2/5 m r^2; of a capsule
-/// those of a cylinder and of two half spheres, whose middles are three eighths of the radius
-/// beyond it.
-[[nodiscard]] glm::dvec3 inertia_of(const BodyDescription& body);
-/// The moments of inertia of a solid box about its axes, kg m^2: m/3 (b^2 + c^2) with half edges.
-[[nodiscard]] glm::dvec3 box_inertia(double mass_kg, const glm::dvec3& half);
 
 } // namespace hapnet::scene

@@ -93,23 +93,35 @@ void check_feel(Check& check, const Feel& feel)
     }
 }
 
-void check_shape(Check& check, const BodyDescription& body)
+void check_shape(Check& check, Shape shape, const glm::dvec3& half)
 {
-    const glm::dvec3& half = body.half;
+    check.within("half an edge in m", half, size_min_m, size_max_m);
     const double least = shortest(half);
     const int at_least = int{half.x == least} + int{half.y == least} + int{half.z == least};
-    if (body.shape == Shape::sphere)
+    if (shape == Shape::sphere)
         check.holds(at_least == 3, "the three edges around a sphere are equal");
-    if (body.shape == Shape::capsule)
+    if (shape == Shape::capsule)
         check.holds(at_least == 2, "two of the edges around a capsule are equal, and the third is "
                                    "longer");
+}
+
+void check_parts(Check& check, const BodyDescription& body)
+{
+    check.holds(body.parts.size() <= parts_max,
+                fmt::format("more than {} further parts", parts_max));
+    for (const PartDescription& part : body.parts) {
+        check_shape(check, part.shape, part.half);
+        check.within("position of a part in m", part.position.value, -size_max_m, size_max_m);
+        check.holds(is_unit(square(part.orientation)),
+                    "orientation of a part is not a unit quaternion");
+    }
 }
 
 base::Result<void> check_body(const BodyDescription& body, std::size_t number)
 {
     Check check{fmt::format("body {} '{}'", number, body.name)};
-    check.within("half an edge in m", body.half, size_min_m, size_max_m);
-    check_shape(check, body);
+    check_shape(check, body.shape, body.half);
+    check_parts(check, body);
     check.within("position in m", body.position.value, -reach_max_m, reach_max_m);
     check.holds(is_unit(square(body.orientation)), "orientation is not a unit quaternion");
     check_material(check, body.material);
@@ -281,6 +293,22 @@ void add(Hash& hash, const BodyDescription& body)
     hash.add(base::to_seconds(body.sway.period));
 }
 
+/// Scenes without any keep the hash that they had before there were any.
+void add_parts(Hash& hash, const Description& description)
+{
+    constexpr std::uint64_t part_mark = 0x70617274;
+    for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+        for (const PartDescription& part : description.bodies[i].parts) {
+            hash.add(part_mark + i);
+            hash.add(std::uint64_t{static_cast<unsigned>(part.shape)});
+            hash.add(part.half);
+            hash.add(part.position.value);
+            const glm::dquat& q = part.orientation;
+            for (const double number : {q.w, q.x, q.y, q.z}) hash.add(number);
+        }
+    }
+}
+
 void add(Hash& hash, const JointDescription& joint)
 {
     hash.add(std::uint64_t{static_cast<unsigned>(joint.kind) | (joint.collides ? 8U : 0U) |
@@ -327,12 +355,23 @@ double rounding_of(const BodyDescription& body)
     return body.shape == Shape::box ? 0.0 : shortest(body.half);
 }
 
+double rounding_of(const PartDescription& part)
+{
+    return part.shape == Shape::box ? 0.0 : shortest(part.half);
+}
+
 double mass_of(const BodyDescription& body, double density)
 {
-    const double radius = rounding_of(body);
-    if (radius == 0.0) return density * 8.0 * body.half.x * body.half.y * body.half.z;
-    const double straight = body.half.x + body.half.y + body.half.z - 3.0 * radius; // half of it
-    return density * base::two_pi * radius * radius * (straight + 2.0 / 3.0 * radius);
+    const auto mass = [density](const auto& solid) {
+        const double radius = rounding_of(solid);
+        const glm::dvec3& half = solid.half;
+        if (radius == 0.0) return density * 8.0 * half.x * half.y * half.z;
+        const double straight = half.x + half.y + half.z - 3.0 * radius; // half of it
+        return density * base::two_pi * radius * radius * (straight + 2.0 / 3.0 * radius);
+    };
+    double sum = mass(body);
+    for (const PartDescription& part : body.parts) sum += mass(part);
+    return sum;
 }
 
 HandDescription hand_on(const HandDescription& hands, const Feel& own_hand, const Feel& body)
@@ -435,6 +474,7 @@ std::uint64_t hash(const Description& description)
     }
     add_hand_friction(hash, description);
     for (const JointDescription& joint : description.joints) add(hash, joint);
+    add_parts(hash, description);
     return hash.value();
 }
 

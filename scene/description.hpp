@@ -93,7 +93,18 @@ struct Feel {
     friend bool operator==(const Feel&, const Feel&) = default;
 };
 
-/// A solid of even density: a box, a sphere or a capsule.
+/// A further part of a body: a box, a sphere or a capsule in the frame of its first.
+struct PartDescription {
+    Shape shape = Shape::box;
+    glm::dvec3 half{0.02};
+    base::Position position{};                  // of its centre, from the first part's
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from its frame to the first part's
+
+    friend bool operator==(const PartDescription&, const PartDescription&) = default;
+};
+
+/// A solid of even density: a box, a sphere or a capsule, or several in one piece. Where parts
+/// overlap, the overlap has the mass of both.
 struct BodyDescription {
     std::string name;
     bool movable = true;
@@ -113,6 +124,9 @@ struct BodyDescription {
     Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that supports it, tangential
     Feel feel{};                // of every hand on it; it counts before a hand's own
+    /// The body's frame, and so `position` and `orientation`, are those of the first part, which
+    /// `shape` and `half` describe. A world's are of the centre of mass: see frame_of_mass().
+    std::vector<PartDescription> parts{};
 
     friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
 };
@@ -219,6 +233,7 @@ inline constexpr std::uint32_t bodies_max = 100'000;
 inline constexpr std::uint32_t planes_max = 64;
 inline constexpr std::uint32_t fields_max = 64;
 inline constexpr std::uint32_t joints_max = 256;
+inline constexpr std::uint32_t parts_max = 15; // of a body, beside its first
 
 // The ranges of a description and of inputs. Values beyond them are refused; within them nothing
 // overflows.
@@ -247,6 +262,7 @@ inline constexpr base::Duration period_max{std::chrono::hours{24}};
 /// How far the surface of a round body is from its core, m: of a sphere from its centre, of a
 /// capsule from a line. 0 for a box.
 [[nodiscard]] double rounding_of(const BodyDescription& body);
+[[nodiscard]] double rounding_of(const PartDescription& part);
 /// Of a body with so many kg/m^3.
 [[nodiscard]] double mass_of(const BodyDescription& body, double density);
 

@@ -30,6 +30,24 @@ double radius_of(const World& world, BodyId body)
     return std::sqrt(glm::dot(half, half));
 }
 
+/// One part of a body: of most the body itself.
+OrientedBox shape_of(const World& world, PartId part)
+{
+    return scene::shape_of(world.state().bodies, part);
+}
+
+/// The least separation of two sets of parts.
+template <typename ForParts, typename Separate>
+Separation least_separation(ForParts for_parts, Separate separate)
+{
+    std::optional<Separation> least;
+    for_parts([&](PartId part) {
+        const Separation its = separate(part);
+        if (!least || its.distance < least->distance) least = its;
+    });
+    return *least;
+}
+
 /// Whether a body is certainly farther from a point than `within`.
 bool is_beyond(const World& world, BodyId body, const glm::dvec3& point, double within)
 {
@@ -70,13 +88,15 @@ class ContactFinder {
 public:
     ContactFinder(const World& world, ContactList& list) : world_{world}, list_{list} {}
 
-    /// Of a body (`first`) and another one.
-    void add_bodies(BodyId first, BodyId other, double impulse, BoxBoxMemory memory = {})
+    /// Of a body (`first`) and another one: of a part of each.
+    void add_bodies(PartId first, PartId other, double impulse, BoxBoxMemory memory = {})
     {
-        const OrientedBox box = box_of(world_, first);
-        const OrientedBox its = box_of(world_, other);
+        const Bodies& bodies = world_.state().bodies;
+        const OrientedBox box = shape_of(world_, first);
+        const OrientedBox its = shape_of(world_, other);
         const double touch = touch_share * smallest_half(box, its);
-        Contact contact{.body = first, .other = {Thing::Kind::body, other}};
+        Contact contact{.body = bodies.body_of(first),
+                        .other = {Thing::Kind::body, bodies.body_of(other)}};
         contact.normal_impulse = impulse;
         if (set_place(contact, collide(its, box, touch, memory), touch)) {
             list_.add(contact);
@@ -89,12 +109,13 @@ public:
         }
     }
 
-    void add_plane(BodyId body, std::uint32_t plane, double impulse)
+    void add_plane(PartId part, std::uint32_t plane, double impulse)
     {
-        const OrientedBox box = box_of(world_, body);
+        const OrientedBox box = shape_of(world_, part);
         const PlaneDescription& its = world_.frozen().planes[plane];
         const double touch = touch_share * std::min({box.half.x, box.half.y, box.half.z});
-        Contact contact{.body = body, .other = {Thing::Kind::plane, plane}};
+        Contact contact{.body = world_.state().bodies.body_of(part),
+                        .other = {Thing::Kind::plane, plane}};
         contact.normal_impulse = impulse;
         const PlaneSurface surface{its.normal, its.offset_m};
         if (set_place(contact, collide(surface, box, touch), touch)) {
@@ -156,17 +177,23 @@ private:
     void add(const RigidStepper<broad_phase>& stepper, BodyId body, bool all) const
     {
         const PairSet& pairs = stepper.pairs().all_pairs();
-        pairs.for_first(body, [&](PairIndex i) {
-            finder_.add_bodies(body, pairs[i].b, impulse_of(pairs[i].memory), pairs[i].memory.axis);
-        });
-        if (all) {
-            pairs.for_second(body, [&](PairIndex i) {
-                finder_.add_bodies(body, pairs[i].a, impulse_of(pairs[i].memory));
-            });
-        }
         const PairSet& planes = stepper.pairs().all_plane_pairs();
-        planes.for_first(body, [&](PairIndex i) {
-            finder_.add_plane(body, planes[i].b, impulse_of(planes[i].memory));
+        const Bodies& bodies = world_.state().bodies;
+        // The further parts' ids are not in the order of their bodies'.
+        const auto is_listed = [&](PartId other) { return all || body < bodies.body_of(other); };
+        bodies.for_parts(body, [&](PartId part) {
+            pairs.for_first(part, [&](PairIndex i) {
+                if (is_listed(pairs[i].b))
+                    finder_.add_bodies(part, pairs[i].b, impulse_of(pairs[i].memory),
+                                       pairs[i].memory.axis);
+            });
+            pairs.for_second(part, [&](PairIndex i) {
+                if (is_listed(pairs[i].a))
+                    finder_.add_bodies(part, pairs[i].a, impulse_of(pairs[i].memory));
+            });
+            planes.for_first(part, [&](PairIndex i) {
+                finder_.add_plane(part, planes[i].b, impulse_of(planes[i].memory));
+            });
         });
     }
 
@@ -282,7 +309,10 @@ std::optional<RayHit> cast_ray(const World& world, const Ray& ray)
         const double radius = radius_of(world, body);
         constexpr double rounding = 1e-9;
         if (glm::dot(aside, aside) > (1.0 + rounding) * radius * radius) continue;
-        take({Thing::Kind::body, body}, enter(box_of(world, body), origin, direction, length));
+        world.state().bodies.for_parts(body, [&](PartId part) {
+            take({Thing::Kind::body, body},
+                 enter(shape_of(world, part), origin, direction, length));
+        });
     }
     const auto& planes = world.frozen().planes;
     for (std::uint32_t i = 0; i < planes.size(); ++i)
@@ -292,12 +322,22 @@ std::optional<RayHit> cast_ray(const World& world, const Ray& ray)
 
 Separation separation(const World& world, const base::Position& point, BodyId body)
 {
-    return separation(point.value, box_of(world, body));
+    return least_separation(
+        [&](const auto& visit) { world.state().bodies.for_parts(body, visit); },
+        [&](PartId part) { return separation(point.value, shape_of(world, part)); });
 }
 
 Separation separation(const World& world, BodyId first, BodyId second)
 {
-    return separation(box_of(world, first), box_of(world, second));
+    const Bodies& bodies = world.state().bodies;
+    return least_separation(
+        [&](const auto& visit) { bodies.for_parts(first, visit); },
+        [&](PartId part) {
+            const OrientedBox its = shape_of(world, part);
+            return least_separation(
+                [&](const auto& visit) { bodies.for_parts(second, visit); },
+                [&](PartId other) { return separation(its, shape_of(world, other)); });
+        });
 }
 
 std::optional<NearestBody> nearest_body(const World& world, const base::Position& point)

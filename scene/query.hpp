@@ -23,7 +23,8 @@ struct Thing {
     friend bool operator==(const Thing&, const Thing&) = default;
 };
 
-/// Two that touch now, or pushed each other in the last tick.
+/// Two that touch now, or pushed each other in the last tick: of a body of several parts, each part
+/// by itself.
 struct Contact {
     BodyId body = 0;
     Thing other;

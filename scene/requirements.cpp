@@ -28,6 +28,7 @@ struct Census {
     std::size_t felt_planes = 0; // that hands feel
     std::size_t turning = 0;     // movable
     std::size_t skew = 0;        // boxes and planes not parallel to the axes
+    std::size_t compound = 0;    // bodies of several parts
     std::size_t bouncing = 0;    // bodies and planes with restitution
     std::size_t rough = 0;       // movable bodies with friction
     std::size_t rough_other = 0; // fixed bodies and planes with friction
@@ -48,7 +49,10 @@ Census census_of(const Description& description)
     for (const BodyDescription& body : description.bodies) {
         ++(body.movable ? census.movable : census.fixed);
         if (body.kinematic) ++census.kinematic;
-        if (body.shape != Shape::box) ++census.round;
+        const auto is_round = [](const auto& part) { return part.shape != Shape::box; };
+        if (is_round(body) || std::any_of(body.parts.begin(), body.parts.end(), is_round))
+            ++census.round;
+        if (!body.parts.empty()) ++census.compound;
         if (body.feel.is_own()) ++census.own_feel;
         if (body.movable && body.turning != Turning::locked) ++census.turning;
         if (!is_parallel(body.orientation)) ++census.skew;
@@ -117,7 +121,7 @@ std::string_view name_of(Feature feature)
     constexpr std::array<std::string_view, features> names{
         "contact",     "hips",   "skew",          "rotation", "friction",  "restitution",
         "drag",        "bodies", "sleep",         "grid",     "kinematic", "feel",
-        "felt-planes", "fields", "hand-friction", "shapes",   "joints"};
+        "felt-planes", "fields", "hand-friction", "shapes",   "joints",    "compounds"};
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -134,11 +138,11 @@ FeatureSet abilities_of(StepperKind kind)
     FeatureSet set;
     const auto add = [&set](auto... those) { (set.add(those), ...); };
     switch (kind) {
-    case StepperKind::flight: add(rotation, skew, fields, shapes); break;
+    case StepperKind::flight: add(rotation, skew, fields, shapes, compounds); break;
     case StepperKind::many: add(grid); [[fallthrough]];
     case StepperKind::few: add(bodies, sleep); [[fallthrough]];
     case StepperKind::lone:
-        add(rotation, skew, kinematic, feel, felt_planes, hand_friction, shapes, joints);
+        add(rotation, skew, kinematic, feel, felt_planes, hand_friction, shapes, joints, compounds);
         [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
     case StepperKind::sliding: add(contact, hands, restitution, drag, fields); break;
@@ -186,13 +190,16 @@ Requirements requirements_of(const Description& description, bool sleeping)
         require(shapes, census.round > 0,
                 fmt::format("spheres and capsules: {} of {} bodies", census.round, total)),
         require(joints, !description.joints.empty(),
-                fmt::format("joints: {}", description.joints.size()))};
+                fmt::format("joints: {}", description.joints.size())),
+        require(compounds, census.compound > 0,
+                fmt::format("bodies of several parts: {} of {}", census.compound, total))};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
             const bool is_own = each.feature == contact || each.feature == rotation ||
                                 each.feature == kinematic || each.feature == felt_planes ||
                                 each.feature == fields || each.feature == hand_friction ||
-                                each.feature == shapes || each.feature == joints;
+                                each.feature == shapes || each.feature == joints ||
+                                each.feature == compounds;
             if (!is_own) each = without_contact(each.feature);
         }
     }

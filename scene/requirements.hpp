@@ -30,8 +30,9 @@ enum class Feature : std::uint8_t {
     hand_friction, // hands that stick and slide
     shapes,        // spheres and capsules
     joints,        // joints between bodies, or a body and the world
+    compounds,     // bodies of several parts
 };
-inline constexpr std::size_t features = 17;
+inline constexpr std::size_t features = 18;
 
 [[nodiscard]] std::string_view name_of(Feature feature);
 

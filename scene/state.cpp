@@ -84,6 +84,12 @@ Scales scales_of(const WorldConfig& config, const Bodies& bodies)
         least = std::min(least, std::min(half.x, std::min(half.y, half.z)));
         if (slot < bodies.movable) size = least;
     }
+    for (PartId part = 0; part < bodies.parts.size(); ++part) {
+        const glm::dvec3& half = bodies.parts[part].half;
+        const double own = std::min(half.x, std::min(half.y, half.z));
+        least = std::min(least, own);
+        if (bodies.slot_of[part] < bodies.movable) size = std::min(size, own);
+    }
     constexpr double hardly = 1e-6;
     const double fall = config.tick * std::sqrt(glm::dot(config.gravity, config.gravity));
     return {config.tick,      size, least, fall, std::max(fall, hardly * size / config.tick),

@@ -391,7 +391,8 @@ std::uint64_t World::hash() const
     const Bodies& bodies = state_.bodies;
     BitHash hash;
     hash.add(state_.ticks);
-    for (const Slot slot : bodies.slot_of) {
+    for (BodyId id = 0; id < bodies.size(); ++id) {
+        const Slot slot = bodies.slot_of[id];
         for (const auto* lanes : {&bodies.position, &bodies.velocity, &bodies.angular_momentum}) {
             hash.add(lanes->x[slot]);
             hash.add(lanes->y[slot]);

@@ -47,7 +47,7 @@ public:
     /// Why the queue drops a datagram that arrives; nullopt: it takes it.
     [[nodiscard]] std::optional<DropCause> refuses(const Datagram& datagram)
     {
-        if (!has_room(datagram.bytes.size())) return DropCause::rate_queue_full;
+        if (!has_room(datagram.size())) return DropCause::rate_queue_full;
         if (!is_managed_) return std::nullopt;
         const QueueControl& control = manager_.control();
         const bool are_too_many = control.packets_max > 0 && queue_.size() > control.packets_max;
@@ -64,7 +64,7 @@ public:
     void push(const Datagram& datagram, const Fate& fate)
     {
         base::ensure(!queue_.full());
-        const std::size_t line_bytes = datagram.bytes.size() + rate_.overhead_bytes;
+        const std::size_t line_bytes = datagram.size() + rate_.overhead_bytes;
         const bool was_idle = queue_.empty();
         queue_.push({datagram, fate, line_bytes});
         if (!was_idle) {

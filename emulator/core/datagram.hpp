@@ -26,10 +26,14 @@ namespace hapnet::emulator {
 struct Datagram {
     Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
     bool is_copy = false;
+    std::uint8_t envelope_bytes = 0; // at the beginning of `bytes`: carried, and nothing else
     std::uint64_t number = 0; // of the datagram in its direction, from 0; a copy has its original's
     base::TimePoint arrival{};
     base::TimePoint due{};              // never leaves before
     std::span<const std::byte> bytes{}; // stay where they are until it has left
+
+    /// Of the datagram itself.
+    [[nodiscard]] std::size_t size() const { return bytes.size() - envelope_bytes; }
 };
 
 /// A datagram whose time of leaving is not known yet.

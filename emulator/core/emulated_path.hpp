@@ -49,6 +49,14 @@ public:
         return link_of(direction).on_packet(bytes, arrival, has_destination);
     }
 
+    /// The same of a datagram in an envelope; see Link::on_packet().
+    Admission on_enveloped(Direction direction, std::span<const std::byte> bytes,
+                           base::TimePoint arrival, std::uint8_t envelope_bytes)
+    {
+        advance(arrival);
+        return link_of(direction).on_packet(bytes, arrival, true, envelope_bytes);
+    }
+
     /// A datagram of a direction that is due at `now`, the earliest first.
     [[nodiscard]] std::optional<Datagram> poll(Direction direction, base::TimePoint now)
     {

@@ -42,18 +42,22 @@ Link::Link(const Conditions& conditions, const Setup& setup)
 }
 
 Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
-                          bool has_destination)
+                          bool has_destination, std::uint8_t envelope_bytes)
 {
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
-    const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
-    const Datagram datagram{
-        .number = packet.number, .arrival = last_arrival_, .due = last_arrival_, .bytes = bytes};
+    const Packet packet{statistics_.received, bytes.size() - envelope_bytes,
+                        last_arrival_ - setup_.start};
+    const Datagram datagram{.envelope_bytes = envelope_bytes,
+                            .number = packet.number,
+                            .arrival = last_arrival_,
+                            .due = last_arrival_,
+                            .bytes = bytes};
     Fate fate = fate_of(packet);
     if (!has_destination) fate = without_destination(fate);
     Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
-    statistics_.bytes_in += bytes.size();
+    statistics_.bytes_in += packet.bytes;
     if (bottleneck_.is_on() && fate.drop != DropCause::mtu) refuse_or_pass(datagram, admission);
     if (!admission.drop) {
         if (passes_untouched(fate)) {
@@ -97,7 +101,7 @@ bool Link::hold(Datagram datagram, const Fate& fate)
     const auto stored = store(datagram);
     if (!stored) return false;
     if (fate.flips.count > 0) {
-        apply(fate.flips, *stored);
+        apply(fate.flips, stored->subspan(datagram.envelope_bytes));
         ++statistics_.corrupted;
     }
     if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
@@ -233,7 +237,7 @@ std::optional<base::TimePoint> Link::next_deadline() const
 void Link::on_sent(const Datagram& datagram, base::TimePoint at)
 {
     ++statistics_.delivered;
-    statistics_.bytes_out += datagram.bytes.size();
+    statistics_.bytes_out += datagram.size();
     statistics_.lateness.add(at - datagram.due);
     if (setup_.has_stream_statistics) stream_statistics_.on_sent(datagram, at);
     if (datagram.number >= beyond_highest_delivered_) {

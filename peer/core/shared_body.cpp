@@ -43,6 +43,10 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
         return base::fail("a session has no joints yet: leave out hinges, sliders, balls and "
                           "springs");
     }
+    const auto has_parts = [](const scene::BodyDescription& body) { return !body.parts.empty(); };
+    if (std::any_of(bodies.begin(), bodies.end(), has_parts)) {
+        return base::fail("a session has no bodies of several parts yet: leave out [[body.part]]");
+    }
     if (scene.hands.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();
     if (index > std::numeric_limits<number_on_the_wire>::max()) {

@@ -65,14 +65,14 @@ public:
     open(std::span<const std::byte> datagram, const secure::Place& from, base::TimePoint now)
     {
         if (auto* plain = std::get_if<Plain>(&kind_)) return plain->open(datagram, from);
-        return sealed_()->open(datagram, from, now);
+        return own_sealed()->open(datagram, from, now);
     }
 
     /// Goes on with keys: once a tick, after what is urgent. At most one multiplication on the
     /// curve.
     void tick(secure::Moment moment)
     {
-        if (is_sealed()) sealed_()->tick(moment);
+        if (is_sealed()) own_sealed()->tick(moment);
     }
 
     /// Calls send(bytes, place) for all that has to leave: what keys need, then the messages that
@@ -84,7 +84,7 @@ public:
             while (const auto message = poll()) send(message->bytes(), plain->place());
             return;
         }
-        Sealed& sealed = *sealed_();
+        Sealed& sealed = *own_sealed();
         while (const auto frame = sealed.poll()) send(frame->frame.bytes(), frame->to);
         while (const auto message = poll()) {
             const auto bytes = sealed.seal(message->bytes(), now);
@@ -96,7 +96,7 @@ public:
     [[nodiscard]] std::optional<News> news()
     {
         if (auto* plain = std::get_if<Plain>(&kind_)) return plain->news();
-        return sealed_()->news();
+        return own_sealed()->news();
     }
 
     [[nodiscard]] bool is_sealed() const { return !std::holds_alternative<Plain>(kind_); }
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    [[nodiscard]] Sealed* sealed_() { return std::get<std::unique_ptr<Sealed>>(kind_).get(); }
+    [[nodiscard]] Sealed* own_sealed() { return std::get<std::unique_ptr<Sealed>>(kind_).get(); }
 
     std::variant<Plain, std::unique_ptr<Sealed>> kind_;
 };

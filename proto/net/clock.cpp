@@ -26,6 +26,28 @@ base::Duration thread_processor_time()
     return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
 }
 
+/// Being interrupted between the readings would shift the stamps by as much, so the closest of a
+/// few readings counts; the first usually does.
+base::Duration monotonic_minus_real()
+{
+    constexpr int readings_max = 4;
+    constexpr base::Duration close_enough = std::chrono::microseconds{1};
+    auto closest = base::Duration::max();
+    base::Duration offset{};
+    for (int i = 0; i < readings_max && closest > close_enough; ++i) {
+        timespec real{};
+        const auto before = monotonic_now().time_since_epoch();
+        base::ensure(clock_gettime(CLOCK_REALTIME, &real) == 0);
+        const auto since_1970 =
+            std::chrono::seconds{real.tv_sec} + std::chrono::nanoseconds{real.tv_nsec};
+        const auto took = monotonic_now().time_since_epoch() - before;
+        if (took >= closest) continue;
+        closest = took;
+        offset = before + took / 2 - since_1970;
+    }
+    return offset;
+}
+
 double wall_clock_seconds() { return 1e-9 * static_cast<double>(wall_clock_nanoseconds()); }
 
 std::int64_t wall_clock_nanoseconds()

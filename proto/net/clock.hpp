@@ -23,6 +23,8 @@ namespace hapnet::net {
 
 /// The time of day in nanoseconds since 1970, for what is dated; it may step either way.
 [[nodiscard]] std::int64_t wall_clock_nanoseconds();
+/// The clock of monotonic_now() minus CLOCK_REALTIME, in which the kernel stamps what arrives.
+[[nodiscard]] base::Duration monotonic_minus_real();
 
 /// Sleeps until `when` on that clock; returns at once when it has passed.
 void sleep_until(base::TimePoint when);

@@ -27,26 +27,6 @@ base::Duration to_duration(const timespec& time)
     return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
 }
 
-/// The clock of monotonic_now() minus CLOCK_REALTIME. Being interrupted between the readings would
-/// shift the stamps by as much, so the closest of a few readings counts; the first usually does.
-base::Duration monotonic_minus_real()
-{
-    constexpr int readings_max = 4;
-    constexpr base::Duration close_enough = std::chrono::microseconds{1};
-    auto closest = base::Duration::max();
-    base::Duration offset{};
-    for (int i = 0; i < readings_max && closest > close_enough; ++i) {
-        timespec real{};
-        const auto before = monotonic_now().time_since_epoch();
-        base::ensure(clock_gettime(CLOCK_REALTIME, &real) == 0);
-        const auto took = monotonic_now().time_since_epoch() - before;
-        if (took >= closest) continue;
-        closest = took;
-        offset = before + took / 2 - to_duration(real);
-    }
-    return offset;
-}
-
 void set_option(int descriptor, int level, int name, int value)
 {
     setsockopt(descriptor, level, name, &value, sizeof value);

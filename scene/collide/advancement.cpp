@@ -62,7 +62,7 @@ Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
 /// turn.
 double time_beside(const Mover& a, const Mover& b, const glm::dvec3& normal, double gap)
 {
-    const double room = glm::dot(normal, b.box.centre - a.box.centre) - gap -
+    const double room = glm::dot(normal, b.pivot() - a.pivot()) - gap -
                         a.reach_in_all_turns(normal) - b.reach_in_all_turns(normal);
     if (!(room > 0.0)) return 0.0;
     const double approach = glm::dot(normal, a.motion.velocity - b.motion.velocity);
@@ -72,7 +72,7 @@ double time_beside(const Mover& a, const Mover& b, const glm::dvec3& normal, dou
 /// The same along the normals that belong to the way they turn, and not to how they stand now.
 double time_beside_any(const Mover& a, const Mover& b, double gap)
 {
-    const glm::dvec3 offset = b.box.centre - a.box.centre;
+    const glm::dvec3 offset = b.pivot() - a.pivot();
     const auto along = [&](const glm::dvec3& axis) {
         const double square = glm::dot(axis, axis);
         if (!(square > 0.0)) return 0.0;
@@ -157,7 +157,7 @@ Advanced advance_round(Mover& a, Mover& b, const GapSearch& search, std::uint32_
         const double room = gap.distance - search.gap;
         if (room <= search.near) return 0.0;
         Forecast now{.room = room,
-                     .approach = glm::dot(gap.normal, a.motion.velocity - b.motion.velocity),
+                     .approach = glm::dot(gap.normal, a.velocity() - b.velocity()),
                      .bend = bend_of(a) + bend_of(b)};
         add_parts(now, add_parts(now, 0, a, gap.normal), b, gap.normal);
         double left = now.time_left(most);
@@ -172,7 +172,9 @@ Advanced advance_round(Mover& a, Mover& b, const GapSearch& search, std::uint32_
 
 OrientedBox SteadyBox::at(double time) const
 {
-    return {centre + time * velocity, axes_of(orientation_at(time)), half, rounding};
+    const glm::dmat3 axes = axes_of(orientation_at(time));
+    if (is_part) return {centre + time * velocity + axes * arm, axes * frame, half, rounding};
+    return {centre + time * velocity, axes, half, rounding};
 }
 
 glm::dquat SteadyBox::orientation_at(double time) const
@@ -203,7 +205,7 @@ Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch&
         advanced = advance_straight(first, second, search);
     } else {
         const bool whirl = first.whirl.is_known || second.whirl.is_known;
-        const double apart = a.radius + b.radius + widest(search);
+        const double apart = a.radius + b.radius + widest(search) + (length(a.arm) + length(b.arm));
         advanced = advance_by(search, steps, [&](double time, double most) {
             first.go_to(time);
             second.go_to(time);
@@ -239,19 +241,20 @@ Advanced advance_to_gap(const PlaneSurface& plane, const SteadyBox& box, const G
     if (std::min(height(search.from), height(search.to)) > box.radius + widest(search))
         return {search.to, Advanced::End::clear};
     Mover mover{box, search.from, search.to};
-    const double approach = -glm::dot(plane.normal, box.velocity);
+    const double falling = -glm::dot(plane.normal, box.velocity);
     const double bend = bend_of(mover);
     return advance_by(search, steps, [&](double time, double most) {
         mover.go_to(time);
         const double room = gap_between(plane, mover.box).distance - search.gap;
         if (room <= search.near) return 0.0;
-        Forecast now{.room = room, .approach = approach, .bend = bend};
+        Forecast now{.room = room, .approach = falling, .bend = bend};
+        if (box.is_part) now.approach = -glm::dot(plane.normal, mover.velocity());
         add_parts(now, 0, mover, plane.normal);
         double left = now.time_left(most);
         if (mover.turns && left < most) {
             const double beside =
                 height(time) - search.gap - mover.reach_in_all_turns(plane.normal);
-            if (beside > 0.0) left = approach > 0.0 ? std::max(left, beside / approach) : most;
+            if (beside > 0.0) left = falling > 0.0 ? std::max(left, beside / falling) : most;
         }
         return std::min(left, most);
     });

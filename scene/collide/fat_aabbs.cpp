@@ -125,6 +125,26 @@ Aabb FatAabbs::renew(const Bodies& bodies, Slot slot)
     return grown(region, margin);
 }
 
+/// A body of several parts that spins has its whole box for each; of another each part keeps the
+/// distance from the sides of the whole that it has now.
+Aabb FatAabbs::around(const Bodies& bodies, PartId part, const Aabb& whole) const
+{
+    const Slot slot = bodies.slot_of[part];
+    const BodyProperties& properties = bodies.properties[slot];
+    const Bounds& bounds = bounds_[properties.id];
+    const bool spins = bounds.similarity_min < 0.0 && properties.turning != Turning::locked &&
+                       !is_fixed(properties);
+    if (!properties.has_parts() || spins) return whole;
+    const BodyPart& its = bodies.parts[part];
+    const glm::dmat3 axes = glm::mat3_cast(bounds.orientation);
+    const glm::dvec3 at = axes * its.at;
+    const glm::dmat3 own = axes * its.axes;
+    const glm::dvec3 out = glm::abs(own[0]) * its.half.x + glm::abs(own[1]) * its.half.y +
+                           glm::abs(own[2]) * its.half.z;
+    const glm::dvec3 all = extent(bounds.orientation, properties.half);
+    return {whole.low + (all + at - out), whole.high - (all - at - out)};
+}
+
 void FatAabbs::update_slot(const Bodies& bodies, Slot slot)
 {
     const Bounds& bounds = bounds_[bodies.properties[slot].id];

@@ -29,6 +29,8 @@ public:
     [[nodiscard]] bool has_moved_out(const Bodies& bodies, Slot slot) const;
     /// A new box around a body and where it is going.
     [[nodiscard]] Aabb renew(const Bodies& bodies, Slot slot);
+    /// What of the box that a body has got one of its parts needs.
+    [[nodiscard]] Aabb around(const Bodies& bodies, PartId part, const Aabb& whole) const;
     /// Says that another body lies in an awake slot.
     void update_slot(const Bodies& bodies, Slot slot);
 
@@ -55,7 +57,7 @@ private:
 
     double tick_;
     glm::dvec3 gravity_;
-    std::vector<Bounds> bounds_; // by id
+    std::vector<Bounds> bounds_; // by id of a body
     // By slot, in the order of Bounds: middle, room, orientation w x y z, likeness, momentum.
     static constexpr std::size_t lanes = 12;
     std::array<std::vector<double>, lanes> lanes_;

@@ -37,6 +37,12 @@ struct Whirl {
         }
         is_known = true;
         axis = box.spin / std::sqrt(square);
+        if (box.is_part) { // not around the axis: no more is known than how far it reaches
+            along.fill(radius);
+            across.fill(radius);
+            widest = radius;
+            return;
+        }
         const glm::dvec3 part = box.core_half() * (axis * axes_of(box.orientation));
         along = {part.x + part.y + part.z, part.x + part.y - part.z, part.x - part.y + part.z,
                  part.y + part.z - part.x};
@@ -81,11 +87,34 @@ struct Mover {
             box = motion.at(time);
         else
             box.centre = motion.centre + time * motion.velocity;
+        if (motion.is_part && !turns) box.centre += arm();
+    }
+    /// What it turns about.
+    [[nodiscard]] glm::dvec3 pivot() const
+    {
+        return motion.is_part ? box.centre - arm() : box.centre;
+    }
+    /// Of the box's centre.
+    [[nodiscard]] glm::dvec3 velocity() const
+    {
+        return motion.is_part ? motion.velocity + glm::cross(motion.spin, arm()) : motion.velocity;
+    }
+    /// How fast the centre of a part goes round, at most, m/s.
+    [[nodiscard]] double orbit_speed() const
+    {
+        return motion.is_part ? speed_of_turning * length(motion.arm) : 0.0;
     }
     [[nodiscard]] double reach_in_all_turns(const glm::dvec3& normal) const
     {
         if (!turns) return half_extent(box, normal);
         return whirl.reach(normal, motion.core_radius()) + motion.rounding;
+    }
+
+private:
+    /// From what it turns about to the box's centre, in the world.
+    [[nodiscard]] glm::dvec3 arm() const
+    {
+        return box.axes * (glm::transpose(motion.frame) * motion.arm);
     }
 };
 

@@ -21,26 +21,29 @@ constexpr double hand_stretch_max = 16.0;
 
 PairSet::Room room_for_bodies(const Bodies& bodies)
 {
-    const std::uint64_t movable = bodies.movable;
-    const std::uint64_t fixed = bodies.size() - bodies.movable;
+    const std::uint64_t movable = bodies.movable_parts();
+    const std::uint64_t fixed = bodies.parts_count() - movable;
     const std::uint64_t all =
         movable * (movable - std::min<std::uint64_t>(movable, 1)) / 2 + movable * fixed;
     const std::uint64_t bound = std::min(all, movable * pairs_per_body_max);
-    return {bodies.size(), bodies.size(), static_cast<std::uint32_t>(bound)};
+    return {bodies.parts_count(), bodies.parts_count(), static_cast<std::uint32_t>(bound)};
 }
 
 PairSet::Room room_for_planes(const Bodies& bodies, std::size_t planes)
 {
     const std::uint64_t each = std::min<std::uint64_t>(planes, planes_per_body_max);
-    return {bodies.size(), static_cast<std::uint32_t>(planes),
-            static_cast<std::uint32_t>(bodies.movable * each)};
+    return {bodies.parts_count(), static_cast<std::uint32_t>(planes),
+            static_cast<std::uint32_t>(bodies.movable_parts() * each)};
 }
 
 std::vector<Aabb> first_boxes(FatAabbs& fat, const Bodies& bodies)
 {
-    std::vector<Aabb> boxes(bodies.size());
-    for (Slot slot = 0; slot < bodies.size(); ++slot)
-        boxes[bodies.properties[slot].id] = fat.renew(bodies, slot);
+    std::vector<Aabb> boxes(bodies.parts_count());
+    for (Slot slot = 0; slot < bodies.size(); ++slot) {
+        const Aabb whole = fat.renew(bodies, slot);
+        bodies.for_parts(bodies.properties[slot].id,
+                         [&](PartId part) { boxes[part] = fat.around(bodies, part, whole); });
+    }
     return boxes;
 }
 
@@ -58,18 +61,20 @@ template <BroadPhase broad_phase>
 PairFinder<broad_phase>::PairFinder(const WorldConfig& config, const Bodies& bodies)
     : planes_of_scene_{config.planes},
       apart_{config.apart},
+      has_parts_{!bodies.parts.empty()},
       fat_boxes_{config, bodies},
       boxes_{first_boxes(fat_boxes_, bodies)},
       pairs_{room_for_bodies(bodies)},
       plane_pairs_{room_for_planes(bodies, config.planes.size())},
       moved_out_{bodies.movable},
-      stamps_(bodies.size(), 0)
+      stamps_(bodies.parts_count(), 0)
 {
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)
-        hands_.push_back(
-            {.box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, .bodies = Bounded<BodyId>{bodies.size()}});
+        hands_.push_back({.box{glm::dvec3{1.0}, glm::dvec3{-1.0}},
+                          .bodies = Bounded<PartId>{bodies.parts_count()}});
     for (Slot slot = 0; slot < bodies.movable; ++slot)
-        update_pairs(bodies, bodies.properties[slot].id);
+        bodies.for_parts(bodies.properties[slot].id,
+                         [&](PartId part) { update_pairs(bodies, part); });
     apply_changes();
 }
 
@@ -79,36 +84,53 @@ void PairFinder<broad_phase>::update(const Bodies& bodies)
     if (has_left_out_) {
         has_left_out_ = false;
         for (Slot slot = 0; slot < bodies.awake; ++slot)
-            update_pairs(bodies, bodies.properties[slot].id);
+            bodies.for_parts(bodies.properties[slot].id,
+                             [&](PartId part) { update_pairs(bodies, part); });
     }
     moved_out_.clear();
     fat_boxes_.find_moved_out(bodies, moved_out_);
-    for (const Slot slot : moved_out_) {
-        const BodyId id = bodies.properties[slot].id;
-        boxes_.move(id, fat_boxes_.renew(bodies, slot));
-        update_pairs(bodies, id);
-        for (Hand& hand : hands_) update_hand(hand, id);
-    }
-    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
-        if (!fat_boxes_.has_moved_out(bodies, slot)) continue;
-        const BodyId id = bodies.properties[slot].id;
-        boxes_.move(id, fat_boxes_.renew(bodies, slot));
-        update_pairs(bodies, id);
-        for (Hand& hand : hands_) update_hand(hand, id);
-    }
+    for (const Slot slot : moved_out_) renew(bodies, slot);
+    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot)
+        if (fat_boxes_.has_moved_out(bodies, slot)) renew(bodies, slot);
     renewed_ += moved_out_.size();
     apply_changes();
 }
 
-/// Renews the pairs of a body after its box.
+/// Gives a body's parts new boxes, and what follows from them.
 template <BroadPhase broad_phase>
-void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, BodyId id)
+void PairFinder<broad_phase>::renew(const Bodies& bodies, Slot slot)
+{
+    const Aabb whole = fat_boxes_.renew(bodies, slot);
+    const auto move = [&](PartId part, const Aabb& box) {
+        boxes_.move(part, box);
+        update_pairs(bodies, part);
+        for (Hand& hand : hands_) update_hand(hand, part);
+    };
+    const BodyId id = bodies.properties[slot].id;
+    if (!has_parts_) return move(id, whole);
+    bodies.for_parts(id, [&](PartId part) { move(part, fat_boxes_.around(bodies, part, whole)); });
+}
+
+/// Whether two parts never touch: of one body, or of two that are joined.
+template <BroadPhase broad_phase>
+bool PairFinder<broad_phase>::are_apart(const Bodies& bodies, PartId a, PartId b) const
+{
+    if (!has_parts_ && apart_.empty()) return false;
+    const BodyId one = bodies.body_of(a);
+    const BodyId two = bodies.body_of(b);
+    return one == two || std::binary_search(apart_.begin(), apart_.end(),
+                                            BodyPair{std::min(one, two), std::max(one, two)});
+}
+
+/// Renews the pairs of a part after its box.
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, PartId id)
 {
     const Aabb box = boxes_.box(id);
     const bool is_awake = bodies.slot_of[id] < bodies.awake;
     const bool is_kinematic = bodies.slot_of[id] >= bodies.movable;
     ++stamp_;
-    const auto keep_if_near = [&](PairIndex index, BodyId other) {
+    const auto keep_if_near = [&](PairIndex index, PartId other) {
         if (overlap(box, boxes_.box(other)))
             stamps_[other] = stamp_;
         else
@@ -116,11 +138,10 @@ void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, BodyId id)
     };
     pairs_.for_first(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].b); });
     pairs_.for_second(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].a); });
-    boxes_.for_overlapping(id, [&](BodyId other) {
+    boxes_.for_overlapping(id, [&](PartId other) {
         if (other == id || stamps_[other] == stamp_) return;
         if (is_kinematic && bodies.slot_of[other] >= bodies.movable) return;
-        const BodyPair both{std::min(id, other), std::max(id, other)};
-        if (!apart_.empty() && std::binary_search(apart_.begin(), apart_.end(), both)) return;
+        if (are_apart(bodies, id, other)) return;
         const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
         if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_left_out_ = true;
     });
@@ -128,7 +149,7 @@ void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, BodyId id)
 }
 
 template <BroadPhase broad_phase>
-void PairFinder<broad_phase>::update_plane_pairs(const Aabb& box, BodyId id, bool is_awake)
+void PairFinder<broad_phase>::update_plane_pairs(const Aabb& box, PartId id, bool is_awake)
 {
     std::uint64_t known = 0;
     plane_pairs_.for_first(id, [&](PairIndex index) {
@@ -143,12 +164,12 @@ void PairFinder<broad_phase>::update_plane_pairs(const Aabb& box, BodyId id, boo
             if (!plane_pairs_.add(id, plane, is_awake)) has_left_out_ = true;
 }
 
-/// Adds a body to those in a hand's box, or takes it away.
+/// Adds a part to those in a hand's box, or takes it away.
 template <BroadPhase broad_phase>
-void PairFinder<broad_phase>::update_hand(Hand& hand, BodyId id)
+void PairFinder<broad_phase>::update_hand(Hand& hand, PartId id)
 {
-    Bounded<BodyId>& bodies = hand.bodies;
-    BodyId* const place = std::lower_bound(bodies.begin(), bodies.end(), id);
+    Bounded<PartId>& bodies = hand.bodies;
+    PartId* const place = std::lower_bound(bodies.begin(), bodies.end(), id);
     const bool is_there = place != bodies.end() && *place == id;
     const bool belongs = overlap(hand.box, boxes_.box(id));
     if (is_there == belongs) return;
@@ -161,7 +182,7 @@ void PairFinder<broad_phase>::update_hand(Hand& hand, BodyId id)
     }
 }
 
-/// A box for a hand, around where it is going, and the bodies in it.
+/// A box for a hand, around where it is going, and the parts in it.
 template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::renew_hand(Hand& known, const HandPath& path)
 {
@@ -178,7 +199,7 @@ void PairFinder<broad_phase>::renew_hand(Hand& known, const HandPath& path)
     known.middle = inner.centre();
     known.room = 0.5 * inner.size();
     known.bodies.clear();
-    boxes_.for_overlapping(known.box, [&](BodyId id) { known.bodies.add(id); });
+    boxes_.for_overlapping(known.box, [&](PartId id) { known.bodies.add(id); });
     std::sort(known.bodies.begin(), known.bodies.end());
 }
 
@@ -188,22 +209,27 @@ void PairFinder<broad_phase>::on_wake(const Bodies& bodies, BodyId body)
     fat_boxes_.update_slot(bodies, bodies.slot_of[body]);
     if (counts().pairs_left_out != 0) has_left_out_ = true; // perhaps its own, while it slept
     const auto activate = [this](PairIndex index) { pairs_.set_active(index, true); };
-    pairs_.for_first(body, activate);
-    pairs_.for_second(body, activate);
-    plane_pairs_.for_first(body, [this](PairIndex index) { plane_pairs_.set_active(index, true); });
+    bodies.for_parts(body, [&](PartId part) {
+        pairs_.for_first(part, activate);
+        pairs_.for_second(part, activate);
+        plane_pairs_.for_first(part,
+                               [this](PairIndex index) { plane_pairs_.set_active(index, true); });
+    });
 }
 
 template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::on_sleep(const Bodies& bodies, BodyId body, Slot was_in)
 {
     if (was_in < bodies.awake) fat_boxes_.update_slot(bodies, was_in);
-    const auto park = [&](PairIndex index, BodyId other) {
+    const auto park = [&](PairIndex index, PartId other) {
         if (bodies.slot_of[other] >= bodies.awake) pairs_.set_active(index, false);
     };
-    pairs_.for_first(body, [&](PairIndex index) { park(index, pairs_[index].b); });
-    pairs_.for_second(body, [&](PairIndex index) { park(index, pairs_[index].a); });
-    plane_pairs_.for_first(body,
-                           [this](PairIndex index) { plane_pairs_.set_active(index, false); });
+    bodies.for_parts(body, [&](PartId part) {
+        pairs_.for_first(part, [&](PairIndex index) { park(index, pairs_[index].b); });
+        pairs_.for_second(part, [&](PairIndex index) { park(index, pairs_[index].a); });
+        plane_pairs_.for_first(part,
+                               [this](PairIndex index) { plane_pairs_.set_active(index, false); });
+    });
 }
 
 template <BroadPhase broad_phase>
@@ -214,12 +240,14 @@ void PairFinder<broad_phase>::apply_changes()
 }
 
 template <BroadPhase broad_phase>
-void PairFinder<broad_phase>::forget(BodyId body)
+void PairFinder<broad_phase>::forget(const Bodies& bodies, BodyId body)
 {
     const auto forget_it = [this](PairIndex index) { pairs_[index].memory = {}; };
-    pairs_.for_first(body, forget_it);
-    pairs_.for_second(body, forget_it);
-    plane_pairs_.for_first(body, [this](PairIndex index) { plane_pairs_[index].memory = {}; });
+    bodies.for_parts(body, [&](PartId part) {
+        pairs_.for_first(part, forget_it);
+        pairs_.for_second(part, forget_it);
+        plane_pairs_.for_first(part, [this](PairIndex index) { plane_pairs_[index].memory = {}; });
+    });
 }
 
 template <BroadPhase broad_phase>

@@ -46,8 +46,9 @@ public:
     /// and after anything put a body elsewhere. Afterwards the lists of pairs are up to date.
     void update(const Bodies& bodies);
 
-    /// Pairs of bodies, at least one of them movable and awake, by their ids. An index is good
-    /// until the next update(); so is the list, but for activate().
+    /// Pairs of parts of two bodies, at least one of them movable and awake, by the parts' ids: a
+    /// body of one part has its own id, see PartId. An index is good until the next update(); so is
+    /// the list, but for activate().
     [[nodiscard]] std::span<const PairIndex> pairs() const { return pairs_.active(); }
     [[nodiscard]] Pair& pair(PairIndex index) { return pairs_[index]; }
     /// Awake bodies (`a`) near planes (`b`, an index into WorldConfig::planes).
@@ -56,9 +57,9 @@ public:
     [[nodiscard]] std::size_t plane_pairs_max() const { return plane_pairs_.size_max(); }
     [[nodiscard]] Pair& plane_pair(PairIndex index) { return plane_pairs_[index]; }
 
-    /// The bodies, movable or fixed, asleep or awake, that a hand may reach within the tick, by
-    /// their ids. To be asked after update(). Far from everything it costs a few compares.
-    [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path)
+    /// The parts of bodies, movable or fixed, asleep or awake, that a hand may reach within the
+    /// tick, by their ids. To be asked after update(). Far from everything it costs a few compares.
+    [[nodiscard]] std::span<const PartId> near_hand(std::uint32_t hand, const HandPath& path)
     {
         Hand& known = hands_[hand];
         const glm::dvec3 away =
@@ -69,7 +70,7 @@ public:
         return known.bodies.all();
     }
 
-    /// Calls visit(id) for every body whose fat box overlaps the given. Asked after update().
+    /// Calls visit(part) for every part whose fat box overlaps the given. Asked after update().
     template <typename Visit>
     void for_overlapping(const Aabb& box, Visit visit) const
     {
@@ -86,7 +87,7 @@ public:
     [[nodiscard]] std::span<const PairIndex> pairs_added() const { return pairs_.added(); }
 
     /// Forgets a body's contacts: it was put elsewhere.
-    void forget(BodyId body);
+    void forget(const Bodies& bodies, BodyId body);
 
     [[nodiscard]] const PairSet& all_pairs() const { return pairs_; }
     [[nodiscard]] const PairSet& all_plane_pairs() const { return plane_pairs_; }
@@ -114,17 +115,20 @@ private:
         Aabb box;
         glm::dvec3 middle{0.0}, room{-1.0};
         double radius = 0.0;
-        Bounded<BodyId> bodies;
+        Bounded<PartId> bodies;
     };
     using Finder = std::conditional_t<broad_phase == BroadPhase::all_pairs, AabbScan, Grid>;
 
-    void update_pairs(const Bodies& bodies, BodyId id);
-    void update_plane_pairs(const Aabb& box, BodyId id, bool is_awake);
-    void update_hand(Hand& hand, BodyId id);
+    void renew(const Bodies& bodies, Slot slot);
+    void update_pairs(const Bodies& bodies, PartId id);
+    [[nodiscard]] bool are_apart(const Bodies& bodies, PartId a, PartId b) const;
+    void update_plane_pairs(const Aabb& box, PartId id, bool is_awake);
+    void update_hand(Hand& hand, PartId id);
     void renew_hand(Hand& known, const HandPath& path);
 
     std::vector<PlaneDescription> planes_of_scene_;
     std::vector<BodyPair> apart_; // see WorldConfig
+    bool has_parts_;              // some body has several
     FatAabbs fat_boxes_;
     Finder boxes_;
     PairSet pairs_;

@@ -26,9 +26,9 @@ struct ContactMemory {
 /// Whether the contact had a normal impulse last tick: then what sleeps on it wakes with it.
 [[nodiscard]] bool touches(const ContactMemory& memory);
 
-/// Two near each other: bodies with `a` < `b`, or the body `a` and the plane `b`.
+/// Two near each other: parts of two bodies with `a` < `b`, or the part `a` and the plane `b`.
 struct Pair {
-    BodyId a = 0;
+    PartId a = 0;
     std::uint32_t b = 0;
     ContactMemory memory;
 };

@@ -23,8 +23,7 @@ public:
     Pose(const Mover& a, const Mover& b) : a_{a}, b_{b}
     {
         const glm::dvec3 offset = b.box.centre - a.box.centre;
-        const glm::dvec3 velocity =
-            b.motion.velocity - a.motion.velocity - glm::cross(a.motion.spin, offset);
+        const glm::dvec3 velocity = b.velocity() - a.velocity() - glm::cross(a.motion.spin, offset);
         const glm::dvec3 spin = b.motion.spin - a.motion.spin;
         offset_ = per_axis(offset * a.box.axes);
         velocity_ = per_axis(velocity * a.box.axes);
@@ -107,7 +106,9 @@ public:
         const double spin_a = a_.speed_of_turning;
         const double spin_b = b_.speed_of_turning;
         const double both = spin_a + spin_b;
-        const double speed = length(b_.motion.velocity - a_.motion.velocity);
+        const double orbit_a = a_.orbit_speed();
+        const double orbit_b = b_.orbit_speed();
+        const double speed = length(b_.motion.velocity - a_.motion.velocity) + orbit_a + orbit_b;
         const PerAxis half_a = per_axis(a_.box.half);
         const PerAxis half_b = per_axis(b_.box.half);
         Forecast found;
@@ -148,7 +149,8 @@ public:
             found.approach = std::abs(gap) * both; // its length changes
         }
         found.approach += open.place < 0.0 ? moves : -moves;
-        found.bend = both * both * halves + turns * (turns * apart + 2.0 * speed);
+        found.bend = both * both * halves + turns * (turns * apart + 2.0 * speed) +
+                     spin_a * orbit_a + spin_b * orbit_b;
         return found;
     }
 

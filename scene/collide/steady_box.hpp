@@ -17,6 +17,11 @@ struct SteadyBox {
     glm::dvec3 half{0.02};
     double radius = 0.0;   // of the corners
     double rounding = 0.0; // see OrientedBox
+    // A part of a body of several, which goes round the centre: where in the body's frame it is.
+    // Then `radius` is how far it reaches from there.
+    bool is_part = false;
+    glm::dvec3 arm{0.0};
+    glm::dmat3 frame{1.0};
 
     [[nodiscard]] bool is_round() const { return rounding > 0.0; }
     /// Of the core of a round body; of a box itself.

@@ -38,6 +38,15 @@ OrientedBox box_of(const Bodies& bodies, Slot slot)
             bodies.properties[slot].half, bodies.properties[slot].rounding};
 }
 
+OrientedBox shape_of(const Bodies& bodies, PartId part)
+{
+    const Slot slot = bodies.slot_of[part];
+    if (!bodies.properties[slot].has_parts()) return box_of(bodies, slot);
+    const BodyPart& its = bodies.parts[part];
+    const glm::dmat3 axes = axes_of(bodies.orientation.at(slot));
+    return {bodies.position.at(slot) + axes * its.at, axes * its.axes, its.half, its.rounding};
+}
+
 SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, BoxBoxMemory& memory)
 {
     const double margin = a.reach + b.reach;
@@ -48,7 +57,7 @@ SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, Bo
     const double nearest =
         a.radius + b.radius + std::max(std::min(margin, near), tick * length(velocity));
     if (glm::dot(apart, apart) > nearest * nearest) return {};
-    const ContactPlaces here{a.box.centre, b.box.centre};
+    const ContactPlaces here{a.box.centre - a.offset, b.box.centre - b.offset};
     if (margin < near) return {collide(a.box, b.box, margin, memory), here};
     const auto impact = time_of_impact(a.box, b.box, velocity, tick);
     if (!impact)
@@ -61,30 +70,35 @@ SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, Bo
     for (ContactPoint& point : manifold.points) {
         point.separation -= impact->time * glm::dot(velocity, manifold.normal);
     }
-    return {manifold, {there_a.centre, there_b.centre}, impact->time, true};
+    return {manifold, {there_a.centre - a.offset, there_b.centre - b.offset}, impact->time, true};
 }
 
 SweptBoxes::SweptBoxes(const Bodies& bodies, const Scales& scales)
-    : scales_{scales}, entries_(bodies.size())
+    : scales_{scales}, entries_(bodies.parts_count())
 {
-    for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        const BodyId id = bodies.properties[slot].id;
-        Entry& entry = entries_[id];
-        entry.now.box = box_of(bodies, slot);
+    for (PartId part = 0; part < bodies.parts_count(); ++part) {
+        const Slot slot = bodies.slot_of[part];
+        Entry& entry = entries_[part];
+        entry.now.box = shape_of(bodies, part);
         entry.now.radius = outer_radius(entry.now.box.half, entry.now.box.rounding);
         entry.now.orientation = bodies.orientation.at(slot);
-        renew(bodies, id, entry);
+        if (bodies.properties[slot].has_parts())
+            entry.now.offset = axes_of(entry.now.orientation) * bodies.parts[part].at;
+        renew(bodies, part, entry);
     }
 }
 
-void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
+void SweptBoxes::renew(const Bodies& bodies, PartId part, Entry& entry) const
 {
-    const Slot slot = bodies.slot_of[body];
+    const Slot slot = bodies.slot_of[part];
+    const bool has_parts = bodies.properties[slot].has_parts();
     SweptBox& now = entry.now;
     entry.seen = now_;
     now.box.centre = bodies.position.at(slot);
     now.spin = bodies.angular_velocity(slot);
-    const double turning = length(now.spin) * (now.radius - now.box.rounding);
+    if (has_parts) now.box.centre += now.offset;
+    const double arm = has_parts ? bodies.parts[part].radius : now.radius;
+    const double turning = length(now.spin) * (arm - now.box.rounding);
     now.reach = scales_.tick * (length(bodies.velocity.at(slot)) + turning + scales_.fall) +
                 look_ahead * shortest_half(now.box.half);
     const glm::dquat orientation = bodies.orientation.at(slot);
@@ -92,12 +106,18 @@ void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
     now.orientation = orientation;
     now.box.axes = axes_of(orientation);
     ++now.turns;
+    if (!has_parts) return;
+    now.offset = now.box.axes * bodies.parts[part].at;
+    now.box.centre = bodies.position.at(slot) + now.offset;
+    now.box.axes = now.box.axes * bodies.parts[part].axes;
 }
 
-void SweptBoxes::forget(BodyId body)
+void SweptBoxes::forget(const Bodies& bodies, BodyId body)
 {
-    entries_[body].seen = 0;
-    entries_[body].now.orientation = {0.0, 0.0, 0.0, 0.0}; // like no other
+    bodies.for_parts(body, [&](PartId part) {
+        entries_[part].seen = 0;
+        entries_[part].now.orientation = {0.0, 0.0, 0.0, 0.0}; // like no other
+    });
 }
 
 } // namespace hapnet::scene

@@ -14,16 +14,19 @@
 namespace hapnet::scene {
 
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
+/// One part of a body.
+[[nodiscard]] OrientedBox shape_of(const Bodies& bodies, PartId part);
 
 /// A box and where it is going.
 struct BoxSweep {
     const OrientedBox& box;
     glm::dvec3 velocity{0.0};
     double reach = 0.0;
-    double radius = 0.0; // of the corners
+    double radius = 0.0;    // of the corners
+    glm::dvec3 offset{0.0}; // of the box's centre from its body's
 };
 
-/// Where two boxes touch, and their centres then.
+/// Where two boxes touch, and their bodies' centres then.
 struct SweptContact {
     Manifold manifold;
     ContactPlaces centres;
@@ -37,7 +40,7 @@ struct SweptContact {
 [[nodiscard]] SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick,
                                          BoxBoxMemory& memory);
 
-/// Where a body's box is, and how far it comes.
+/// Where a body's box, or one of its parts, is and how far it comes.
 struct SweptBox {
     OrientedBox box;
     // Of its axes: the body's, or one from which it has turned by no more than rounding. What
@@ -45,11 +48,19 @@ struct SweptBox {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     std::uint64_t turns = 0; // how often the axes were found anew
     double radius = 0.0;     // of the corners, m
+    glm::dvec3 offset{0.0};  // of the box's centre from the body's, m: 0 of a body of one part
     // How far any part of it may come in the tick, and a little more, m; of what is asleep, when it
     // were awake.
     double reach = 0.0;
     glm::dvec3 spin{0.0}; // angular velocity, rad/s
 };
+
+[[nodiscard]] inline BoxSweep sweep_of(const Bodies& bodies, PartId part, const SweptBox& now)
+{
+    const Slot slot = bodies.slot_of[part];
+    const bool moves = slot < bodies.awake || (slot >= bodies.movable && slot < bodies.moving);
+    return {now.box, bodies.velocity.at(slot), moves ? now.reach : 0.0, now.radius, now.offset};
+}
 
 /// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
 /// moved since. A body that flies alone costs nothing.
@@ -59,12 +70,12 @@ public:
 
     void begin_tick() { ++now_; }
     /// A body was put somewhere: nothing of it is kept.
-    void forget(BodyId body);
-    /// The reference is good until the next tick.
-    [[nodiscard]] const SweptBox& at(const Bodies& bodies, BodyId body)
+    void forget(const Bodies& bodies, BodyId body);
+    /// Of a part of a body. The reference is good until the next tick.
+    [[nodiscard]] const SweptBox& at(const Bodies& bodies, PartId part)
     {
-        Entry& entry = entries_[body];
-        if (entry.seen != now_) renew(bodies, body, entry);
+        Entry& entry = entries_[part];
+        if (entry.seen != now_) renew(bodies, part, entry);
         return entry.now;
     }
 
@@ -74,10 +85,10 @@ private:
         std::uint64_t seen = 0;
     };
 
-    void renew(const Bodies& bodies, BodyId body, Entry& entry) const;
+    void renew(const Bodies& bodies, PartId part, Entry& entry) const;
 
     Scales scales_;
-    std::vector<Entry> entries_; // by id
+    std::vector<Entry> entries_; // by PartId
     std::uint64_t now_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/hand/pressed_modes.hpp"
+#include "scene/mass.hpp"
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
@@ -33,6 +34,7 @@ struct BodyDynamics {
     double drag = 0.0;            // 1/s, of the centre's velocity along a plane
     glm::dvec3 drag_normal{0.0};  // of that plane, unit
     double rounding = 0.0;        // m, of a round body: from its core to its surface
+    glm::dvec3 moments{0.0};      // of inertia, kg m^2, where they are not those of that box
 };
 
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
@@ -48,8 +50,9 @@ struct HandSpring {
     // Whether it presses a face (and does not grip) within nine tenths of the half edges from the
     // middle.
     bool is_amid_face = false;
-    bool holds = false;      // it also pulls, and `stretch` says how far in every direction
-    glm::dvec3 stretch{0.0}; // hand minus where it is held; used when it holds
+    bool holds = false;             // it also pulls, and `stretch` says how far in every direction
+    glm::dvec3 stretch{0.0};        // hand minus where it is held; used when it holds
+    const BodyPart* part = nullptr; // of a body of several, that is pushed
 };
 
 /// What a spring did in the tick.

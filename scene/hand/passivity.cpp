@@ -52,7 +52,8 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
     const double trace = light[0].x + light[1].y + light[2].z;
     if (dynamics.rotates_uniformly || trace == 0.0) return {};
     const glm::dvec3 squares = dynamics.half * dynamics.half;
-    const glm::dvec3 about{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y};
+    glm::dvec3 about{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y};
+    if (dynamics.moments.x > 0.0) about = dynamics.moments;
     const double most = std::max(std::max(about.x, about.y), about.z);
     const double least = std::min(std::min(about.x, about.y), about.z);
     const double sum = 1.0 / about.x + 1.0 / about.y + 1.0 / about.z;

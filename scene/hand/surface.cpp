@@ -12,26 +12,45 @@ namespace hapnet::scene {
 
 BoxSurface::BoxSurface(const HandSpring& spring, const BodyDynamics& dynamics,
                        const glm::dmat3& axes)
-    : half_{dynamics.half - dynamics.rounding}, radius_{spring.radius + dynamics.rounding}
+    : half_{dynamics.half - dynamics.rounding},
+      radius_{spring.radius + dynamics.rounding},
+      part_{spring.part}
 {
-    const glm::dvec3 normal = spring.normal * axes;
+    glm::dvec3 normal = spring.normal * axes;
+    double rounded = dynamics.rounding;
+    if (part_ != nullptr) {
+        rounded = part_->rounding;
+        half_ = part_->half - rounded;
+        radius_ = spring.radius + rounded;
+        normal = normal * part_->axes;
+    }
     const glm::dvec3 size = glm::abs(normal);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     face_[axis] = normal[axis] < 0.0 ? -1.0 : 1.0;
     constexpr double rounding = 1e-9;
-    is_face_ = dynamics.rounding == 0.0 && size.x + size.y + size.z - size[axis] <= rounding;
+    is_face_ = rounded == 0.0 && size.x + size.y + size.z - size[axis] <= rounding;
 }
 
 bool BoxSurface::is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const
 {
     if (!is_face_) return false;
     constexpr double amid = 0.9;
-    const glm::dvec3 off = glm::abs(hand * axes) - amid * half_;
+    glm::dvec3 place = hand * axes;
+    if (part_ != nullptr) place = (place - part_->at) * part_->axes;
+    const glm::dvec3 off = glm::abs(place) - amid * half_;
     return (off.x <= 0.0 || face_.x != 0.0) && (off.y <= 0.0 || face_.y != 0.0) &&
            (off.z <= 0.0 || face_.z != 0.0);
 }
 
 ContactGeometry BoxSurface::at(const glm::dmat3& axes, const glm::dvec3& hand) const
+{
+    if (part_ == nullptr) return at_box(axes, hand);
+    ContactGeometry geometry = at_box(axes * part_->axes, hand - axes * part_->at);
+    geometry.lever = glm::cross(hand, geometry.normal);
+    return geometry;
+}
+
+ContactGeometry BoxSurface::at_box(const glm::dmat3& axes, const glm::dvec3& hand) const
 {
     const glm::dvec3 centre = hand * axes;
     double distance = glm::dot(face_, centre) - glm::dot(glm::abs(face_), half_);

@@ -22,7 +22,7 @@ struct ContactGeometry {
 class BoxSurface {
 public:
     BoxSurface() = default;
-    /// `axes` are the box's, in the world.
+    /// `axes` are the body's, in the world.
     BoxSurface(const HandSpring& spring, const BodyDynamics& dynamics, const glm::dmat3& axes);
 
     /// Whether it was a face at the start.
@@ -30,12 +30,15 @@ public:
     /// Whether it is a face, and the hand too far from its edges to leave it soon.
     [[nodiscard]] bool is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
-    /// With the hand's centre at `hand`, seen from the box's centre in the world's frame.
+    /// With the hand's centre at `hand`, seen from the body's centre in the world's frame.
     [[nodiscard]] ContactGeometry at(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
 private:
+    [[nodiscard]] ContactGeometry at_box(const glm::dmat3& axes, const glm::dvec3& hand) const;
+
     glm::dvec3 half_{0.0};
     double radius_ = 0.0;
+    const BodyPart* part_ = nullptr;
     glm::dvec3 face_{0.0}; // its normal
     bool is_face_ = false;
 };

@@ -41,14 +41,16 @@ constexpr double least_bounce = 2.0;
 
 std::uint32_t steps_for(const Bodies& bodies)
 {
-    return steps_base + bodies.movable * std::min(steps_per_body + steps_per_pair * bodies.movable,
-                                                  steps_per_body_max);
+    const PartId movable = bodies.movable_parts();
+    return steps_base +
+           movable * std::min(steps_per_body + steps_per_pair * movable, steps_per_body_max);
 }
 
 std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
 {
-    const std::size_t each = std::min(bodies.size() + config.planes.size(), meetings_per_body_max);
-    return std::min(bodies.movable * each, meetings_max);
+    const std::size_t each =
+        std::min(bodies.parts_count() + config.planes.size(), meetings_per_body_max);
+    return std::min(bodies.movable_parts() * each, meetings_max);
 }
 
 } // namespace
@@ -256,6 +258,7 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     flyer.body = body;
     flyer.is_movable = slot < bodies.movable;
     flyer.is_kinematic = bodies.properties[slot].is_kinematic;
+    flyer.has_parts = bodies.properties[slot].has_parts();
     flyer.flight = chord(bodies, slot);
     if (flyer.is_movable && slot >= bodies.awake)
         departures_[slot].beginning = {flyer.flight.centre, flyer.flight.orientation};
@@ -269,7 +272,7 @@ bool ContinuousCollision::has_to_bend(const Surroundings& around, FlyerIndex ind
     const Slot slot = bodies.slot_of[flyers_[index].body];
     const Departure& departure = departures_[slot];
     if (departure.first_touch.time >= scales_.tick) return false;
-    bool meets = got_past(bodies, departure, slot);
+    bool meets = got_past(bodies, departure);
     for_meetings_of(index, [&](Meeting& meeting) {
         if (!meeting.is_over && !meeting.is_sure)
             advance(around, meeting, meeting.time, steps_many);
@@ -291,15 +294,17 @@ ContinuousCollision::FlyerIndex ContinuousCollision::next_bend(double time) cons
 }
 
 /// Whether it came behind the face of the other that it was to touch first.
-bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& departure,
-                                   Slot slot) const
+bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& departure) const
 {
     const FirstTouch& first = departure.first_touch;
-    const OrientedBox own = box_of(bodies, slot);
+    const OrientedBox own = shape_of(bodies, first.own);
     const Slot of_other = bodies.slot_of[first.other];
-    const OrientedBox other = bodies.properties[of_other].is_kinematic
-                                  ? chord(bodies, of_other).at(scales_.tick)
-                                  : box_of(bodies, of_other);
+    OrientedBox other = shape_of(bodies, first.other);
+    if (bodies.properties[of_other].is_kinematic) {
+        SteadyBox flight = chord(bodies, of_other);
+        if (bodies.properties[of_other].has_parts()) set_part(flight, bodies.parts[first.other]);
+        other = flight.at(scales_.tick);
+    }
     const double gap = glm::dot(first.normal, other.centre - own.centre) -
                        half_extent(own, first.normal) - half_extent(other, first.normal);
     return gap < -behind_max * smallest_half(own, other);
@@ -372,14 +377,26 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
               glm::dvec3{margin});
     if (contains(flyers_[index].searched, way)) return;
     const bool is_first = flyers_[index].first == none;
+    const bool has_parts = !around.state.bodies.parts.empty();
     flyers_[index].searched = way;
     const auto meet = [&](std::uint32_t other, bool is_plane) {
         if (!flyers_[index].is_movable && (is_plane || !flyers_[other].is_movable)) return;
-        if (!is_first && are_to_meet(index, other, is_plane)) return;
-        add_meeting(around, {.a = index, .b = other, .is_plane = is_plane, .time = time});
+        if ((!is_first || has_parts) && are_to_meet(index, other, is_plane)) return;
+        Meeting meeting{.a = index, .b = other, .is_plane = is_plane, .time = time};
+        if (!has_parts) return add_meeting(around, meeting);
+        const Bodies& bodies = around.state.bodies;
+        bodies.for_parts(flyers_[index].body, [&](PartId part) {
+            meeting.part_a = part;
+            if (is_plane) return add_meeting(around, meeting);
+            bodies.for_parts(flyers_[other].body, [&](PartId its) {
+                meeting.part_b = its;
+                add_meeting(around, meeting);
+            });
+        });
     };
     const BodyId own = flyers_[index].body;
-    pairs.for_overlapping(way, [&](BodyId id) {
+    pairs.for_overlapping(way, [&](PartId part) {
+        const BodyId id = has_parts ? around.state.bodies.body_of(part) : part;
         if (id == own || around.config.are_apart(id, own)) return;
         const FlyerIndex other = add_flyer(around, id);
         if (are_to_meet(other, index, false)) return;
@@ -455,11 +472,30 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     if (flyer.is_kinematic)
         its.motion = around.kinematics.of(bodies, slot).motion_at(time, scales_.tick);
     if (!flyer.is_movable) return its;
-    its.response = response_of(bodies.properties[slot], box);
+    its.response = response_of(bodies.properties[slot], box.axes);
     its.motion.velocity =
         bodies.velocity.at(slot) - (scales_.tick - time) * around.steady_acceleration(slot);
     its.motion.spin = its.response.inverse_inertia * bodies.angular_momentum.at(slot);
     return its;
+}
+
+/// Where two touch, and how round they are there.
+ContinuousCollision::TouchPoints ContinuousCollision::touch_points(const Surroundings& around,
+                                                                   const Meeting& meeting) const
+{
+    const Bodies& bodies = around.state.bodies;
+    const double margin = near_share * overlap_step * meeting.smallest;
+    SteadyBox room_a, room_b;
+    const SteadyBox& a = flight_of(bodies, meeting.a, meeting.part_a, room_a);
+    if (meeting.is_plane) {
+        const PlaneDescription& plane = around.config.planes[meeting.b];
+        const PlaneSurface surface{plane.normal, plane.offset_m};
+        return {collide(surface, a.at(meeting.time), margin), 0.0, a.rounding};
+    }
+    const SteadyBox& b = flight_of(bodies, meeting.b, meeting.part_b, room_b);
+    BoxBoxMemory memory;
+    return {collide(a.at(meeting.time), b.at(meeting.time), margin, memory), a.rounding,
+            b.rounding};
 }
 
 /// The impulse of a touch; whether there was one.
@@ -471,27 +507,21 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
     const Flyer& second = flyers_[meeting.is_plane ? meeting.a : meeting.b];
     Toucher a;
     const Toucher b = toucher(around, second, time);
-    Manifold manifold;
     Material material = bodies.properties[bodies.slot_of[second.body]].material;
-    const double margin = near_share * overlap_step * meeting.smallest;
     if (meeting.is_plane) {
-        const PlaneDescription& plane = around.config.planes[meeting.b];
         a.centre = b.centre;
-        manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, second.flight.at(time), margin);
-        material = combined(material, plane.material);
+        material = combined(material, around.config.planes[meeting.b].material);
     } else {
         a = toucher(around, first, time);
-        BoxBoxMemory memory;
-        manifold = collide(first.flight.at(time), second.flight.at(time), margin, memory);
         material = combined(material, bodies.properties[bodies.slot_of[first.body]].material);
     }
-    if (manifold.count == 0) return false;
+    const TouchPoints points = touch_points(around, meeting);
+    if (points.manifold.count == 0) return false;
     ContactBlock block;
     block.a = a.moves ? 1 : 0;
     block.b = b.moves ? 2 : 0;
-    prepare(block, manifold, {a.centre, b.centre}, {});
-    block.set_roundings(meeting.is_plane ? 0.0 : first.flight.rounding, second.flight.rounding);
+    prepare(block, points.manifold, {a.centre, b.centre}, {});
+    block.set_roundings(points.rounding_a, points.rounding_b);
     block.friction = material.friction;
     const bool many = first.touches >= touches_many || second.touches >= touches_many;
     block.restitution = many ? 0.0 : material.restitution;

@@ -132,6 +132,7 @@ private:
         BodyId body = 0;
         bool is_movable = false;
         bool is_kinematic = false;
+        bool has_parts = false;       // then `flight` is that of a box around them
         bool is_fast = false;         // others in its way are looked for
         bool is_released = false;     // it goes on with its velocity at the end of the tick
         bool has_stopped = false;     // for the rest of the tick
@@ -150,6 +151,7 @@ private:
     struct Meeting {
         FlyerIndex a = 0;
         std::uint32_t b = 0;
+        PartId part_a = 0, part_b = 0; // where bodies have several parts
         bool is_plane = false;
         bool has_pushed = false;
         bool is_over = false;  // they surely do not touch any more in this tick
@@ -169,7 +171,10 @@ private:
     FlyerIndex add_flyer(const Surroundings& around, BodyId body);
     [[nodiscard]] SteadyBox chord(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] bool goes_far(const SteadyBox& flight, double time) const;
-    [[nodiscard]] bool got_past(const Bodies& bodies, const Departure& departure, Slot slot) const;
+    [[nodiscard]] bool got_past(const Bodies& bodies, const Departure& departure) const;
+    static void set_part(SteadyBox& flight, const BodyPart& part);
+    [[nodiscard]] const SteadyBox& flight_of(const Bodies& bodies, FlyerIndex index, PartId part,
+                                             SteadyBox& room) const;
     [[nodiscard]] bool has_to_bend(const Surroundings& around, FlyerIndex index);
     [[nodiscard]] FlyerIndex next_bend(double time) const;
     void bend(const Surroundings& around, FlyerIndex index);
@@ -203,6 +208,12 @@ private:
     void note_push(const Bodies& bodies, BodyId body);
     [[nodiscard]] Toucher toucher(const Surroundings& around, const Flyer& flyer,
                                   double time) const;
+    struct TouchPoints {
+        Manifold manifold;
+        double rounding_a = 0.0, rounding_b = 0.0;
+    };
+    [[nodiscard]] TouchPoints touch_points(const Surroundings& around,
+                                           const Meeting& meeting) const;
     bool exchange_impulse(const Surroundings& around, Meeting& meeting);
 
     Scales scales_;

@@ -29,12 +29,37 @@ bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_pla
     return false;
 }
 
+/// One part of the body instead of the box around it.
+void ContinuousCollision::set_part(SteadyBox& flight, const BodyPart& part)
+{
+    flight.half = part.half;
+    flight.radius = part.radius;
+    flight.rounding = part.rounding;
+    flight.is_part = true;
+    flight.arm = part.at;
+    flight.frame = part.axes;
+}
+
+/// How a part of a flyer moves: `room` is for that of a body of several.
+const SteadyBox& ContinuousCollision::flight_of(const Bodies& bodies, FlyerIndex index, PartId part,
+                                                SteadyBox& room) const
+{
+    const Flyer& flyer = flyers_[index];
+    if (!flyer.has_parts) return flyer.flight;
+    room = flyer.flight;
+    set_part(room, bodies.parts[part]);
+    return room;
+}
+
 /// How far apart they are at a moment.
 Gap ContinuousCollision::gap_of(const Surroundings& around, const Meeting& meeting,
                                 double time) const
 {
-    const OrientedBox box = flyers_[meeting.a].flight.at(time);
-    if (!meeting.is_plane) return gap_between(box, flyers_[meeting.b].flight.at(time));
+    const Bodies& bodies = around.state.bodies;
+    SteadyBox room;
+    const OrientedBox box = flight_of(bodies, meeting.a, meeting.part_a, room).at(time);
+    if (!meeting.is_plane)
+        return gap_between(box, flight_of(bodies, meeting.b, meeting.part_b, room).at(time));
     const PlaneDescription& plane = around.config.planes[meeting.b];
     return gap_between(PlaneSurface{plane.normal, plane.offset_m}, box);
 }
@@ -47,11 +72,13 @@ void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting&
         ++around.state.interventions.budgets_spent;
         return;
     }
-    const SteadyBox& flight = flyers_[wanted.a].flight;
+    const Bodies& bodies = around.state.bodies;
+    SteadyBox room_a, room_b;
+    const SteadyBox& flight = flight_of(bodies, wanted.a, wanted.part_a, room_a);
     bool is_round = flight.is_round();
     double smallest = shortest_half(flight);
     if (!wanted.is_plane) {
-        const SteadyBox& other = flyers_[wanted.b].flight;
+        const SteadyBox& other = flight_of(bodies, wanted.b, wanted.part_b, room_b);
         is_round = is_round || other.is_round();
         smallest =
             is_round ? flight.rounding + other.rounding : std::min(smallest, shortest_half(other));
@@ -105,14 +132,17 @@ void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, 
     const std::uint32_t granted = std::min(looks_max, steps_left_);
     std::uint32_t left = granted;
     Advanced advanced;
+    const Bodies& bodies = around.state.bodies;
+    SteadyBox room_a, room_b;
+    const SteadyBox& flight = flight_of(bodies, meeting.a, meeting.part_a, room_a);
     if (meeting.is_plane) {
         const PlaneDescription& plane = around.config.planes[meeting.b];
-        advanced =
-            advance_to_gap(PlaneSurface{plane.normal, plane.offset_m}, a.flight, asked, left);
+        advanced = advance_to_gap(PlaneSurface{plane.normal, plane.offset_m}, flight, asked, left);
     } else {
         const Flyer& b = flyers_[meeting.b];
         if (!b.is_released) asked.to = std::min(asked.to, b.bend);
-        advanced = advance_to_gap(a.flight, b.flight, asked, left);
+        advanced = advance_to_gap(flight, flight_of(bodies, meeting.b, meeting.part_b, room_b),
+                                  asked, left);
     }
     steps_left_ -= granted - left;
     meeting.time = advanced.time;

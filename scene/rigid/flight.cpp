@@ -41,7 +41,7 @@ glm::dvec3 spin_of(const Bodies& bodies, Slot slot, const glm::dquat& orientatio
     const OrientedBox box{glm::dvec3{0.0}, axes_of(orientation), properties.half,
                           properties.rounding};
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
-    const glm::dvec3 spin = response_of(properties, box).inverse_inertia * momentum;
+    const glm::dvec3 spin = response_of(properties, box.axes).inverse_inertia * momentum;
     if (!is_symmetric_top(properties)) return spin;
     const glm::dvec3& light = properties.inverse_inertia;
     const glm::dvec3 steady = std::min({light.x, light.y, light.z}) * momentum;

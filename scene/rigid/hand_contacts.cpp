@@ -3,6 +3,7 @@
 #include "scene/rigid/hand_contacts.hpp"
 
 #include "scene/collide/distance.hpp"
+#include "scene/hand/midpoint.hpp"
 #include "scene/hand/spring.hpp"
 #include "scene/maths/vector.hpp"
 
@@ -42,23 +43,26 @@ void HandContacts::begin_step(const WorldConfig& config, WorldState& state)
     }
 }
 
-HandContacts::NearBody* HandContacts::find_near(Hand& hand, BodyId body)
+HandContacts::NearBody* HandContacts::find_near(Hand& hand, PartId part)
 {
     for (std::size_t i = 0; i < hand.count; ++i) {
-        if (hand.nearby[i].body == body) return &hand.nearby[i];
+        if (hand.nearby[i].part == part) return &hand.nearby[i];
     }
     if (hand.count == hand.nearby.size()) return nullptr;
     NearBody& fresh = hand.nearby[hand.count++];
     fresh = {};
-    fresh.body = body;
+    fresh.part = part;
     return &fresh;
 }
 
 void HandContacts::collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                            const Target& target)
 {
-    if (target.is_movable && state.hands[hand].gripping && add_grip(config, state, hand, target))
-        return;
+    if (target.is_movable && state.hands[hand].gripping) {
+        if (add_grip(config, state, hand, target)) return;
+        const std::optional<Holding>& holding = hands_[hand].holding;
+        if (holding && holding->body == target.body) return; // by another part
+    }
     add_push(config, state, hand, target);
 }
 
@@ -72,24 +76,25 @@ bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::u
     const OrientedBox& box = target.now.box;
     const double apart = distance(box, input.position.value);
     if (!hand.holding) {
-        if (apart > grip_distance(hands)) return false;
-        hand.holding = Holding{target.body, to_local(box, input.position.value)};
+        if (apart > grip_distance(hands) || !has_room(config, index, target)) return false;
+        hand.holding = Holding{target.body, target.part, to_local(box, input.position.value)};
     }
-    if (hand.holding->body != target.body) return false;
-    const glm::dvec3 arm = box.axes * hand.holding->at;
+    if (hand.holding->part != target.part) return false;
+    const glm::dvec3 held = box.axes * hand.holding->at;
+    const glm::dvec3 arm = target.with_parts == nullptr ? held : held + target.now.offset;
     HandSpring spring{.arm = arm,
                       .velocity = input.velocity.value,
                       .stiffness = hands.stiffness_n_per_m,
                       .damping = hands.damping_ns_per_m,
                       .force_max = hands.force_max_n,
                       .holds = true,
-                      .stretch = input.position.value - (box.centre + arm)};
+                      .stretch = input.position.value - (box.centre + held)};
     const glm::dvec3 here = target.velocity + glm::cross(target.now.spin, arm);
     const base::Force wanted = grip_force(hands, spring.stretch, spring.velocity - here);
     HandTouch& touch = state.touches[index];
     touch.body = target.body;
     note_grip(touch, hands, apart, base::limited(wanted, hands.force_max_n));
-    add(index, target.body) = spring;
+    add(index, target) = spring;
     return true;
 }
 
@@ -108,9 +113,10 @@ inline void HandContacts::press(const AmidFace& face, const glm::dvec3& offset, 
 inline bool HandContacts::touch(const WorldConfig& config, const HandInput& input,
                                 const Target& target, NearBody& near_body, HandSpring& spring) const
 {
+    near_body.is_current = true;
+    if (target.with_parts != nullptr) return find_on_part(config, input, target, near_body, spring);
     const AmidFace& amid = near_body.amid;
     const glm::dvec3 offset = input.position.value - target.now.box.centre;
-    near_body.is_current = true;
     // Mostly it presses the face that it pressed before.
     if (amid.turns == target.now.turns && sum_of_sizes(offset - amid.offset) <= amid.room) {
         press(amid, offset, spring);
@@ -120,6 +126,36 @@ inline bool HandContacts::touch(const WorldConfig& config, const HandInput& inpu
         }
     }
     return find(config, input, target, near_body, spring);
+}
+
+/// The same on one part of several; the arm is from the body's centre.
+bool HandContacts::find_on_part(const WorldConfig& config, const HandInput& input,
+                                const Target& target, NearBody& near_body, HandSpring& spring) const
+{
+    if (!find(config, input, target, near_body, spring)) return false;
+    spring.arm += target.now.offset;
+    spring.part = target.shape();
+    spring.is_amid_face = false;
+    return !is_inner(input, target, spring);
+}
+
+/// Whether where the hand touches lies within another part, or on it, which it goes as deep into:
+/// that one pushes it. So two faces that lie flush feel like one.
+bool HandContacts::is_inner(const HandInput& input, const Target& target, const HandSpring& spring)
+{
+    const Bodies& bodies = *target.with_parts;
+    const glm::dvec3 point = target.centre() + spring.arm;
+    constexpr double flush = 1e-9;
+    bool is_inner = false;
+    bodies.for_parts(target.body, [&](PartId part) {
+        if (part == target.part || is_inner) return;
+        const OrientedBox other = shape_of(bodies, part);
+        if (separation(point, other).distance > flush * bodies.parts[part].radius) return;
+        const double gap = separation(input.position.value, other).distance - spring.radius;
+        const double slack = flush * spring.radius;
+        is_inner = part < target.part ? gap <= spring.gap + slack : gap < spring.gap - slack;
+    });
+    return is_inner;
 }
 
 bool HandContacts::find(const WorldConfig& config, const HandInput& input, const Target& target,
@@ -136,7 +172,8 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
     AmidFace& amid = near_body.amid;
     amid.room = -1.0;
     // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
-    const double turning = sum_of_sizes(target.now.spin) * sum_of_sizes(box.half);
+    const double turning =
+        sum_of_sizes(target.now.spin) * (sum_of_sizes(box.half) + sum_of_sizes(target.now.offset));
     const double ahead =
         config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
         0.5 * gravity_reach_;
@@ -169,7 +206,8 @@ bool HandContacts::find_round(const WorldConfig& config, const HandInput& input,
 {
     const OrientedBox& body = target.now.box;
     const Separation apart = separation(input.position.value, core_of(body));
-    const double turning = sum_of_sizes(target.now.spin) * sum_of_sizes(body.half);
+    const double turning =
+        sum_of_sizes(target.now.spin) * (sum_of_sizes(body.half) + sum_of_sizes(target.now.offset));
     spring.normal = apart.direction;
     spring.arm = apart.on_second - body.centre + body.rounding * spring.normal;
     spring.gap = apart.distance - body.rounding - spring.radius;
@@ -185,10 +223,11 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
 {
     const HandDescription& hands = config.feels.of(index, target.body, config.hands);
     const HandInput& input = state.hands[index];
-    NearBody* const near_body = find_near(hands_[index], target.body);
+    NearBody* const near_body = find_near(hands_[index], target.part);
     if (near_body == nullptr) return;
     HandSpring& spring = forces_.add();
     spring.radius = hands.radius_m;
+    spring.part = nullptr;
     if (!touch(config, input, target, *near_body, spring)) {
         forces_.drop_last();
         return;
@@ -205,7 +244,7 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     // A spring that does not begin to act within the tick is left out; one that acts already stays,
     // also in the tick in which it ends.
     const bool is_idle = depth < 0.0 && -depth > closing * config.tick + gravity_reach_;
-    if (!target.is_movable || is_idle) {
+    if (!target.is_movable || is_idle || !has_room(config, index, target)) {
         forces_.drop_last();
         return;
     }
@@ -214,7 +253,8 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     spring.damping = hands.damping_ns_per_m;
     spring.force_max = hands.force_max_n;
     spring.holds = false;
-    springs_.add() = {index, target.body, glm::dvec3{0.0}};
+    springs_.add() = {index, target.body, glm::dvec3{0.0}, target.part,
+                      target.with_parts != nullptr};
 }
 
 void HandContacts::feel_planes(const WorldConfig& config, WorldState& state)
@@ -270,12 +310,12 @@ void HandContacts::note_slip(HandSlip& slip, const FrictionSpring& friction)
 void HandContacts::rub_movable(const WorldConfig& config, WorldState& state, std::size_t spring,
                                const Target& target)
 {
-    const auto [hand, body, impulse] = springs_[spring];
+    const auto [hand, body, impulse, part, is_on_part] = springs_[spring];
     const HandSpring& form = forces_[spring];
     const HandInput& input = state.hands[hand];
     RubbedSpring& rubbed = rubbed_.add();
     const OrientedBox& box = target.now.box;
-    rubbed.touch = {hand,     body,        box.axes,      input.position.value - box.centre,
+    rubbed.touch = {hand,     part,        box.axes,      input.position.value - target.centre(),
                     form.arm, form.normal, form.gap < 0.0};
     rubbed.friction = form.holds
                           ? FrictionSpring{}
@@ -293,7 +333,7 @@ void HandContacts::rub_fixed(const WorldConfig& config, WorldState& state, std::
                              const Target& target)
 {
     const HandFriction limits = config.feels.friction_on_body(hand, target.body);
-    NearBody* const near_body = find_near(hands_[hand], target.body);
+    NearBody* const near_body = find_near(hands_[hand], target.part);
     if (!limits.is_rough() || near_body == nullptr) return;
     const HandDescription& hands = config.feels.of(hand, target.body, config.hands);
     const HandInput& input = state.hands[hand];
@@ -304,7 +344,7 @@ void HandContacts::rub_fixed(const WorldConfig& config, WorldState& state, std::
         input.velocity.value - target.velocity - glm::cross(target.now.spin, spring.arm);
     const double closing = -glm::dot(over, spring.normal);
     rub_unmoved(config, state,
-                {hand, target.body, box.axes, input.position.value - box.centre, spring.arm,
+                {hand, target.part, box.axes, input.position.value - target.centre(), spring.arm,
                  spring.normal, spring.gap < 0.0},
                 limits, {hands, over + closing * spring.normal, -spring.gap, closing});
 }
@@ -375,9 +415,25 @@ void HandContacts::store_friction(WorldState& state, BodyId body)
     }
 }
 
-HandSpring& HandContacts::add(std::uint32_t hand, BodyId body)
+/// Whether a body takes another spring: as many as there can be hands. So a hand pushes several
+/// parts of it only as long as there is one left for each hand that is still to come.
+bool HandContacts::has_room(const WorldConfig& config, std::uint32_t index,
+                            const Target& target) const
 {
-    springs_.add() = {hand, body, glm::dvec3{0.0}};
+    if (target.with_parts == nullptr) return true;
+    std::size_t all = 0, own = 0;
+    for (const Spring& spring : springs_.all()) {
+        if (spring.body != target.body) continue;
+        ++all;
+        if (spring.hand == index) ++own;
+    }
+    return own == 0 || all + (config.hands.count - 1 - index) < MidpointBudget::springs_max;
+}
+
+HandSpring& HandContacts::add(std::uint32_t hand, const Target& target)
+{
+    springs_.add() = {hand, target.body, glm::dvec3{0.0}, target.part,
+                      target.with_parts != nullptr};
     return forces_.add();
 }
 
@@ -429,13 +485,23 @@ void HandContacts::forget_departed(std::uint32_t index)
     hand.count = kept;
 }
 
+/// Of one hand, of all its springs there.
+glm::dvec3 HandContacts::impulse_on_body(const Spring& one) const
+{
+    glm::dvec3 sum{0.0};
+    for (const Spring& spring : springs_.all())
+        if (spring.hand == one.hand && spring.body == one.body) sum += spring.impulse;
+    return sum;
+}
+
 void HandContacts::report_forces(const WorldConfig& config, WorldState& state)
 {
     const double rate = 1.0 / config.tick;
     for (const Spring& spring : springs()) {
         HandTouch& touch = state.touches[spring.hand];
-        const base::Force force{rate * spring.impulse};
+        base::Force force{rate * spring.impulse};
         touch.on_hand += -force;
+        if (spring.is_on_part) force.value = rate * impulse_on_body(spring);
         const double square = glm::dot(force.value, force.value);
         if (!(square > glm::dot(touch.on_body.value, touch.on_body.value))) continue;
         touch.touching = true;
@@ -447,17 +513,19 @@ void HandContacts::report_forces(const WorldConfig& config, WorldState& state)
     }
 }
 
-void HandContacts::forget(BodyId body)
+void HandContacts::forget(const Bodies& bodies, BodyId body)
 {
-    proxies_.forget(body);
-    for (Hand& hand : hands_) {
-        if (hand.holding && hand.holding->body == body) hand.holding.reset();
-        for (std::size_t i = 0; i < hand.count; ++i) {
-            if (hand.nearby[i].body != body) continue;
-            hand.nearby[i] = hand.nearby[--hand.count];
-            break;
+    bodies.for_parts(body, [this](PartId part) {
+        proxies_.forget(part);
+        for (Hand& hand : hands_) {
+            if (hand.holding && hand.holding->part == part) hand.holding.reset();
+            for (std::size_t i = 0; i < hand.count; ++i) {
+                if (hand.nearby[i].part != part) continue;
+                hand.nearby[i] = hand.nearby[--hand.count];
+                break;
+            }
         }
-    }
+    });
 }
 
 } // namespace hapnet::scene

@@ -30,18 +30,43 @@ public:
         std::uint32_t hand = 0;
         BodyId body = 0;
         glm::dvec3 impulse{0.0}; // on the body
+        PartId part = 0;         // of it
+        bool is_on_part = false; // of several
     };
 
     /// Starts a tick with no hand touching anything.
     void begin_step(const WorldConfig& config, WorldState& state);
 
-    /// Where a body is and how it moves.
+    /// Where a part of a body is and how that moves.
     struct Target {
         BodyId body = 0;
+        PartId part = 0;
         bool is_movable = false;
         const SweptBox& now;
-        glm::dvec3 velocity{0.0};
+        glm::dvec3 velocity{0.0};           // of the body's centre
+        const Bodies* with_parts = nullptr; // those among which a body of several is
+
+        [[nodiscard]] const BodyPart* shape() const
+        {
+            return with_parts == nullptr ? nullptr : &with_parts->parts[part];
+        }
+        /// Of the body, which is that of the box but where there are several parts.
+        [[nodiscard]] glm::dvec3 centre() const
+        {
+            return with_parts == nullptr ? now.box.centre : now.box.centre - now.offset;
+        }
     };
+    [[nodiscard]] static Target target_of(const Bodies& bodies, PartId part, const SweptBox& now)
+    {
+        const Slot slot = bodies.slot_of[part];
+        const BodyProperties& properties = bodies.properties[slot];
+        return {properties.id,
+                part,
+                slot < bodies.movable,
+                now,
+                bodies.velocity.at(slot),
+                properties.has_parts() ? &bodies : nullptr};
+    }
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
@@ -58,11 +83,11 @@ public:
         rubbed_.clear();
         state.slips.assign(state.slips.size(), {});
         for (std::size_t i = 0; i < springs_.size(); ++i)
-            rub_movable(config, state, i, target_of(springs_[i].body));
+            rub_movable(config, state, i, target_of(springs_[i].part));
         for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
             if (!state.hands[hand].present) continue;
             for (std::size_t k = 0; k < hands_[hand].count; ++k) {
-                const Target target = target_of(hands_[hand].nearby[k].body);
+                const Target target = target_of(hands_[hand].nearby[k].part);
                 if (!target.is_movable) rub_fixed(config, state, hand, target);
             }
             rub_planes(config, state, hand);
@@ -91,7 +116,7 @@ public:
     /// Reports to the hands what the springs did.
     void report_forces(const WorldConfig& config, WorldState& state);
 
-    void forget(BodyId body);
+    void forget(const Bodies& bodies, BodyId body);
 
 private:
     /// A face that a hand is in front of and amid. It stays so as long as the body does not turn
@@ -103,9 +128,9 @@ private:
         glm::dvec3 normal{0.0};
         double half = 0.0; // from the body's centre to the face
     };
-    /// What is remembered of a body near a hand.
+    /// What is remembered of a part of a body near a hand.
     struct NearBody {
-        BodyId body = 0;
+        PartId part = 0;
         bool is_current = false; // in this tick
         SphereBoxMemory memory;
         // A tick ago: the hand from the body's centre, and the body's axes.
@@ -116,7 +141,8 @@ private:
     };
     struct Holding {
         BodyId body = 0;
-        glm::dvec3 at{0.0}; // in the body's frame
+        PartId part = 0;
+        glm::dvec3 at{0.0}; // in the part's frame
     };
     struct Hand {
         std::array<NearBody, touched_per_hand_max> nearby;
@@ -128,6 +154,8 @@ private:
                NearBody& near_body, HandSpring& spring) const;
     bool find(const WorldConfig& config, const HandInput& input, const Target& target,
               NearBody& near_body, HandSpring& spring) const;
+    bool find_on_part(const WorldConfig& config, const HandInput& input, const Target& target,
+                      NearBody& near_body, HandSpring& spring) const;
     bool find_round(const WorldConfig& config, const HandInput& input, const Target& target,
                     HandSpring& spring) const;
     static void press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring);
@@ -152,13 +180,18 @@ private:
     static void note_friction(WorldState& state, const HandProxies::Touch& touch,
                               const FrictionSpring& friction, const Press& press);
     static void note_slip(HandSlip& slip, const FrictionSpring& friction);
-    HandSpring& add(std::uint32_t hand, BodyId body);
+    [[nodiscard]] glm::dvec3 impulse_on_body(const Spring& one) const;
+    HandSpring& add(std::uint32_t hand, const Target& target);
     bool add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                   const Target& target);
     static void feel_planes_with(const WorldConfig& config, WorldState& state, std::uint32_t hand);
     void add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
                   const Target& target);
-    [[nodiscard]] NearBody* find_near(Hand& hand, BodyId body);
+    [[nodiscard]] bool has_room(const WorldConfig& config, std::uint32_t index,
+                                const Target& target) const;
+    [[nodiscard]] NearBody* find_near(Hand& hand, PartId part);
+    [[nodiscard]] static bool is_inner(const HandInput& input, const Target& target,
+                                       const HandSpring& spring);
 
     std::vector<Hand> hands_;
     bool any_felt_plane_;

@@ -58,10 +58,10 @@ void HandProxies::end(const Touch& touch, const FrictionSpring& friction)
     proxy->offset = touch.point - touch.centre;
 }
 
-void HandProxies::forget(BodyId body)
+void HandProxies::forget(PartId part)
 {
     for (std::size_t i = proxies_.size(); i-- > 0;) {
-        if (proxies_[i].other == body) proxies_.remove(i);
+        if (proxies_[i].other == part) proxies_.remove(i);
     }
 }
 

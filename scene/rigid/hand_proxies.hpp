@@ -19,14 +19,14 @@ public:
     /// Where a hand touches, seen from the centre of a body, or from the origin with a plane.
     struct Touch {
         std::uint32_t hand = 0;
-        std::uint32_t other = 0; // a body, or planes_from and a plane's index on
+        std::uint32_t other = 0; // a part of a body, or planes_from and a plane's index on
         glm::dmat3 axes{1.0};
         glm::dvec3 centre{0.0}; // of the hand's sphere
         glm::dvec3 point{0.0};  // of the surface
         glm::dvec3 normal{0.0};
         bool overlaps = false; // at the start of the tick
     };
-    static constexpr std::uint32_t planes_from = bodies_max;
+    static constexpr std::uint32_t planes_from = bodies_max * (parts_max + 1);
 
     /// Starts a tick without any; those that the last one had not are dropped.
     void begin_step();
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] FrictionSpring begin(const Touch& touch, const HandFriction& limits);
     /// Keeps what has become of it.
     void end(const Touch& touch, const FrictionSpring& friction);
-    void forget(BodyId body);
+    void forget(PartId part);
 
 private:
     struct Proxy {

@@ -76,7 +76,7 @@ glm::dquat orientation_at_end(const BodyIntegration& integration, const Bodies& 
 
 } // namespace
 
-BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box)
+BodyResponse response_of(const BodyProperties& properties, const glm::dmat3& axes)
 {
     const glm::dvec3& about = properties.inverse_inertia;
     BodyResponse response{properties.inverse_mass, glm::dmat3{0.0}};
@@ -88,7 +88,7 @@ BodyResponse response_of(const BodyProperties& properties, const OrientedBox& bo
         for (int row = 0; row < 3; ++row) {
             double sum = 0.0;
             for (int own = 0; own < 3; ++own) {
-                sum += box.axes[own][row] * about[own] * box.axes[own][column];
+                sum += axes[own][row] * about[own] * axes[own][column];
             }
             response.inverse_inertia[column][row] = sum;
         }
@@ -186,15 +186,17 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     set_start(integration, state, slot, response);
     const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const double per_second = 1.0 / config.tick;
-    const BodyDynamics dynamics{bodies.properties[slot].half,
-                                response.inverse_mass,
-                                response.inverse_inertia,
-                                rotates_uniformly(bodies.properties[slot]),
-                                rate,
-                                per_second * integration.contact_angular_impulse,
-                                integration.drag,
-                                integration.support_normal,
-                                bodies.properties[slot].rounding};
+    const BodyDynamics dynamics{
+        bodies.properties[slot].half,
+        response.inverse_mass,
+        response.inverse_inertia,
+        rotates_uniformly(bodies.properties[slot]),
+        rate,
+        per_second * integration.contact_angular_impulse,
+        integration.drag,
+        integration.support_normal,
+        bodies.properties[slot].rounding,
+        bodies.properties[slot].has_parts() ? bodies.properties[slot].inertia : glm::dvec3{0.0}};
     const MovingBody start{bodies.position.at(slot), bodies.orientation.at(slot),
                            integration.start.velocity, bodies.angular_momentum.at(slot)};
     MovingBody body = start;

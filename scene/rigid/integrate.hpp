@@ -17,7 +17,8 @@ namespace hapnet::scene {
 struct FirstTouch {
     double time = std::numeric_limits<double>::infinity(); // s, within the tick
     glm::dvec3 normal{0.0};                                // from it to the other
-    BodyId other = 0;
+    PartId other = 0;
+    PartId own = 0;
 };
 
 /// One body's integration over a tick.
@@ -51,7 +52,7 @@ struct BodyIntegration {
     BodyMotion mean_to_there; // the mean motion that goes there
 };
 
-[[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
+[[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const glm::dmat3& axes);
 
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);

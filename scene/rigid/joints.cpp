@@ -103,7 +103,8 @@ Joints::Form Joints::form_of(const Description& scene, const JointDescription& j
 {
     const auto pose = [&](std::optional<std::uint32_t> body) {
         if (!body) return Pose{};
-        return Pose{scene.bodies[*body].position.value, scene.bodies[*body].orientation};
+        const MassFrame frame = frame_of_mass(scene.bodies[*body]);
+        return Pose{frame.centre.value, frame.orientation};
     };
     const Pose a = pose(joint.to);
     const Pose b = pose(joint.body);

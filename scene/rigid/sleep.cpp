@@ -65,9 +65,9 @@ void Sleep::join(std::span<const BodyId> bodies)
 }
 
 template <BroadPhase broad_phase>
-void Sleep::wake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
+void Sleep::wake(PartId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
-    wake_island(body, bodies, pair_finder);
+    wake_island(bodies.body_of(body), bodies, pair_finder);
     pair_finder.apply_changes();
 }
 
@@ -82,16 +82,19 @@ void Sleep::wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pa
     queue_.clear();
     queue_.add(body);
     const PairSet& pairs = pair_finder.all_pairs();
-    const auto wake_other = [&](PairIndex index, BodyId other) {
-        const Slot slot = bodies.slot_of[other];
+    const auto wake_other = [&](PairIndex index, PartId part) {
+        const Slot slot = bodies.slot_of[part];
         if (slot < bodies.awake || slot >= bodies.movable || !touches(pairs[index].memory)) return;
+        const BodyId other = bodies.properties[slot].id;
         move_to_awake(other, bodies, pair_finder);
         queue_.add(other);
     };
     while (!queue_.is_empty()) {
         const BodyId next = queue_.take_last();
-        pairs.for_first(next, [&](PairIndex i) { wake_other(i, pairs[i].b); });
-        pairs.for_second(next, [&](PairIndex i) { wake_other(i, pairs[i].a); });
+        bodies.for_parts(next, [&](PartId part) {
+            pairs.for_first(part, [&](PairIndex i) { wake_other(i, pairs[i].b); });
+            pairs.for_second(part, [&](PairIndex i) { wake_other(i, pairs[i].a); });
+        });
         if (joined_.empty()) continue;
         for (auto with = std::lower_bound(joined_.begin(), joined_.end(), BodyPair{next, 0});
              with != joined_.end() && with->first == next; ++with) {
@@ -132,7 +135,7 @@ BodyId Sleep::sleeper_disturbed_by(const Bodies& bodies, const Pair& pair) const
     if (sleeper < bodies.awake || sleeper >= bodies.movable || mover >= bodies.awake)
         return no_body;
     if (rested_[mover] > 0.0) return no_body;
-    return sleeper == a ? pair.a : pair.b;
+    return bodies.properties[sleeper].id;
 }
 
 template <BroadPhase broad_phase>
@@ -177,7 +180,8 @@ void Sleep::find_islands(const Bodies& bodies, PairFinder<broad_phase>& pair_fin
         const Pair& pair = pair_finder.pair(index);
         const bool are_awake =
             bodies.slot_of[pair.a] < bodies.awake && bodies.slot_of[pair.b] < bodies.awake;
-        if (are_awake && touches(pair.memory)) islands_.join(pair.a, pair.b);
+        if (are_awake && touches(pair.memory))
+            islands_.join(bodies.body_of(pair.a), bodies.body_of(pair.b));
     }
     for (const auto& [one, other] : joined_)
         if (bodies.slot_of[one] < bodies.awake) islands_.join(one, other);
@@ -196,8 +200,8 @@ void Sleep::swap(Slot a, Slot b)
     std::swap(rested_[a], rested_[b]);
 }
 
-template void Sleep::wake(BodyId, Bodies&, PairFinder<BroadPhase::all_pairs>&);
-template void Sleep::wake(BodyId, Bodies&, PairFinder<BroadPhase::grid>&);
+template void Sleep::wake(PartId, Bodies&, PairFinder<BroadPhase::all_pairs>&);
+template void Sleep::wake(PartId, Bodies&, PairFinder<BroadPhase::grid>&);
 template void Sleep::wake_island(BodyId, Bodies&, PairFinder<BroadPhase::all_pairs>&);
 template void Sleep::wake_island(BodyId, Bodies&, PairFinder<BroadPhase::grid>&);
 template void Sleep::update(Bodies&, PairFinder<BroadPhase::all_pairs>&, std::uint64_t);

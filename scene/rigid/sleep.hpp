@@ -28,10 +28,10 @@ public:
     /// Bodies that joints join sleep and wake as those that touch each other do.
     void join(std::span<const BodyId> bodies);
 
-    /// Wakes a body and all that touches it, one through the other, and starts its time at rest
-    /// anew. Slots change.
+    /// Wakes a part's body and all that touches it, one through the other, and starts its time at
+    /// rest anew. Slots change.
     template <BroadPhase broad_phase>
-    void wake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
+    void wake(PartId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
 
     /// Wakes the sleepers that an awake body touches which is not at rest, and what touches them.
     /// `touching(index)`: whether the pair's manifold of this tick has points. Returns whether it

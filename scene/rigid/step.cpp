@@ -4,6 +4,7 @@
 
 #include "scene/collide/sweep.hpp"
 #include "scene/hand/midpoint.hpp"
+#include "scene/maths/rotation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,8 @@ double position_bias(double separation, const Scales& scales)
 
 std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 {
-    const std::size_t others = bodies.size() - 1 + config.planes.size();
-    return bodies.movable * std::min(others, contacts_per_body_max);
+    const std::size_t others = bodies.parts_count() - 1 + config.planes.size();
+    return bodies.movable_parts() * std::min(others, contacts_per_body_max);
 }
 
 } // namespace
@@ -83,7 +84,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& description, const Wo
       joints_{description, state.bodies, scales_},
       joint_energy_{state.bodies, solver_.joints().groups().size()},
       continuous_{config, state.bodies, scales_},
-      any_round_{any_is_round(state.bodies.properties)}
+      any_round_{state.bodies.any_is_round()}
 {
     if constexpr (sleeps) {
         for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group)
@@ -141,9 +142,9 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 {
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
-    pairs_.forget(body);
-    boxes_.forget(body);
-    hand_contacts_.forget(body);
+    pairs_.forget(state.bodies, body);
+    boxes_.forget(state.bodies, body);
+    hand_contacts_.forget(state.bodies, body);
     joints_.on_placed(state, body);
 }
 
@@ -196,9 +197,8 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
     modes_.resize(config.hands.count);
-    const auto target_of = [&](BodyId id) -> HandContacts::Target {
-        const Slot slot = bodies.slot_of[id];
-        return {id, slot < bodies.movable, boxes_.at(bodies, id), bodies.velocity.at(slot)};
+    const auto target_of = [&](PartId part) {
+        return HandContacts::target_of(bodies, part, boxes_.at(bodies, part));
     };
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
@@ -206,7 +206,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
             const glm::dvec3& from = input.position.value;
             const double radius =
                 config.hands.radius_m + (input.gripping ? config.hands.grip_reach_m : 0.0);
-            for (const BodyId id :
+            for (const PartId id :
                  pairs_.near_hand(hand, {from, from + scales_.tick * input.velocity.value, radius}))
                 hand_contacts_.collide(config, state, hand, target_of(id));
         }
@@ -249,14 +249,16 @@ void RigidStepper<broad_phase>::wake_carried(WorldState& state, const AreTouchin
         for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
             if (!kinematics_.of(bodies, slot).moves) continue;
             const BodyId id = bodies.properties[slot].id;
-            const auto wake = [&](PairIndex index, BodyId other) {
+            const auto wake = [&](PairIndex index, PartId other) {
                 const bool is_awake = bodies.slot_of[other] < bodies.awake;
                 const bool touches_it =
                     is_awake ? touches(pairs[index].memory) : are_touching(index);
                 if (touches_it) sleep_.wake(other, bodies, pairs_);
             };
-            pairs.for_first(id, [&](PairIndex i) { wake(i, pairs[i].b); });
-            pairs.for_second(id, [&](PairIndex i) { wake(i, pairs[i].a); });
+            bodies.for_parts(id, [&](PartId part) {
+                pairs.for_first(part, [&](PairIndex i) { wake(i, pairs[i].b); });
+                pairs.for_second(part, [&](PairIndex i) { wake(i, pairs[i].a); });
+            });
         }
     }
 }
@@ -285,7 +287,9 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
 {
     if (!active_.add(slot)) return;
     const BodyProperties& properties = bodies.properties[slot];
-    solver_.response(slot + 1) = response_of(properties, boxes_.at(bodies, properties.id).box);
+    const SweptBox& first = boxes_.at(bodies, properties.id);
+    solver_.response(slot + 1) = response_of(
+        properties, properties.has_parts() ? axes_of(first.orientation) : first.box.axes);
     reset(integrations_[slot + 1]);
 }
 
@@ -357,11 +361,12 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
         ContactBlock* const block = add_contact(points, pair.memory);
         if (block == nullptr) continue;
         contact.prepare(*block, pair.memory);
+        if (properties.has_parts()) block->arm_a = block->arm_b += now.offset;
         set_least_speeds(*block);
         activate(bodies, slot);
         block->a = 0;
         block->b = slot + 1;
-        if (any_round_) block->set_roundings(0.0, properties.rounding);
+        if (any_round_) block->set_roundings(0.0, box.rounding);
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
@@ -376,13 +381,8 @@ template <BroadPhase broad_phase>
 SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pair& pair)
 {
     const Bodies& bodies = state.bodies;
-    const auto box_sweep = [&](BodyId id) {
-        const SweptBox& now = boxes_.at(bodies, id);
-        const Slot slot = bodies.slot_of[id];
-        const bool moves = slot < bodies.awake || (slot >= bodies.movable && slot < bodies.moving);
-        return BoxSweep{now.box, bodies.velocity.at(slot), moves ? now.reach : 0.0, now.radius};
-    };
-    return collide_swept(box_sweep(pair.a), box_sweep(pair.b), scales_.tick, pair.memory.axis);
+    const auto sweep = [&](PartId part) { return sweep_of(bodies, part, boxes_.at(bodies, part)); };
+    return collide_swept(sweep(pair.a), sweep(pair.b), scales_.tick, pair.memory.axis);
 }
 
 template <BroadPhase broad_phase>
@@ -411,15 +411,17 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         block->a = index_of_active(a);
         block->b = index_of_active(b);
         if (any_round_)
-            block->set_roundings(bodies.properties[a].rounding, bodies.properties[b].rounding);
+            block->set_roundings(boxes_.at(bodies, pair.a).box.rounding,
+                                 boxes_.at(bodies, pair.b).box.rounding);
         block->friction = material.friction;
         block->restitution = material.restitution;
-        const auto note = [&](SolverIndex body, const glm::dvec3& normal, BodyId other) {
+        const auto note = [&](SolverIndex body, const glm::dvec3& normal, PartId other,
+                              PartId own) {
             FirstTouch& first = integrations_[body].first_touch;
-            if (swept.first_touch < first.time) first = {swept.first_touch, normal, other};
+            if (swept.first_touch < first.time) first = {swept.first_touch, normal, other, own};
         };
-        note(block->a, block->normal, pair.b);
-        note(block->b, -block->normal, pair.a);
+        note(block->a, block->normal, pair.b, pair.a);
+        note(block->b, -block->normal, pair.a, pair.b);
     }
 }
 

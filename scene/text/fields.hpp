@@ -128,6 +128,20 @@ constexpr auto fields_of(base::Tag<Sway>)
                     "how long it takes there and back, 10 ms at least"));
 }
 
+constexpr auto fields_of(base::Tag<PartDescription>)
+{
+    constexpr text::PerAxis place{{base::length_kind, -size_max_m, size_max_m}};
+    return base::fields("part", base::field("shape", &PartDescription::shape, "as of a body"),
+                        base::field("size", &PartDescription::half, text::Edges{},
+                                    "the edges, or those of the box around it")
+                            .required(),
+                        base::field("position", &PartDescription::position, place,
+                                    "of its centre, seen from the centre of the body's first part")
+                            .always(),
+                        base::field("orientation", &PartDescription::orientation,
+                                    text::Orientation{}, "in the frame of the body's first part"));
+}
+
 constexpr auto fields_of(base::Tag<BodyDescription>)
 {
     constexpr text::PerAxis place{{base::length_kind, -reach_max_m, reach_max_m}};

@@ -42,11 +42,32 @@ void read_density(TableReader& table, BodyDescription& body)
     body.mass_kg = kg;
 }
 
+/// Calls `use` with the tables of a list of them: [[body]], [[plane]].
+template <typename Use>
+void with_each(const Node* node, std::string_view key, Reading& reading, Use use)
+{
+    if (node == nullptr) return;
+    const auto* list = std::get_if<Node::List>(&node->value);
+    if (list == nullptr) {
+        return reading.complain(node->place, fmt::format("write it as [[{}]]", key));
+    }
+    for (const Node& element : *list) {
+        if (std::holds_alternative<Node::Table>(element.value)) {
+            use(element);
+        } else {
+            base::complain_of(element, fmt::format("a table [[{}]]", key), reading);
+        }
+    }
+}
+
 /// The keys that a body and an array of bodies have in common.
 BodyDescription read_body_keys(TableReader& table)
 {
     BodyDescription body;
     base::read_fields(table, body);
+    with_each(table.find("part"), "body.part", table.reading(), [&](const Node& node) {
+        base::read_table(node, body.parts.emplace_back(), table.reading());
+    });
     if (body.kinematic) body.movable = false;
     read_density(table, body);
     return body;
@@ -92,24 +113,6 @@ void read_array(TableReader& table, Growing& growing)
                 if (!body.name.empty()) body.name += fmt::format(" {}", ++number);
                 bodies.push_back(std::move(body));
             }
-        }
-    }
-}
-
-/// Calls `use` with the tables of a list of them: [[body]], [[plane]].
-template <typename Use>
-void with_each(const Node* node, std::string_view key, Reading& reading, Use use)
-{
-    if (node == nullptr) return;
-    const auto* list = std::get_if<Node::List>(&node->value);
-    if (list == nullptr) {
-        return reading.complain(node->place, fmt::format("write it as [[{}]]", key));
-    }
-    for (const Node& element : *list) {
-        if (std::holds_alternative<Node::Table>(element.value)) {
-            use(element);
-        } else {
-            base::complain_of(element, fmt::format("a table [[{}]]", key), reading);
         }
     }
 }

@@ -65,7 +65,10 @@ std::string to_text(const Description& description)
     for (const PlaneDescription& plane : description.planes) {
         text += "\n[[plane]]\n" + lines(plane);
     }
-    for (const BodyDescription& body : description.bodies) text += "\n[[body]]\n" + lines(body);
+    for (const BodyDescription& body : description.bodies) {
+        text += "\n[[body]]\n" + lines(body);
+        for (const PartDescription& part : body.parts) text += "\n[[body.part]]\n" + lines(part);
+    }
     for (const JointDescription& joint : description.joints) text += joint_text(description, joint);
     return text;
 }

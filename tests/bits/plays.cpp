@@ -17,7 +17,7 @@ constexpr std::array all{
     Play{"paper"},     Play{"push-6dof"},       Play{"stack-10"}, Play{"mass-ratio-1000"},
     Play{"cubes-100"}, Play{"stack-10", false}, Play{"conveyor"}, Play{"soft-and-hard"},
     Play{"guide"},     Play{"stick-slip"},      Play{"rolling"},  Play{"door"},
-    Play{"drawer"},
+    Play{"drawer"},    Play{"hammer"},
 };
 
 scene::World world_of(const Play& play)

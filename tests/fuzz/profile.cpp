@@ -16,6 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::uint8_t byte : std::span{data, size}) text += static_cast<char>(byte);
     const emulator::OpenFile open = [](const std::string& name) -> base::Result<std::string> {
         if (name == "x.dist") return "0 1 2 3";
+        if (name == "x.up") return "1\n3\n";
+        if (name == "x.csv") return "t_ms,delay_ms,loss,rate_bps\n0,1,0.5,1000\n5,,1,0\n";
         return "1ms\n2ms\n";
     };
     for (const std::string_view key : emulator::setting_keys) {

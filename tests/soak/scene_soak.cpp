@@ -71,8 +71,9 @@ int main(int argc, char** argv)
         return 0;
     }
     const bool joints = arguments.size() == 3 && arguments[2] == "joints";
-    if (arguments.size() != 2 && !joints) {
-        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints]\n"
+    const bool compounds = arguments.size() == 3 && arguments[2] == "compounds";
+    if (arguments.size() != 2 && !joints && !compounds) {
+        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints|compounds]\n"
                            "       soak_scene --worst FIRST COUNT [BODIES]\n");
         return 2;
     }
@@ -81,7 +82,8 @@ int main(int argc, char** argv)
     constexpr std::uint64_t often = 10'000;
     Tally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const auto play = hapnet::test::random_play(seed, {.joints = joints});
+        const auto play =
+            hapnet::test::random_play(seed, {.joints = joints, .compounds = compounds});
         const auto outcome = hapnet::test::judge(play, seed);
         ++tally.played;
         tally.ticks += play.ticks.size();

@@ -149,6 +149,7 @@ const std::vector<KeyTable>& tables()
         {"spring", rows_of<scene::text::Spring>()},
         {"plane", rows_of<scene::PlaneDescription>()},
         {"body", rows_of<scene::BodyDescription, scene::text::Density>()},
+        {"part", rows_of<scene::PartDescription>()},
         {"array", rows_of<scene::text::Array>()},
         {"experiment", base::markdown(base::key_rows<lab::experiment::Experiment>(
                            "", lab::experiment::usual_experiment()))},
@@ -201,6 +202,7 @@ const std::set<std::string>& with_table()
                                              "Spring",
                                              "PlaneDescription",
                                              "BodyDescription",
+                                             "PartDescription",
                                              "Density",
                                              "Array",
                                              "Criteria",

@@ -18,7 +18,7 @@ class Pie {
 public:
     static constexpr base::Duration update_every = std::chrono::milliseconds{15};
     static constexpr base::Duration burst_max = std::chrono::milliseconds{150};
-    static constexpr std::size_t bytes_min = 2 * 1024; // two datagrams of the mean size
+    static constexpr std::size_t bytes_min = 2048; // two datagrams of the mean size
 
     explicit Pie(base::Duration target) : target_{base::to_seconds(target)} {}
 

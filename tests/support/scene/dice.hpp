@@ -9,7 +9,9 @@
 
 namespace hapnet::test {
 
-/// Draws one number after the other from a stream.
+/// Draws one number after the other from a stream. Each draw is a statement of its own where
+/// several make a value: compilers differ in the order in which they evaluate arguments and
+/// operands.
 class Dice {
 public:
     explicit Dice(base::RandomStream stream) : stream_{stream} {}
@@ -27,6 +29,12 @@ public:
     {
         const double low = base::log(least);
         return base::exp(low + (base::log(most) - low) * share());
+    }
+    /// In a direction first, then so long.
+    glm::dvec3 vector_of_power(double least, double most)
+    {
+        const glm::dvec3 direction = vector();
+        return power(least, most) * direction;
     }
     /// From the cube [-1, 1)^3.
     glm::dvec3 vector()

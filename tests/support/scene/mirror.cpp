@@ -30,6 +30,10 @@ RandomPlay mirrored(RandomPlay play)
         body.velocity.value = flipped(body.velocity.value);
         body.angular_velocity = flipped_turn(body.angular_velocity);
         body.sway.by = flipped(body.sway.by);
+        for (scene::PartDescription& part : body.parts) {
+            part.position.value = flipped(part.position.value);
+            part.orientation = flipped(part.orientation);
+        }
     }
     for (scene::FieldDescription& field : play.description.fields) {
         field.position.value = flipped(field.position.value);

@@ -22,14 +22,15 @@ void make_kinematic(Dice& dice, BodyDescription& body, double size)
     const double speed = dice.one_in(10) ? 100.0 : dice.power(0.01, 3.0);
     if (dice.one_in(3)) {
         body.velocity = {};
-        body.sway.by = size * dice.between(0.1, 3.0) * dice.vector();
+        const glm::dvec3 direction = dice.vector();
+        body.sway.by = size * dice.between(0.1, 3.0) * direction;
         body.sway.period = base::Duration{static_cast<std::int64_t>(
             dice.between(static_cast<double>(scene::period_min.count()), 1e9))};
     } else {
         body.velocity.value = speed * dice.vector();
     }
     body.angular_velocity = glm::dvec3{0.0};
-    if (dice.one_in(2)) body.angular_velocity = dice.power(0.1, 30.0) * dice.vector();
+    if (dice.one_in(2)) body.angular_velocity = dice.vector_of_power(0.1, 30.0);
 }
 
 scene::Feel random_feel(Dice& dice, const Description& scene, bool any_friction)
@@ -58,7 +59,10 @@ scene::FieldDescription random_field(Dice& dice, const Description& scene, doubl
     scene::FieldDescription field{.name = "field"};
     field.position.value = near_it.position.value + 2.0 * size * dice.vector();
     if (dice.one_in(2)) field.half = size * glm::dvec3{dice.between(1.0, 20.0)};
-    if (dice.one_in(2)) field.force.value = mass * dice.power(0.1, 1e2) * dice.vector();
+    if (dice.one_in(2)) {
+        const glm::dvec3 direction = dice.vector();
+        field.force.value = mass * dice.power(0.1, 1e2) * direction;
+    }
     if (dice.one_in(2)) {
         const double damping = mass / tick * dice.power(1e-4, 1e2);
         field.damping_ns_per_m = std::min(damping, scene::damping_max_ns_per_m);

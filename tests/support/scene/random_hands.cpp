@@ -49,8 +49,8 @@ public:
 private:
     void appear()
     {
-        now_.position.value =
-            goal(dice_, description_) + 2.0 * description_.bodies[0].half.x * dice_.vector();
+        const glm::dvec3 beside = 2.0 * description_.bodies[0].half.x * dice_.vector();
+        now_.position.value = goal(dice_, description_) + beside;
         left_ = 0;
     }
     void set_out()
@@ -73,7 +73,8 @@ private:
 
 scene::BodyState elsewhere(Dice& dice, const BodyDescription& body)
 {
-    scene::BodyState state{body.position, body.orientation, body.velocity, body.angular_velocity};
+    const scene::MassFrame frame = frame_of_mass(body);
+    scene::BodyState state{frame.centre, frame.orientation, body.velocity, body.angular_velocity};
     state.position.value += body.half * dice.vector();
     return state;
 }
@@ -101,8 +102,9 @@ std::vector<TickInputs> random_inputs(std::uint64_t seed, const RandomPlay& play
         if (dice.one_in(4)) {
             now.places.emplace_back(body, elsewhere(dice, form));
         } else {
-            now.pushes.emplace_back(
-                body, base::Force{form.mass_kg * dice.power(0.1, 1e3) * dice.vector()});
+            const glm::dvec3 direction = dice.vector();
+            now.pushes.emplace_back(body,
+                                    base::Force{form.mass_kg * dice.power(0.1, 1e3) * direction});
         }
     }
     return inputs;

@@ -52,7 +52,8 @@ Style random_style(Dice& dice)
     style.spins = dice.one_in(3);
     style.layout = static_cast<Layout>(dice.below(4));
     constexpr std::array<double, 6> speeds{0.0, 0.0, 0.1, 1.0, 10.0, 1000.0};
-    style.speed = speeds[dice.below(speeds.size())] * (dice.one_in(2) ? 1.0 : dice.share());
+    const double speed = speeds[dice.below(speeds.size())];
+    style.speed = speed * (dice.one_in(2) ? 1.0 : dice.share());
     style.turning = dice.one_in(2) ? 0 : dice.below(6);
     style.smooth = dice.one_in(3);
     style.bounces = dice.one_in(3);
@@ -115,7 +116,7 @@ BodyDescription random_body(Dice& dice, const Style& style, std::size_t index)
     if (!style.aligned) body.orientation = random_orientation(dice, body.turning);
     body.position.value = place_in_layout(dice, style, index);
     body.velocity.value = style.speed * dice.vector();
-    if (style.spins) body.angular_velocity = dice.power(0.1, 100.0) * dice.vector();
+    if (style.spins) body.angular_velocity = dice.vector_of_power(0.1, 100.0);
     if (style.locks) {
         body.locked.x = dice.one_in(3);
         body.locked.y = dice.one_in(3);
@@ -207,6 +208,29 @@ void make_round(std::uint64_t seed, Description& drawn)
     }
 }
 
+/// Gives some bodies further parts, which begin anywhere near the first.
+void add_parts(std::uint64_t seed, Description& drawn)
+{
+    Dice dice{base::Seed{seed}.stream("parts")};
+    const bool any_round = dice.one_in(3), is_aligned = dice.one_in(2);
+    for (BodyDescription& body : drawn.bodies) {
+        if (dice.one_in(3)) continue;
+        for (auto left = 1 + dice.below(3); left > 0; --left) {
+            scene::PartDescription part;
+            for (const int axis : {0, 1, 2})
+                part.half[axis] =
+                    std::max(body.half[axis] * dice.between(0.2, 1.0), scene::size_min_m);
+            if (any_round && dice.one_in(2)) {
+                part.shape = scene::Shape::sphere;
+                part.half = glm::dvec3{part.half.x};
+            }
+            part.position.value = 1.5 * body.half * dice.vector();
+            if (!is_aligned) part.orientation = random_orientation(dice, Turning::free);
+            body.parts.push_back(part);
+        }
+    }
+}
+
 scene::JointDescription random_joint(Dice& dice, const Description& drawn, std::uint32_t body)
 {
     scene::JointDescription joint;
@@ -273,6 +297,10 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
     if (limits.joints) {
         Dice own{base::Seed{seed}.stream("joints")};
         add_joints(own, play.description);
+    }
+    if (limits.compounds) {
+        add_parts(seed, play.description);
+        play.overlaps = true;
     }
     const auto needed =
         scene::required_features(scene::requirements_of(play.description, play.options.sleeping));

@@ -52,7 +52,9 @@ struct PlayLimits {
     std::uint32_t bodies_max = 40;
     std::uint32_t ticks_min = 20;
     std::uint32_t ticks_max = 60;
-    bool joints = false; // adds joints to the scene that the seed gives without
+    // What is added to the scene that the seed gives without.
+    bool joints = false;
+    bool compounds = false; // further parts
 };
 
 /// A random scene and what happens to it.

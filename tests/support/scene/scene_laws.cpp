@@ -82,6 +82,17 @@ glm::dvec3 free_part(const BodyDescription& form, glm::dvec3 v)
     return v;
 }
 
+/// About the world's axes, of a body that turns about one of them alone.
+glm::dvec3 inertia_about_axes(const BodyDescription& form)
+{
+    const glm::dvec3 own = scene::inertia_of(form);
+    if (form.parts.empty()) return own; // the same axes, or as many alike
+    const glm::dmat3 axes = glm::mat3_cast(scene::frame_of_mass(form).orientation);
+    glm::dvec3 about{0.0};
+    for (const int axis : {0, 1, 2}) about += axes[axis] * axes[axis] * own[axis];
+    return about;
+}
+
 /// Of turning with an angular momentum, with the inertia of an orientation.
 double spinning_energy(const BodyDescription& form, const glm::dquat& orientation,
                        const glm::dvec3& momentum)
@@ -97,7 +108,7 @@ double spinning_energy(const BodyDescription& form, const glm::dquat& orientatio
     }
     // About one axis of the world, which is the same axis of the body's: see BodyProperties.
     const int axis = static_cast<int>(form.turning) - static_cast<int>(Turning::about_x);
-    return 0.5 * momentum[axis] * momentum[axis] / inertia[axis];
+    return 0.5 * momentum[axis] * momentum[axis] / inertia_about_axes(form)[axis];
 }
 
 /// The energy that a grip can have given to the body that it holds: what its force can do.
@@ -108,9 +119,9 @@ double most_from_grip(const World& world, std::uint32_t hand, double fastest)
     return within * impulse * fastest;
 }
 
-/// The energy that a hand can have given to one body that it pushes: what its spring stored at the
-/// tick's start and the work of its own motion.
-double most_from_push(const World& world, std::uint32_t hand)
+/// The energy that a hand can have given to one body that it pushes: what its springs stored at the
+/// tick's start, of so many contacts, and the work of its own motion.
+double most_from_push(const World& world, std::uint32_t hand, double contacts)
 {
     scene::HandDescription hands = world.frozen().hands;
     const scene::HandFeels& feels = world.frozen().feels;
@@ -125,7 +136,8 @@ double most_from_push(const World& world, std::uint32_t hand)
                               ? 0.5 * hands.stiffness_n_per_m * touch.depth_m * touch.depth_m
                               : hands.force_max_n * (touch.depth_m - 0.5 * bend);
     const double along = world.state().slips.empty() ? 0.0 : world.state().slips[hand].stored_j;
-    return std::max(stored, 0.0) + along + impulse * base::norm(world.state().hands[hand].velocity);
+    return contacts * std::max(stored, 0.0) + along +
+           impulse * base::norm(world.state().hands[hand].velocity);
 }
 
 /// By how much the energy of turning with one angular momentum can differ with the orientation.
@@ -138,13 +150,27 @@ double spinning_range(const BodyDescription& form, const glm::dvec3& momentum)
     return 0.5 * glm::dot(momentum, momentum) * (1.0 / least - 1.0 / most);
 }
 
+/// From its centre of mass to its farthest corner, at most.
+double radius_of(const BodyDescription& form)
+{
+    return length(form.parts.empty() ? form.half : scene::half_around(scene::parts_of(form)));
+}
+
+double least_half(const BodyDescription& form)
+{
+    double least = std::min({form.half.x, form.half.y, form.half.z});
+    for (const scene::PartDescription& part : form.parts)
+        least = std::min({least, part.half.x, part.half.y, part.half.z});
+    return least;
+}
+
 } // namespace
 
 SceneLaws::SceneLaws(const RandomPlay& play) : play_{play}, moments_(play.description.bodies.size())
 {
     nothing_is_fixed_ = play.description.planes.empty();
     for (const BodyDescription& form : play.description.bodies) {
-        size_ = std::min({size_, form.half.x, form.half.y, form.half.z});
+        size_ = std::min(size_, least_half(form));
         if (form.movable) movable_ += 1.0;
         const bool locked = form.locked.x || form.locked.y || form.locked.z;
         if (!form.movable || locked) nothing_is_fixed_ = false;
@@ -230,7 +256,7 @@ std::optional<std::string> SceneLaws::check_hands(const World& world)
         const scene::HandTouch& touch = world.touch(i);
         if (!is_finite(touch)) return fmt::format("hand {}: what it feels is not finite", i);
         if (!(most > 0.0) || std::isinf(most)) continue;
-        const double force = base::norm(touch.on_body);
+        const double force = base::norm(touch.on_body) / contacts_on(touch);
         worst_.force = std::max(worst_.force, force / most);
         if (force > most * (1.0 + force_tolerance))
             return fmt::format("hand {} pushes with {} N of {} N", i, force, most);
@@ -274,7 +300,7 @@ void SceneLaws::add_driven(Balance& balance, const World& world, BodyId id) cons
 {
     const BodyState& was = moments_[id].state;
     const BodyState now = world.body(id);
-    const double radius = length(play_.description.bodies[id].half);
+    const double radius = radius_of(play_.description.bodies[id]);
     const glm::dvec3 moved = (now.position.value - was.position.value) / world.frozen().tick;
     // A turn of the tick, for what is moved to a place.
     const glm::dquat by = now.orientation * glm::conjugate(was.orientation);
@@ -312,7 +338,7 @@ void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const 
 {
     const auto spin_of = [&](const glm::dvec3& momentum) {
         const glm::dvec3 inertia = scene::inertia_of(form);
-        if (form.turning != Turning::free) return momentum / inertia;
+        if (form.turning != Turning::free) return momentum / inertia_about_axes(form);
         return was.state.orientation *
                ((glm::conjugate(was.state.orientation) * momentum) / inertia);
     };
@@ -358,10 +384,10 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     balance.work += std::max(glm::dot(force, steady), glm::dot(force, moved));
     const glm::dvec3 torque = steady_torque(world, id);
     if (torque != glm::dvec3{0.0}) add_torque(balance, form, was, now, tick * torque);
-    const double least = std::min({form.half.x, form.half.y, form.half.z});
+    const double least = least_half(form);
     balance.passed += length(mass * (v1 - v0) - tick * force) +
                       length(now.angular_momentum - was.angular_momentum - tick * torque) / least;
-    const double radius = length(form.half);
+    const double radius = radius_of(form);
     const double spin =
         std::max(length(was.state.angular_velocity), length(now.state.angular_velocity));
     balance.fastest =
@@ -394,11 +420,14 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
 /// others that it reaches.
 double SceneLaws::most_from_hand(const World& world, std::uint32_t hand, double fastest) const
 {
+    double contacts = 1.0;
+    for (const BodyDescription& form : play_.description.bodies)
+        contacts = std::max(contacts, 1.0 + static_cast<double>(form.parts.size()));
     if (!world.touch(hand).holding)
-        return std::min(touched_max, movable_) * most_from_push(world, hand);
+        return std::min(touched_max, movable_) * most_from_push(world, hand, contacts);
     // The one that it holds may be far away.
     const double others = std::min({touched_max, movable_ - 1.0, within_reach(world, hand)});
-    return most_from_grip(world, hand, fastest) + others * most_from_push(world, hand);
+    return most_from_grip(world, hand, fastest) + others * most_from_push(world, hand, contacts);
 }
 
 /// How many movable bodies can have touched a hand in the tick.
@@ -412,7 +441,7 @@ double SceneLaws::within_reach(const World& world, std::uint32_t hand) const
         if (!form.movable) continue;
         const glm::dvec3& was = moments_[id].state.position.value;
         const double moved = length(world.position(id).value - was);
-        const double reach = world.frozen().hands.radius_m + length(form.half) + gone + moved;
+        const double reach = world.frozen().hands.radius_m + radius_of(form) + gone + moved;
         if (length(was - input.position.value) <= reach) count += 1.0;
     }
     return count;
@@ -438,7 +467,7 @@ double SceneLaws::driven_energy(const World& world, const Balance& balance) cons
         const BodyState now = world.body(body);
         const double mean =
             0.5 * (length(was.velocity.value + now.velocity.value) +
-                   length(forms[body].half) * length(was.angular_velocity + now.angular_velocity));
+                   radius_of(forms[body]) * length(was.angular_velocity + now.angular_velocity));
         const double friction =
             combined(forms[contact.body].material, forms[other].material).friction;
         sum += (1.0 + friction) * contact.normal_impulse * std::min(balance.driven, mean);

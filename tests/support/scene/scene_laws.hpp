@@ -47,6 +47,11 @@ public:
     [[nodiscard]] const LawFigures& worst() const { return worst_; }
 
 private:
+    /// A hand has one contact with a body at most, or one with each of its parts.
+    [[nodiscard]] double contacts_on(const scene::HandTouch& touch) const
+    {
+        return 1.0 + static_cast<double>(play_.description.bodies[touch.body].parts.size());
+    }
     struct Moment {
         scene::BodyState state;
         glm::dvec3 angular_momentum{0.0};

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <ostream>
 #include <spdlog/fmt/fmt.h>
+#include <vector>
 
 namespace hapnet::scene::fast_bodies_test {
 namespace {
@@ -37,6 +38,7 @@ struct Throw {
     bool spins = false;
     double spin_max = 1e4; // rad/s
     Shape shape = Shape::box;
+    std::vector<PartDescription> parts{};
 };
 
 std::ostream& operator<<(std::ostream& out, const Throw& thrown)
@@ -53,7 +55,11 @@ std::ostream& operator<<(std::ostream& out, const Throw& thrown)
 Description scene_of(const Throw& thrown, std::uint64_t seed)
 {
     test::Dice dice{base::Seed{seed}.stream("throw")};
-    const double radius = std::sqrt(glm::dot(thrown.half, thrown.half));
+    double radius = std::sqrt(glm::dot(thrown.half, thrown.half));
+    for (const PartDescription& part : thrown.parts)
+        radius =
+            std::max(radius, std::sqrt(glm::dot(part.half, part.half)) +
+                                 std::sqrt(glm::dot(part.position.value, part.position.value)));
     const double tick = static_cast<double>(thrown.tick.count()) * 1e-6;
     Description scene;
     scene.gravity = glm::dvec3{0.0};
@@ -61,6 +67,7 @@ Description scene_of(const Throw& thrown, std::uint64_t seed)
     BodyDescription body;
     body.shape = thrown.shape;
     body.half = thrown.half;
+    body.parts = thrown.parts;
     body.mass_kg = 0.008;
     body.material = thrown.material;
     body.orientation =
@@ -237,6 +244,30 @@ TEST_P(FastRoundBody, PassesNoWallAndNoPlane)
         EXPECT_EQ(interventions.guards(), 0U);
     }
 }
+
+class FastAngle : public testing::TestWithParam<double> {};
+
+/// Two bars across each other, one with a ball at its end: what hits first turns the rest at the
+/// wall.
+TEST_P(FastAngle, PassesNoWallAndNoPlane)
+{
+    Interventions interventions;
+    Throw thrown{.half = {0.02, 0.003, 0.003}, .speed = GetParam()};
+    thrown.parts.push_back({.half = {0.003, 0.015, 0.003}, .position = {{0.017, 0.018, 0.0}}});
+    thrown.parts.push_back(
+        {.shape = Shape::sphere, .half = glm::dvec3{0.005}, .position = {{-0.02, 0.0, 0.0}}});
+    for (const double thickness : {2e-3, 20e-3}) {
+        thrown.thickness = thickness;
+        throw_all(thrown, 16, interventions);
+    }
+    for (const Wall wall : {Wall::movable, Wall::plane, Wall::comes, Wall::meets}) {
+        thrown.wall = wall;
+        throw_all(thrown, 8, interventions);
+    }
+    EXPECT_GT(interventions.sweeps_continued, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, FastAngle, testing::Values(10.0, 100.0, 300.0, 1000.0));
 
 INSTANTIATE_TEST_SUITE_P(Speeds, FastRoundBody, testing::Values(10.0, 50.0, 100.0, 300.0, 1000.0));
 

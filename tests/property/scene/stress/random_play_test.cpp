@@ -34,6 +34,14 @@ TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
     }
 }
 
+TEST(RandomPlay, OfBodiesOfSeveralPartsKeepsEveryLaw)
+{
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed, {.compounds = true}), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
 TEST(RandomPlay, IsTheSameEveryTime)
 {
     for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
@@ -198,9 +206,7 @@ TEST_P(Crowds, GoTheirWayWithoutAGuard)
     EXPECT_FALSE(outcome.complaint) << *outcome.complaint;
     EXPECT_EQ(outcome.interventions.paths_cut, 0U);
     EXPECT_EQ(outcome.interventions.budgets_spent, 0U);
-#ifndef __clang__ // Clang evaluates arguments in another order, so that a seed draws another play
     EXPECT_GT(outcome.interventions.clusters_stuck, 0U);
-#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomPlay, Crowds,

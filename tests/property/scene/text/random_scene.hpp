@@ -136,6 +136,17 @@ private:
         return drawn;
     }
 
+    PartDescription part()
+    {
+        PartDescription drawn;
+        drawn.half = glm::dvec3{between(size_min_m, size_max_m)};
+        if (below(2) == 0) drawn.half.z = between(size_min_m, size_max_m);
+        if (drawn.half.z == drawn.half.x && below(2) == 0) drawn.shape = Shape::sphere;
+        drawn.position.value = vector(size_max_m);
+        drawn.orientation = orientation();
+        return drawn;
+    }
+
     BodyDescription body()
     {
         BodyDescription drawn{.name = name()};
@@ -168,6 +179,7 @@ private:
         drawn.material = material();
         if (below(2) == 0) drawn.feel = feel();
         drawn.drag_ns_per_m = std::abs(within(damping_max_ns_per_m));
+        for (std::uint64_t left = below(3); left > 0; --left) drawn.parts.push_back(part());
         return drawn;
     }
 

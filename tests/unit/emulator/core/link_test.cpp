@@ -56,6 +56,31 @@ std::vector<std::uint64_t> numbers_that_leave(const Conditions& conditions, int 
 
 } // namespace
 
+TEST(Link, CarriesAnEnvelopeThatNoLawCountsOrChanges)
+{
+    constexpr std::uint8_t envelope = 14;
+    constexpr auto size = payload.size() - envelope;
+    Conditions conditions{
+        .mtu = {size + Mtu::header_bytes}, .corrupt = {100_percent, 8}, .delay = constant(5ms)};
+    conditions.rate = {.bits_per_second = 8 * size * 1000, .overhead_bytes = 0}; // one takes 1 ms
+    Link link = link_of(conditions);
+    for (int i = 0; i < 200; ++i) {
+        const auto at = start + i * 10ms;
+        const auto admission = link.on_packet(payload, at, true, envelope);
+        EXPECT_FALSE(admission.drop);
+        const auto departure = link.poll(at + 6ms);
+        ASSERT_TRUE(departure);
+        EXPECT_EQ(departure->due, at + 6ms);
+        EXPECT_EQ(departure->bytes.size(), payload.size());
+        const auto head = departure->bytes.first(envelope);
+        EXPECT_TRUE(std::ranges::equal(head, std::span{payload}.first(envelope)));
+        link.on_sent(*departure, departure->due);
+    }
+    EXPECT_EQ(link.statistics().corrupted, 200U);
+    EXPECT_EQ(link.statistics().bytes_in, 200 * size);
+    EXPECT_EQ(link.statistics().bytes_out, 200 * size);
+}
+
 TEST(Link, DoesTheSameWithoutALens)
 {
     const Conditions conditions{.loss = {RandomLoss{20_percent}}, .delay = constant(5ms)};

@@ -41,6 +41,13 @@ TEST(SharedBody, IsRefusedWhenItCanTurn)
     }
 }
 
+TEST(SharedBody, IsRefusedWithBodiesOfSeveralParts)
+{
+    scene::Description scene = scene::paper_scene();
+    scene.bodies[1].parts.emplace_back();
+    EXPECT_NE(refusal_of(scene).find("several parts"), std::string::npos);
+}
+
 TEST(SharedBody, IsRefusedAmongBodiesThatMoveByThemselves)
 {
     scene::Description scene = scene::paper_scene();

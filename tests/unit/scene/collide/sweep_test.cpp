@@ -55,7 +55,7 @@ TEST(SweptBoxes, FindTheAxesOfABodyThatWasPutSomewhere)
 {
     OneCube cube;
     const SweptBox before = cube.after_turn(0.3);
-    cube.boxes.forget(0);
+    cube.boxes.forget(cube.bodies, 0);
     const SweptBox& now = cube.after_turn(5e-15);
     EXPECT_GT(now.turns, before.turns);
     EXPECT_EQ(now.orientation, cube.bodies.orientation.at(0));

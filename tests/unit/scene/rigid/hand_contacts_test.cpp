@@ -43,7 +43,7 @@ std::span<const HandSpring> tick(HandContacts& contacts, const WorldConfig& conf
 {
     state.hands[0] = moment.input;
     contacts.begin_step(config, state);
-    contacts.collide(config, state, 0, {0, true, moment.box, moment.velocity});
+    contacts.collide(config, state, 0, {0, 0, true, moment.box, moment.velocity});
     contacts.forget_departed(0);
     return contacts.springs_on(0).springs;
 }
@@ -101,7 +101,7 @@ TEST(HandContacts, WhatIsScaledAfterwardsIsReportedScaled)
     for (const BodyId body : {0U, 1U}) {
         SweptBox box;
         box.box.centre = description.bodies[body].position.value;
-        contacts.collide(config, state, body, {body, true, box, glm::dvec3{0.0}});
+        contacts.collide(config, state, body, {body, body, true, box, glm::dvec3{0.0}});
         const auto [springs, work] = contacts.springs_on(body);
         ASSERT_EQ(springs.size(), 1U);
         work[0].impulse = {1e-3, 2e-3, 0.0};

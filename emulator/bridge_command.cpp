@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/commands.hpp"
+#include "emulator/frame_session.hpp"
+#include "emulator/scenario.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/interface.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/stop_signal.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <spdlog/fmt/fmt.h>
+#include <string>
+#include <system_error>
+
+namespace hapnet::emulator {
+
+namespace {
+
+/// An interface that hands over what arrives as it came, and is as it was when this ends.
+class PlainReception {
+public:
+    explicit PlainReception(const std::string& interface)
+        : interface_{interface}, before_{net::receive_offloads_of(interface)}
+    {
+        if (before_ != 0) net::set_receive_offloads(interface_, 0);
+    }
+    ~PlainReception()
+    {
+        if (before_ != 0) net::set_receive_offloads(interface_, before_);
+    }
+    PlainReception(const PlainReception&) = delete;
+    PlainReception& operator=(const PlainReception&) = delete;
+
+private:
+    std::string interface_;
+    std::uint32_t before_;
+};
+
+int relay_frames(const BridgeOptions& options, const Scenario& scenario)
+{
+    const net::StopSignal stop{net::Hangup::stop};
+    FrameSession session{options.run,
+                         scenario,
+                         {.command = "bridge",
+                          .frames = {.interface_a = options.a,
+                                     .interface_b = options.b,
+                                     .all_frames = options.frames.all_frames,
+                                     .fix_checksums = options.frames.fix_checksums,
+                                     .stops_at_loop = true}}};
+    const PlainReception plain_a{options.a};
+    const PlainReception plain_b{options.b};
+    session.announce();
+    fmt::print("ready a={} b={} seed={} timing={}\n", options.a, options.b, scenario.seed.value(),
+               to_text(options.run.timing));
+    std::fflush(stdout);
+    const std::array descriptors{stop.descriptor()};
+    auto now = net::monotonic_now();
+    while (!stop.requested() && !session.failure() && !base::is_due(session.end(), now)) {
+        now = session.turn(descriptors, session.end());
+    }
+    const bool is_complete = session.finish();
+    if (!session.failure()) return is_complete ? 0 : net::exit_failed;
+    net::say("hapnet-emulator", *session.failure());
+    return net::exit_failed;
+}
+
+} // namespace
+
+base::Result<int> run(const BridgeOptions& options)
+{
+    const auto scenario = scenario_of(options.run);
+    if (!scenario) return tl::unexpected{scenario.error()};
+    try {
+        return relay_frames(options, *scenario);
+    } catch (const std::system_error& error) {
+        const int code = error.code().value();
+        const bool is_denied = code == EPERM || code == EACCES;
+        if (!is_denied && code != ENODEV) throw;
+        net::say("hapnet-emulator",
+                 fmt::format("{}; {}", error.what(),
+                             is_denied ? "a bridge needs CAP_NET_RAW: run it as root, or give it "
+                                         "to the program: setcap cap_net_raw,cap_net_admin+ep "
+                                         "FILE. Without it, 'hapnet-emulator between' works"
+                                       : "'ip link' lists the interfaces"));
+        return net::exit_environment;
+    }
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/frame.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace hapnet::emulator {
+
+namespace {
+
+// Numbers of IANA.
+enum EtherType : std::uint16_t {
+    ether_ipv4 = 0x0800,
+    ether_arp = 0x0806,
+    ether_vlan = 0x8100,
+    ether_ipv6 = 0x86dd,
+    ether_service_vlan = 0x88a8,
+};
+enum IpProtocol : std::uint8_t {
+    ip_icmp = 1,
+    ip_tcp = 6,
+    ip_udp = 17,
+    ip_icmpv6 = 58,
+};
+
+constexpr std::size_t ether_type_at = 12;
+constexpr std::size_t ipv6_header_bytes = 40;
+constexpr std::size_t ipv4_header_bytes_min = 20;
+
+std::uint8_t at8(std::span<const std::byte> bytes, std::size_t at)
+{
+    return std::to_integer<std::uint8_t>(bytes[at]);
+}
+
+std::uint16_t at16(std::span<const std::byte> bytes, std::size_t at)
+{
+    return static_cast<std::uint16_t>(at8(bytes, at) << 8 | at8(bytes, at + 1));
+}
+
+void put16(std::span<std::byte> bytes, std::size_t at, std::uint16_t value)
+{
+    bytes[at] = static_cast<std::byte>(value >> 8);
+    bytes[at + 1] = static_cast<std::byte>(value & 0xff);
+}
+
+/// Router and neighbour solicitations and advertisements, and redirects (RFC 4861). They are the
+/// first header behind that of IPv6.
+bool is_neighbour_discovery(std::span<const std::byte> packet)
+{
+    constexpr std::size_t next_header_at = 6;
+    constexpr std::uint8_t first = 133;
+    constexpr std::uint8_t last = 137;
+    if (packet.size() <= ipv6_header_bytes || at8(packet, next_header_at) != ip_icmpv6) {
+        return false;
+    }
+    const auto type = at8(packet, ipv6_header_bytes);
+    return type >= first && type <= last;
+}
+
+FrameKind kind_of(std::uint16_t type, std::span<const std::byte> packet)
+{
+    switch (type) {
+    case ether_arp: return FrameKind::neighbours;
+    case ether_ipv4: return FrameKind::ip;
+    case ether_ipv6: return is_neighbour_discovery(packet) ? FrameKind::neighbours : FrameKind::ip;
+    default: return FrameKind::other;
+    }
+}
+
+/// The sum of 16-bit words whose complement is the checksum of IP and its protocols (RFC 1071).
+std::uint64_t sum_of(std::span<const std::byte> bytes)
+{
+    std::uint64_t sum = 0;
+    std::size_t i = 0;
+    for (; i + 1 < bytes.size(); i += 2) sum += at16(bytes, i);
+    if (i < bytes.size()) sum += static_cast<std::uint64_t>(at8(bytes, i)) << 8;
+    return sum;
+}
+
+std::uint16_t folded(std::uint64_t sum)
+{
+    while (sum > 0xffff) sum = (sum & 0xffff) + (sum >> 16);
+    return static_cast<std::uint16_t>(~sum & 0xffff);
+}
+
+/// What stands behind an IP header.
+struct Segment {
+    std::uint8_t protocol = 0;
+    std::span<std::byte> bytes{};
+    std::uint64_t pseudo_header = 0; // the sum of it
+    bool is_v4 = false;
+};
+
+void fix_segment(const Segment& segment)
+{
+    struct Place {
+        std::size_t at;
+        std::size_t bytes_min;
+    };
+    const auto place = [&]() -> std::optional<Place> {
+        switch (segment.protocol) {
+        case ip_tcp: return Place{16, 20};
+        case ip_udp: return Place{6, 8};
+        case ip_icmp: return segment.is_v4 ? std::optional{Place{2, 4}} : std::nullopt;
+        case ip_icmpv6: return segment.is_v4 ? std::nullopt : std::optional{Place{2, 4}};
+        default: return std::nullopt;
+        }
+    }();
+    if (!place || segment.bytes.size() < place->bytes_min) return;
+    const bool is_udp = segment.protocol == ip_udp;
+    if (is_udp && segment.is_v4 && at16(segment.bytes, place->at) == 0) return; // has none
+    put16(segment.bytes, place->at, 0);
+    const bool has_pseudo_header = segment.protocol != ip_icmp;
+    const auto checksum = folded(
+        sum_of(segment.bytes) +
+        (has_pseudo_header ? segment.pseudo_header + segment.protocol + segment.bytes.size() : 0));
+    put16(segment.bytes, place->at, is_udp && checksum == 0 ? 0xffff : checksum);
+}
+
+void fix_ipv4(std::span<std::byte> packet)
+{
+    if (packet.size() < ipv4_header_bytes_min || at8(packet, 0) >> 4 != 4) return;
+    const std::size_t header = (at8(packet, 0) & 0xfU) * 4U;
+    const std::size_t total = at16(packet, 2);
+    if (header < ipv4_header_bytes_min || header > total || total > packet.size()) return;
+    put16(packet, 10, 0);
+    put16(packet, 10, folded(sum_of(packet.first(header))));
+    constexpr unsigned fragment_offset_and_more = 0x3fff;
+    if ((at16(packet, 6) & fragment_offset_and_more) != 0) return;
+    fix_segment({.protocol = at8(packet, 9),
+                 .bytes = packet.subspan(header, total - header),
+                 .pseudo_header = sum_of(packet.subspan(12, 8)),
+                 .is_v4 = true});
+}
+
+/// Of a packet with an extension header the checksum stays as it is.
+void fix_ipv6(std::span<std::byte> packet)
+{
+    if (packet.size() < ipv6_header_bytes || at8(packet, 0) >> 4 != 6) return;
+    const std::size_t payload = at16(packet, 4);
+    if (ipv6_header_bytes + payload > packet.size()) return;
+    fix_segment({.protocol = at8(packet, 6),
+                 .bytes = packet.subspan(ipv6_header_bytes, payload),
+                 .pseudo_header = sum_of(packet.subspan(8, 32)),
+                 .is_v4 = false});
+}
+
+} // namespace
+
+Frame read_frame(std::span<const std::byte> bytes)
+{
+    constexpr int tags_max = 2;
+    Frame frame;
+    if (bytes.size() < Frame::header_bytes_min) {
+        frame.header_bytes = static_cast<std::uint8_t>(bytes.size());
+        return frame;
+    }
+    std::ranges::copy(bytes.subspan(6, 6), frame.source.begin());
+    std::size_t at = ether_type_at;
+    for (int tags = 0; tags < tags_max; ++tags) {
+        const auto type = at16(bytes, at);
+        if (type != ether_vlan && type != ether_service_vlan) break;
+        if (bytes.size() < at + Frame::vlan_tag_bytes + 2) break;
+        at += Frame::vlan_tag_bytes;
+    }
+    frame.header_bytes = static_cast<std::uint8_t>(at + 2);
+    frame.kind = kind_of(at16(bytes, at), bytes.subspan(at + 2));
+    return frame;
+}
+
+void fix_checksums(std::span<std::byte> frame)
+{
+    const auto read = read_frame(frame);
+    if (read.kind == FrameKind::other || read.header_bytes < Frame::header_bytes_min) return;
+    const auto packet = frame.subspan(read.header_bytes);
+    const auto type = at16(frame, read.header_bytes - 2U);
+    if (type == ether_ipv4) fix_ipv4(packet);
+    if (type == ether_ipv6) fix_ipv6(packet);
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/random.hpp"
+#include "proto/base/time.hpp"
+#include "proto/cli/command.hpp"
+
+#include <optional>
+#include <string>
+
+namespace hapnet::emulator {
+
+// The commands that read what a run has written, or what was measured.
+
+/// `hapnet-emulator verify RUN`
+struct VerifyOptions {
+    std::string run;                    // what --stats or --fates wrote, or a folder
+    std::optional<std::string> profile; // instead of the one in RUN
+    std::optional<base::Seed> seed;     // instead of the one in the profile
+    std::optional<base::Duration> spacing;
+    bool as_json = false;
+};
+
+/// `hapnet-emulator report RUN`
+struct ReportOptions {
+    std::string run;                  // what --stats wrote
+    std::optional<std::string> fates; // instead of those that RUN names
+    std::string out;                  // "-": stdout
+};
+
+/// `hapnet-emulator learn FILE`
+struct LearnOptions {
+    std::string file;
+    std::string columns{};
+    std::optional<base::Duration> spacing{}; // instead of the one in FILE
+};
+
+/// Adds the command to the program; after parse() the options hold what was typed.
+cli::Command& add_verify(cli::Command& program, VerifyOptions& options);
+cli::Command& add_report(cli::Command& program, ReportOptions& options);
+cli::Command& add_learn(cli::Command& program, LearnOptions& options);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/frame_options.hpp"
+
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+
+namespace hapnet::emulator {
+
+namespace {
+
+constexpr const char* between_description =
+    "Runs two commands, A and B, each in a network of its own, with the emulator on the only wire "
+    "between them: any protocol passes, not UDP alone. No root is needed.\n"
+    "\n"
+    "A is 10.0.0.1 and fd00::1, B is 10.0.0.2 and fd00::2; both know them as $HAPNET_A, $HAPNET_B, "
+    "$HAPNET_A6, $HAPNET_B6, and as the hosts a, b, a6 and b6. B starts first. A starts when B "
+    "listens, after 1 s at the latest. When A ends, B is told to.";
+
+constexpr const char* between_footer =
+    R"(up is A to B, down is B to A. The conditions hold for each IP packet from the first one on;
+ARP and the neighbour discovery of IPv6 pass undisturbed. What the commands print
+stays theirs: the emulator's own lines go to stderr. The terminal belongs to A; B reads nothing.
+
+Examples:
+  hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
+  hapnet-emulator between --delay 50ms --loss 0.1% -- iperf3 -c b --- iperf3 -s
+  hapnet-emulator between --profile lte --stats run.json -- \
+      curl -s http://b:8000/ --- python3 -m http.server 8000)";
+
+constexpr const char* between_exit_codes =
+    R"(  N  as COMMAND_A ended; 128 + n when signal n killed it
+  1  the run failed
+  2  bad usage or input
+  3  the system refused (no user namespaces, no such command))";
+
+constexpr const char* bridge_description =
+    "Joins two network interfaces, as a switch with two ports and a bad cable would: what arrives "
+    "at one leaves from the other, any protocol, VLAN tags and all. The ends keep their addresses "
+    "and need not know of it. It needs root, or CAP_NET_RAW. The interfaces should have no "
+    "addresses of their own.";
+
+constexpr const char* bridge_footer =
+    R"(up is from IF_A to IF_B. The conditions hold for each IP packet; ARP, the neighbour discovery
+of IPv6 and what is not IP pass undisturbed. What the emulator sent is never forwarded. A loop, one
+machine that is heard on both sides, ends the run.
+
+Examples:
+  hapnet-emulator bridge eth1 eth2 --delay 40ms --loss 1%
+  hapnet-emulator bridge eth1 eth2 --profile lte --control emulator.sock)";
+
+constexpr const char* bridge_exit_codes = R"(  0  done
+  1  the run failed, or there is a loop
+  2  bad usage or input
+  3  the system refused (no CAP_NET_RAW, no such interface))";
+
+base::Result<std::string> parse_interface(const std::string& text)
+{
+    constexpr std::size_t length_max = 15; // of Linux
+    if (!text.empty() && text.size() <= length_max) return text;
+    return base::fail(fmt::format("'{}' is not the name of an interface: it has 1 to {} characters",
+                                  text, length_max));
+}
+
+} // namespace
+
+std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands)
+{
+    const auto is = [](std::string_view text) {
+        return [text](const char* word) { return word == text; };
+    };
+    if (words.size() < 2) return words;
+    if (!is("between")(words[1])) return words;
+    const auto dashes = std::ranges::find_if(words, is("--"));
+    if (dashes == words.end()) return words;
+    const auto three = std::find_if(dashes + 1, words.end(), is("---"));
+    commands.first.assign(dashes + 1, three);
+    if (three != words.end()) commands.second.assign(three + 1, words.end());
+    return words.first(static_cast<std::size_t>(dashes - words.begin()));
+}
+
+void add_frame_options(cli::Command& command, FrameOptions& options)
+{
+    command.flag("--all-frames",
+                 "The conditions also hold for ARP, neighbour discovery and what is not IP",
+                 options.all_frames);
+    command.flag("--fix-checksums",
+                 "Give packets right checksums again after --corrupt: the receiver takes the "
+                 "damage for data (default: it finds it, as on a damaged wire)",
+                 options.fix_checksums);
+}
+
+cli::Command& add_between(cli::Command& program)
+{
+    cli::Command& command = program.command(
+        "between", "Runs two commands with the emulator between them, any protocol");
+    command.describe(between_description);
+    command.add_footer(between_footer);
+    command.add_exit_codes(between_exit_codes);
+    return command;
+}
+
+cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b)
+{
+    cli::Command& command =
+        program.command("bridge", "Joins two network interfaces, any protocol; needs root");
+    command.describe(bridge_description);
+    command.add_footer(bridge_footer);
+    command.add_exit_codes(bridge_exit_codes);
+    command.positional("IF_A", "The interface on A's side", cli::into(a, parse_interface))
+        .required("eth1");
+    command.positional("IF_B", "The interface on B's side", cli::into(b, parse_interface))
+        .required("eth2");
+    return command;
+}
+
+base::Result<void> require_two_commands(const TypedCommands& commands)
+{
+    if (!commands.first.empty() && !commands.second.empty()) return {};
+    return base::fail(
+        "two commands are required: hapnet-emulator between --delay 40ms -- ping -c 5 "
+        "b --- sleep infinity");
+}
+
+base::Result<void> require_two_interfaces(const std::string& a, const std::string& b)
+{
+    if (a != b) return {};
+    return base::fail(fmt::format("IF_A and IF_B are both {}: a bridge joins two interfaces", a));
+}
+
+} // namespace hapnet::emulator

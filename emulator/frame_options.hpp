@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/cli/command.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What is said of frames besides the conditions.
+struct FrameOptions {
+    bool all_frames = false;
+    bool fix_checksums = false;
+};
+
+/// The words behind the first `--`: two commands with `---` in between.
+struct TypedCommands {
+    std::vector<std::string> first;
+    std::vector<std::string> second;
+};
+
+/// Takes these words from the command line of `between`: they are commands of other programs, with
+/// options of their own. What is left is returned.
+[[nodiscard]] std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands);
+
+/// Adds what the commands for frames have in common, besides the options of every run.
+void add_frame_options(cli::Command& command, FrameOptions& options);
+
+/// `between`, and `bridge` with its two interfaces.
+cli::Command& add_between(cli::Command& program);
+cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b);
+
+/// What is wrong with the commands that were typed.
+[[nodiscard]] base::Result<void> require_two_commands(const TypedCommands& commands);
+/// What is wrong with the two interfaces together.
+[[nodiscard]] base::Result<void> require_two_interfaces(const std::string& a, const std::string& b);
+
+} // namespace hapnet::emulator

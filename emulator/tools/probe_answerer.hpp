@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/tools/probe_message.hpp"
+#include "proto/base/time.hpp"
+
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// Answers the questions of a probe, and counts them, so that whoever asks can tell a question that
+/// was lost from an answer that was. Remembers the sessions heard last; does no I/O.
+class ProbeAnswerer {
+public:
+    explicit ProbeAnswerer(std::uint64_t boot) : boot_{boot} {}
+
+    /// The answer to a question that came at `received`; nullopt to an answer, so that two of
+    /// these cannot answer each other. Fill in `answered` when it leaves.
+    [[nodiscard]] std::optional<ProbeMessage> answer(const ProbeMessage& question,
+                                                     base::TimePoint received);
+
+    static constexpr std::size_t sessions_max = 64;
+
+private:
+    /// Questions further behind the highest than this are taken for copies.
+    static constexpr std::size_t window = 1024;
+
+    struct Session {
+        std::uint64_t id = 0;
+        std::uint64_t highest = 0;
+        std::bitset<window> seen{}; // by sequence number modulo the window
+        std::uint64_t heard = 0;
+        base::TimePoint last{};
+
+        void count(std::uint64_t sequence);
+    };
+
+    [[nodiscard]] Session& session_of(std::uint64_t id);
+
+    std::uint64_t boot_;
+    std::vector<Session> sessions_;
+};
+
+} // namespace hapnet::emulator::tools

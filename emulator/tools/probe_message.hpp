@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace hapnet::emulator::tools {
+
+/// A question of `hapnet-emulator probe`, or its answer, which is as long. docs/use/probe.md has
+/// the bytes.
+struct ProbeMessage {
+    bool is_answer = false;
+    std::uint64_t session = 0;  // of whoever asks; drawn when it begins
+    std::uint64_t sequence = 0; // of the question, from 0
+    base::TimePoint sent{};     // the question, by the clock of whoever asks
+
+    // Of an answer, by the clock of whoever answers:
+    base::TimePoint received{}; // the question's kernel receive stamp
+    base::TimePoint answered{};
+    std::uint64_t heard = 0; // questions of this session so far, copies left out
+    std::uint64_t boot = 0;  // the boot of that machine; see boot_number()
+
+    static constexpr std::size_t bytes_min = 72;
+    static constexpr std::size_t bytes_max = 65'507; // of UDP over IPv4
+
+    friend bool operator==(const ProbeMessage&, const ProbeMessage&) = default;
+};
+
+/// Writes the message to `bytes`, all of them: zeros follow it. Ensures that it has room.
+void encode(const ProbeMessage& message, std::span<std::byte> bytes);
+
+/// The error says why these bytes are none: they are another program's, or damaged. A single
+/// changed byte is always found.
+[[nodiscard]] base::Result<ProbeMessage> decode_probe(std::span<const std::byte> bytes);
+
+/// A number for the identity of a boot; 0 where the system does not tell it.
+[[nodiscard]] std::uint64_t boot_number(std::string_view boot_id);
+
+} // namespace hapnet::emulator::tools

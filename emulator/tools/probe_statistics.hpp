@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/tools/probe_message.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// An answer that came.
+struct ProbeReply {
+    std::uint64_t sequence = 0;
+    base::Duration round_trip{}; // without the time in the answering program
+    base::Duration there{};      // these two hold where the clocks are one; see clocks_are_one()
+    base::Duration back{};
+    bool is_copy = false; // the question was answered before
+};
+
+/// Delays of a way. Quantiles are values that occurred.
+struct ProbeDelays {
+    base::Duration min{};
+    base::Duration mean{};
+    base::Duration p50{};
+    base::Duration p99{};
+    base::Duration max{};
+};
+
+struct ProbeWay {
+    std::optional<ProbeDelays> delay; // nullopt: no answers, or of one way by two clocks
+    std::optional<ProbeDelays> ipdv;  // the absolute values; nullopt: no two answers in a row
+    std::uint64_t lost = 0;
+};
+
+struct ProbeSummary {
+    std::uint64_t sent = 0;
+    std::uint64_t answered = 0; // questions with an answer at least
+    std::uint64_t copies = 0;   // answers beyond the first
+    std::uint64_t reordered = 0;
+    bool clocks_are_one = false;
+    ProbeWay round_trip{};
+    ProbeWay there{};          // losses of questions up to the last one answered
+    ProbeWay back{};           // losses of their answers
+    std::uint64_t unknown = 0; // not answered, and too late to tell the way
+};
+
+/// What a probe has sent and what came back. Does no I/O and reads no clock.
+class ProbeStatistics {
+public:
+    /// `boot`: of this machine.
+    ProbeStatistics(std::uint64_t session, std::uint64_t boot) : session_{session}, boot_{boot} {}
+
+    /// A row of memory for each question: at most so many.
+    static constexpr std::uint64_t questions_max = 10'000'000;
+
+    /// The next question, which leaves at `now`. Ensures that there are fewer than questions_max.
+    [[nodiscard]] ProbeMessage next_question(base::TimePoint now);
+
+    /// nullopt: it answers none of these questions.
+    std::optional<ProbeReply> on_answer(const ProbeMessage& answer, base::TimePoint arrived);
+
+    [[nodiscard]] std::uint64_t sent() const { return rows_.size(); }
+    [[nodiscard]] bool all_answered() const { return answered_ == rows_.size(); }
+    [[nodiscard]] base::Duration longest_round_trip() const { return longest_; }
+
+    /// Whether both ends read one clock: they are of one boot, and no delay by it is negative.
+    [[nodiscard]] bool clocks_are_one() const { return clocks_are_one_ && answered_ > 0; }
+
+    [[nodiscard]] ProbeSummary summary() const;
+
+    /// A line for each question, with a header; docs/use/probe.md has the columns.
+    [[nodiscard]] std::string csv() const;
+
+private:
+    struct Row {
+        base::TimePoint sent{};
+        base::Duration there{}; // by two clocks: their offset is in it
+        base::Duration back{};
+        std::uint32_t answers = 0;
+    };
+
+    [[nodiscard]] ProbeWay way(base::Duration (*delay)(const Row&), bool is_known) const;
+
+    std::uint64_t session_;
+    std::uint64_t boot_;
+    std::vector<Row> rows_; // by sequence number
+    std::uint64_t answered_ = 0;
+    std::uint64_t copies_ = 0;
+    std::uint64_t reordered_ = 0;
+    std::uint64_t heard_ = 0;           // by the other side, as far as it said
+    std::uint64_t beyond_answered_ = 0; // the highest sequence number answered, plus one
+    base::Duration longest_{};
+    bool clocks_are_one_ = true;
+};
+
+} // namespace hapnet::emulator::tools

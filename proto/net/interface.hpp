@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <sys/types.h>
+
+namespace hapnet::net {
+
+// The network interfaces of the network namespace of the calling process. Each function throws
+// std::system_error naming the interface; all but the first need CAP_NET_ADMIN there.
+
+/// The longest IP packet that it sends, in bytes.
+[[nodiscard]] std::size_t mtu_of(const std::string& interface);
+
+/// Makes two interfaces that are joined: what is sent on one arrives at the other. The second one
+/// is made in the network namespace of another process.
+void make_veth(const std::string& here, const std::string& there, pid_t process_there);
+
+void set_up(const std::string& interface);
+
+/// "10.0.0.1" or "fd00::1", and the bits of its network. Usable at once: no other host is asked
+/// whether it has the address.
+void add_address(const std::string& interface, const std::string& address, std::uint8_t bits);
+
+/// Sends what is for no known network to this router.
+void add_default_route(const std::string& interface, const std::string& router);
+
+/// Work that the kernel leaves to a device, off: checksums, and frames that are cut up or put
+/// together there. Then what leaves is what would be on a wire. Throws nothing: features that the
+/// interface does not have, or not let go of, stay.
+void switch_off_offloads(const std::string& interface);
+
+/// How the interface puts packets together that arrive, as one number; 0: it does not.
+[[nodiscard]] std::uint32_t receive_offloads_of(const std::string& interface);
+void set_receive_offloads(const std::string& interface, std::uint32_t offloads);
+
+} // namespace hapnet::net

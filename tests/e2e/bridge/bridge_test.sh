@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# The emulator as a bridge between two interfaces, with a host in a network of its own behind each:
+# both families and a VLAN pass, a loop ends it, and it says what it lacks.
+# Usage: bridge_test.sh FOLDER-WITH-THE-PROGRAMS
+set -euo pipefail
+
+emulator=$(realpath "$1")/hapnet-emulator
+for tool in ip unshare nsenter jq; do
+    command -v "$tool" >/dev/null || { echo "skipped: there is no $tool" && exit 77; }
+done
+if [[ -z ${HAPNET_BRIDGE_TEST-} ]]; then
+    own=(--net)
+    ((EUID == 0)) || own=(--user --map-root-user --net)
+    unshare "${own[@]}" true || { echo "skipped: no network of one's own here" && exit 77; }
+    HAPNET_BRIDGE_TEST=yes exec unshare "${own[@]}" "$0" "$@"
+fi
+
+folder=$(mktemp -d)
+trap 'kill $(jobs -p) 2>/dev/null; wait; rm -rf "$folder"' EXIT
+fail() {
+    echo "FAILED: $1" >&2
+    tail -n 20 "$folder"/* >&2
+    exit 1
+}
+# await WORDS FILE
+await() {
+    for _ in {1..200}; do
+        grep -q "$1" "$2" 2>/dev/null && return
+        sleep 0.05
+    done
+    fail "no '$1' in $2"
+}
+
+# Offloads stay on at the hosts: then checksums are left to devices that do not compute them.
+hosts=()
+for side in 1 2; do
+    ip link add "wire$side" type veth peer name "host$side"
+    ip link set "wire$side" up
+    unshare --net sleep 1000 &
+    hosts[side]=$!
+    until [[ $(readlink "/proc/${hosts[side]}/ns/net") != "$(readlink /proc/self/ns/net)" ]]; do
+        sleep 0.05
+    done
+    ip link set "host$side" netns "${hosts[side]}"
+    nsenter -t "${hosts[side]}" -n sh -e -c "
+        ip link set lo up
+        ip link set host$side up
+        ip address add 10.9.0.$side/24 dev host$side
+        ip address add fd09::$side/64 dev host$side nodad
+        if ip link add link host$side name host$side.7 type vlan id 7 2>/dev/null; then
+            ip link set host$side.7 up
+            ip address add 10.9.7.$side/24 dev host$side.7
+        fi"
+done
+on() {
+    local host=${hosts[$1]}
+    shift
+    nsenter -t "$host" -n "$@"
+}
+
+# Not by on(): what is killed at the end is to be the program itself.
+nsenter -t "${hosts[2]}" -n "$emulator" probe --answer '[::]:7002' >"$folder/answer" &
+await ready "$folder/answer"
+"$emulator" bridge wire1 wire2 --up.delay 20ms --down.delay 5ms --stats "$folder/run.json" \
+    >"$folder/bridge" 2>&1 &
+bridge=$!
+await ready "$folder/bridge"
+addresses=(10.9.0.2 '[fd09::2]')
+if on 2 ip link show host2.7 >"$folder/said" 2>&1; then
+    addresses+=(10.9.7.2)
+else
+    echo "not tested: VLANs, which this kernel does not have"
+fi
+for address in "${addresses[@]}"; do
+    on 1 "$emulator" probe "$address:7002" --count 10 --rate 50 --json >"$folder/probe.json" ||
+        fail "nothing passes to $address"
+    jq -e '.answered == 10 and .there.delay_ms.min >= 20 and .back.delay_ms.min >= 5' \
+        "$folder/probe.json" >"$folder/said" || fail "wrong delays to $address"
+done
+kill "$bridge"
+wait "$bridge" || fail "the bridge ended with $?"
+jq -e '.up.received >= 20 and .frames.a.undisturbed > 0 and .frames.a.oversized == 0 and
+    .command == "bridge" and ([.up, .down][] |
+    .received + .duplicated == .delivered + ([.dropped[]] | add) + .in_flight)' \
+    "$folder/run.json" >"$folder/said" || fail "the statistics do not add up"
+
+# A kernel's bridge joins both interfaces elsewhere, too.
+ip link add loop type bridge
+for side in 3 4; do
+    ip link add "wire$side" type veth peer name "port$side"
+    ip link set "port$side" master loop
+    ip link set "port$side" up
+    ip link set "wire$side" up
+done
+ip link set loop up
+ip address add 10.8.0.1/24 dev loop
+"$emulator" bridge wire3 wire4 >"$folder/looped" 2>&1 &
+bridge=$!
+await ready "$folder/looped"
+"$emulator" probe 10.8.0.2:7002 --count 3 --wait 100ms >"$folder/said" 2>&1 || true # asks by ARP
+code=0
+wait "$bridge" || code=$?
+((code == 1)) || fail "a loop ended the bridge with $code"
+grep -q 'a loop: ' "$folder/looped" || fail "the loop is not told"
+
+code=0
+"$emulator" bridge wire1 nosuch >"$folder/refused" 2>&1 || code=$?
+((code == 3)) || fail "an interface that does not exist: $code"
+grep -q "'ip link' lists" "$folder/refused" || fail "no cure where there is no interface"
+code=0
+setpriv --bounding-set -net_raw --inh-caps -net_raw "$emulator" bridge wire1 wire2 \
+    >"$folder/denied" 2>&1 || code=$?
+((code == 3)) || fail "without CAP_NET_RAW: $code"
+grep -q 'CAP_NET_RAW' "$folder/denied" || fail "no cure without CAP_NET_RAW"
+echo 'passed'
