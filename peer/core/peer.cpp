@@ -77,7 +77,8 @@ Member::Config member_of(const Settings& settings)
     Member::Config config{.introduction = settings.introduction,
                           .staleness = settings.staleness,
                           .stale = base_options(settings.algorithm).stale,
-                          .tick = settings.tick};
+                          .tick = settings.tick,
+                          .measures_path = settings.measures_paths};
     config.introduction.length = settings.length;
     return config;
 }

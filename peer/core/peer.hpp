@@ -42,6 +42,7 @@ struct Settings {
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration length{std::chrono::seconds{30}}; // of the session, from its start
+    bool measures_paths = false;                     // to the others, for statistics; 80 KiB each
 };
 
 /// The phase of a session. Its last 3 s (half of it, when it is shorter than 6 s) are hands off.
