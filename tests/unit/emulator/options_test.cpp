@@ -58,7 +58,8 @@ TEST(EmulatorOptions, HaveACompleteHelp)
     const auto prints = cli::prints_of("hapnet-emulator", parse_command_line);
     EXPECT_EQ(cli::help_faults("hapnet-emulator", prints), std::vector<std::string>{});
     EXPECT_EQ(cli::listed_commands(prints({"--help"}).value()),
-              (std::vector<std::string>{"check", "predict", "verify", "report", "learn", "probe", "between", "bridge"}));
+              (std::vector<std::string>{"check", "predict", "verify", "report", "learn", "probe",
+                                        "between", "bridge"}));
     EXPECT_EQ(prints({"--help"})->rfind("Usage: hapnet-emulator [OPTIONS]\n", 0), 0U);
 }
 
