@@ -31,8 +31,8 @@ stop:
   9. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its
      force is zero 300 ms after the last message, about 10 minutes.
 About N + 25 minutes and an hour. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000 scenes,
-200 sessions, 10 signals of each kind, about 6 minutes. Run the parts of emulator and stop as root, or where
-SCHED_FIFO is allowed, on a machine that does nothing else: 2 to 4, 8 and 9 measure time.
+200 sessions, 10 signals of each kind, about 6 minutes. Run the parts of emulator and stop as root,
+or where SCHED_FIFO is allowed, on a machine that does nothing else: 2 to 4, 8 and 9 measure time.
 What is written in full is in build/soak/. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument."
 
@@ -90,7 +90,9 @@ if [[ $subject == all || $subject == emulator ]]; then
 fi
 if [[ $subject == all || $subject == scene ]]; then targets+=(soak_scene); fi
 if [[ $subject == all || $subject == session ]]; then targets+=(soak_session); fi
-if [[ $subject == all || $subject == stop ]]; then targets+=(e2e hapnet-peer hapnet-lab hapnet-ctl); fi
+if [[ $subject == all || $subject == stop ]]; then
+    targets+=(e2e hapnet-peer hapnet-lab hapnet-ctl)
+fi
 {
     scripts/setup.sh --test
     cmake --preset release
