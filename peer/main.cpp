@@ -119,6 +119,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     }
     settings.mount_scale = mount.scale;
     settings.length = options.duration;
+    settings.measures_paths = true;
     return settings;
 }
 

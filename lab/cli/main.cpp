@@ -51,18 +51,38 @@ base::Result<int> run(const AnalyseCommand& command)
     return 0;
 }
 
+/// Of both records.
+base::Result<int> run_join(const ExportCommand& command)
+{
+    const auto a = read_record(command.record);
+    if (!a) return tl::unexpected{a.error()};
+    const auto b = read_record(command.other);
+    if (!b) return tl::unexpected{b.error()};
+    const auto session = records::common_session(*a, *b);
+    if (!session) {
+        return base::fail("cannot join " + command.record + " (A) with " + command.other +
+                          " (B): " + session.error().message);
+    }
+    print(records::joined_csv_header() + '\n');
+    records::for_each_joined_csv_line(*session,
+                                      [](const std::string& line) { print(line + '\n'); });
+    return 0;
+}
+
 base::Result<int> run(const ExportCommand& command)
 {
+    if (!command.other.empty()) return run_join(command);
     const auto record = read_record(command.record);
     if (!record) return tl::unexpected{record.error()};
     const auto zero = records::csv_zero(*record);
-    const auto print_rows = [&](const std::string& header, const auto& rows) {
-        print(header + '\n');
-        for (const auto& row : rows) print(records::csv_line(row, zero) + '\n');
-    };
-    switch (command.rows) {
-    case ExportRows::ticks: print_rows(records::tick_csv_header(), record->ticks); break;
-    case ExportRows::messages: print_rows(records::message_csv_header(), record->messages); break;
+    if (command.rows == ExportRows::messages) {
+        const auto remote_zero = records::remote_csv_zero(*record);
+        print(records::message_csv_header() + '\n');
+        for (const auto& row : record->messages)
+            print(records::csv_line(row, zero, remote_zero) + '\n');
+    } else {
+        print(records::tick_csv_header() + '\n');
+        for (const auto& row : record->ticks) print(records::csv_line(row, zero) + '\n');
     }
     return 0;
 }

@@ -32,6 +32,7 @@ constexpr const char* footer =
   hapnet-lab report a.rec b.rec
   hapnet-lab analyse a.rec b.rec --json
   hapnet-lab export a.rec > a.csv
+  hapnet-lab export a.rec b.rec > both.csv
   hapnet-lab replay a.rec --algorithm dead-reckoning
   hapnet-lab explain paper)";
 
@@ -88,10 +89,14 @@ base::Result<ExportRows> parse_export_rows(const std::string& text)
 void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
 {
     command.describe("Prints the rows of a record as CSV. Times count from the start of its "
-                     "session.");
+                     "session. Of the records of both peers it prints the ticks of their last "
+                     "common session on one time axis: each tick of the first with the last tick "
+                     "of the other that is not later.");
     command.add_exit_codes(exit_codes_without_run);
     command.positional("RECORD", "The record of one peer", cli::into(exported.record))
         .required("a.rec");
+    command.positional("OTHER", "The record of the other peer, to join the two",
+                       cli::into(exported.other));
     command.flag("--csv", "As CSV: the only format, and the default", as_csv);
     command.option("--rows", "ticks|messages",
                    "Ticks of the haptic loop, or messages received (default ticks)",
@@ -275,6 +280,10 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     if (is_list) return net::Answer{list_of_experiments()};
     if (replay.json && replay.csv) {
         return base::fail("--json and --csv exclude each other: give one of them");
+    }
+    if (!exported.other.empty() && exported.rows == ExportRows::messages) {
+        return base::fail("export: the messages of two records cannot be joined: leave --rows out, "
+                          "or give one record");
     }
     explain.sleeping = !no_sleeping;
     run.command = fmt::format("{}", fmt::join(words, " "));

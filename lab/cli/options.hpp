@@ -24,9 +24,10 @@ struct AnalyseCommand {
 
 enum class ExportRows : std::uint8_t { ticks, messages };
 
-/// `hapnet-lab export RECORD --csv [--rows ticks|messages]`
+/// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages]`
 struct ExportCommand {
     std::string record;
+    std::string other; // of the other peer: the ticks of both are joined; empty: of one alone
     ExportRows rows = ExportRows::ticks;
 };
 

@@ -6,8 +6,10 @@
 #include "proto/base/csv.hpp"
 #include "proto/record/fields.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <type_traits>
@@ -69,6 +71,25 @@ void for_each_column(const record::TickRow& row, const auto& add)
         row);
 }
 
+std::string column_names(std::string_view prefix)
+{
+    std::string names;
+    for_each_column({}, [&](std::string_view name, std::string_view suffix, std::string_view) {
+        names += fmt::format(",{}{}{}", prefix, name, suffix);
+    });
+    return names;
+}
+
+std::string cells_of(const record::TickRow& row)
+{
+    std::string cells;
+    for_each_column(row, [&](std::string_view, std::string_view, std::string_view cell) {
+        cells += ',';
+        cells += cell;
+    });
+    return cells;
+}
+
 } // namespace
 
 base::TimePoint csv_zero(const record::Record& record)
@@ -77,34 +98,59 @@ base::TimePoint csv_zero(const record::Record& record)
     return record.ticks.empty() ? base::TimePoint{} : record.ticks.front().at();
 }
 
-std::string tick_csv_header()
+std::optional<base::TimePoint> remote_csv_zero(const record::Record& record)
 {
-    std::string line = "time_s";
-    for_each_column({}, [&](std::string_view name, std::string_view suffix, std::string_view) {
-        line += fmt::format(",{}{}", name, suffix);
-    });
-    return line;
+    if (record.sessions.empty()) return std::nullopt;
+    return record.sessions.back().start + record.sessions.back().remote_offset;
 }
+
+std::string tick_csv_header() { return "time_s" + column_names(""); }
 
 std::string csv_line(const record::TickRow& row, base::TimePoint zero)
 {
-    std::string line = seconds(row.at() - zero);
-    for_each_column(row, [&](std::string_view, std::string_view, std::string_view cell) {
-        line += ',';
-        line += cell;
-    });
-    return line;
+    return seconds(row.at() - zero) + cells_of(row);
 }
 
-std::string message_csv_header() { return "time_s,tick,size_bytes,session,sequence,sent_s"; }
+std::string joined_csv_header()
+{
+    return "time_s" + column_names("a_") + ",b_time_s" + column_names("b_");
+}
 
-std::string csv_line(const record::MessageRow& row, base::TimePoint zero)
+void for_each_joined_csv_line(const Session& session,
+                              const std::function<void(const std::string&)>& take)
+{
+    const base::TimePoint zero = session.a.terms.start;
+    const auto names = column_names("");
+    const std::string nothing(static_cast<std::size_t>(std::ranges::count(names, ',')), ',');
+    auto next = session.b.ticks.begin();
+    const record::TickRow* last = nullptr;
+    for (const record::TickRow& row : session.a.ticks) {
+        for (; next != session.b.ticks.end() && session.clock.to_a(next->at()) <= row.at(); ++next)
+            last = &*next;
+        std::string line = csv_line(row, zero) + ',';
+        if (last != nullptr) {
+            line += seconds(session.clock.to_a(last->at()) - zero) + cells_of(*last);
+        } else {
+            line += nothing;
+        }
+        take(line);
+    }
+}
+
+std::string message_csv_header()
+{
+    return "time_s,tick,size_bytes,session,sequence,sent_s,sent_time_s";
+}
+
+std::string csv_line(const record::MessageRow& row, base::TimePoint zero,
+                     std::optional<base::TimePoint> remote_zero)
 {
     std::string line = fmt::format("{},{},{}", seconds(row.received_at - zero), row.tick, row.size);
     const auto message = view_of(row);
-    if (!message) return line + ",,,";
-    return line + fmt::format(",{},{},{}", message->session, message->sequence,
-                              seconds(message->sent.time_since_epoch()));
+    if (!message) return line + ",,,,";
+    return line + fmt::format(",{},{},{},{}", message->session, message->sequence,
+                              seconds(message->sent.time_since_epoch()),
+                              remote_zero ? seconds(message->sent - *remote_zero) : "");
 }
 
 } // namespace hapnet::lab::records

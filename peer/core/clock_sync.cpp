@@ -14,6 +14,8 @@ constexpr base::Duration offset_max{std::chrono::hours{10 * 365 * 24}};
 // A round trip that is longer than the shortest by less than this met hardly any queue.
 constexpr base::Duration longer_least{std::chrono::microseconds{100}};
 constexpr std::int64_t longer_share = 10; // or by less than a tenth of it
+// What a queue of no length still does to an offset, by timers and interrupts.
+constexpr double offset_noise_ns = 1e6;
 
 base::Duration rounded(double ns) { return base::Duration{std::llround(ns)}; }
 
@@ -21,6 +23,7 @@ base::Duration rounded(double ns) { return base::Duration{std::llround(ns)}; }
 
 void ClockSync::add(const ClockSample& s)
 {
+    if (is_same_clock_) return;
     const base::Duration round_trip = (s.answer_heard - s.sent) - (s.answered - s.heard);
     const Window sample{s.answer_heard, ((s.heard - s.sent) + (s.answered - s.answer_heard)) / 2,
                         round_trip};
@@ -37,9 +40,30 @@ void ClockSync::add(const ClockSample& s)
         open_ = sample;
         fit_ = fit(s.answer_heard);
     }
-    const bool agrees = std::chrono::abs(sample.offset - said_) <= round_trip / 2 + jump_least;
-    if (agreeing_left_ > 0 && agrees) --agreeing_left_;
+    consider(sample);
     follow(s.answer_heard);
+}
+
+/// How far the sample lies beyond what is said, after all that queues and asymmetry can explain:
+/// above 0, or below it when it is behind; 0 where they agree.
+base::Duration ClockSync::unexplained(const Window& sample) const
+{
+    const base::Duration apart = sample.offset - said_;
+    const base::Duration bound = sample.round_trip / 2 + jump_least;
+    return apart - std::clamp(apart, -bound, bound);
+}
+
+void ClockSync::consider(const Window& sample)
+{
+    if (sample.at - *first_ < settles_within) return;
+    // In a long silence the two drift apart.
+    const base::Duration drift = std::chrono::duration_cast<base::Duration>(
+        slew_max * std::chrono::abs(sample.at - said_at_));
+    if (std::chrono::abs(unexplained(sample)) > drift) {
+        agreeing_left_ = samples_needed;
+    } else if (agreeing_left_ > 0) {
+        --agreeing_left_;
+    }
 }
 
 void ClockSync::close_window()
@@ -55,7 +79,7 @@ void ClockSync::close_window()
               closed_.begin() + static_cast<std::ptrdiff_t>(count_), closed_.begin());
     count_ = windows_for_jump;
     ++jumps_;
-    agreeing_left_ = samples_after_jump;
+    agreeing_left_ = samples_needed;
     said_at_ = closed_[count_ - 1].at;
     said_ = fit(said_at_).offset;
 }
@@ -66,11 +90,9 @@ bool ClockSync::has_jumped() const
     if (count_ < windows_for_jump) return false;
     int ahead = 0, behind = 0;
     for (std::size_t i = count_ - windows_for_jump; i < count_; ++i) {
-        const base::Duration apart = closed_[i].offset - said_;
-        const base::Duration bound =
-            std::max(closed_[i].round_trip / 2, fit_.uncertainty) + jump_least;
-        ahead += static_cast<int>(apart > bound);
-        behind += static_cast<int>(apart < -bound);
+        const base::Duration beyond = unexplained(closed_[i]);
+        ahead += static_cast<int>(beyond > base::Duration{0});
+        behind += static_cast<int>(beyond < base::Duration{0});
     }
     return std::max(ahead, behind) == static_cast<int>(windows_for_jump);
 }
@@ -88,27 +110,36 @@ ClockSync::Fit ClockSync::fit(base::TimePoint now) const
     });
     const base::Duration longest =
         best.round_trip + std::max(longer_least, best.round_trip / longer_share);
-    // Sums about the best one: equal offsets differ by exactly 0.
-    double n = 0.0, t = 0.0, tt = 0.0, x = 0.0, tx = 0.0, xx = 0.0;
+    // Sums about the best one: equal offsets differ by exactly 0. What a round trip is longer than
+    // the best may have spoilt its offset by half as much, so each weighs by the square of that.
+    double n = 0.0, w = 0.0, t = 0.0, tt = 0.0, x = 0.0, tx = 0.0, xx = 0.0;
     each_window([&](const Window& each) {
         if (each.round_trip > longest) return;
         const double time = base::to_seconds(each.at - now);
         const auto apart = static_cast<double>((each.offset - best.offset).count());
+        const auto longer = static_cast<double>((each.round_trip - best.round_trip).count());
+        const double precision = offset_noise_ns / (offset_noise_ns + longer / 2.0);
+        const double weight = precision * precision;
         n += 1.0;
-        t += time;
-        tt += time * time;
-        x += apart;
-        tx += time * apart;
-        xx += apart * apart;
+        w += weight;
+        t += weight * time;
+        tt += weight * time * time;
+        x += weight * apart;
+        tx += weight * time * apart;
+        xx += weight * apart * apart;
     });
     const base::Duration half_trip = best.round_trip / 2;
-    if (n < static_cast<double>(windows_for_skew)) return {now, best.offset, half_trip, 0.0};
-    const double spread = tt - t * t / n;
-    const double slope = spread > 0.0 ? (tx - t * x / n) / spread : 0.0; // ns per s
-    if (!(std::abs(slope) <= 1e3 * skew_max_ppm)) return {now, best.offset, half_trip, 0.0};
-    const double here = x / n - slope * t / n;
-    const double left = std::max(0.0, xx - x * x / n - slope * slope * spread);
-    const double error = std::sqrt(left / (n - 2.0) * (1.0 / n + (t / n) * (t / n) / spread));
+    const Fit best_alone{now, best.offset, half_trip, 0.0};
+    if (n < static_cast<double>(windows_for_skew)) return best_alone;
+    const double spread = tt - t * t / w;
+    const double fitted = spread > 0.0 ? (tx - t * x / w) / spread : 0.0; // ns per s
+    // Noise makes a large skew look a little too large; no crystal is twice as far out.
+    constexpr double slope_max = 1e3 * skew_max_ppm;
+    if (!(std::abs(fitted) <= 2.0 * slope_max)) return best_alone;
+    const double slope = std::clamp(fitted, -slope_max, slope_max);
+    const double here = x / w - slope * t / w;
+    const double left = std::max(0.0, xx - x * x / w - fitted * fitted * spread);
+    const double error = std::sqrt(left / (n - 2.0) * (1.0 / w + (t / w) * (t / w) / spread));
     return {now, best.offset + rounded(here), half_trip + rounded(2.0 * error), 1e-9 * slope};
 }
 

@@ -30,11 +30,11 @@ struct ClockEstimate {
 /// Estimates the other side's clock from echoes (NTP's offset, RFC 5905 section 8). Queueing delays
 /// both lengthen a round trip and spoil its offset, so of each second only the sample with the
 /// shortest round trip is kept, 64 seconds of them, and of these only those that are about as short
-/// as the shortest. A straight line through them gives offset and skew.
+/// as the shortest. A straight line through them, the shorter the weightier, gives offset and skew.
 ///
 /// What it says never steps once it has settled, in the first two seconds: it follows by 500 us a
-/// second at most. A clock that jumps (a machine that slept, a virtual one that was moved) is
-/// recognised after eight seconds; then it steps once.
+/// second at most. A clock that jumps (a machine that slept, a virtual one that was moved) makes it
+/// doubt at the first sample, is recognised after eight seconds, and then it steps once.
 class ClockSync {
 public:
     static constexpr base::Duration window{std::chrono::seconds{1}};
@@ -44,8 +44,9 @@ public:
     static constexpr double skew_max_ppm = 200.0; // crystals are a tenth of that apart
     static constexpr std::size_t windows_for_skew = 8;
     static constexpr std::size_t windows_for_jump = 8;
+    /// Beyond half the round trip, which bounds what queues and asymmetry can do to an offset.
     static constexpr base::Duration jump_least{std::chrono::milliseconds{50}};
-    static constexpr std::uint32_t samples_after_jump = 8;
+    static constexpr std::uint32_t samples_needed = 8; // that agree, one after the other
 
     /// Ignores samples with a negative round trip or an offset of more than ten years.
     void add(const ClockSample& sample);
@@ -56,7 +57,8 @@ public:
     [[nodiscard]] std::optional<ClockEstimate> estimate() const;
     /// How often the other side's clock has jumped.
     [[nodiscard]] std::uint32_t jumps() const { return jumps_; }
-    /// After a jump, until enough samples agree: nothing should be predicted from the estimate.
+    /// From a sample that no queue explains, or a jump, until enough samples agree: nothing should
+    /// be predicted from the estimate.
     [[nodiscard]] bool is_in_doubt() const { return agreeing_left_ > 0; }
 
     void reset() { *this = ClockSync{}; }
@@ -81,6 +83,8 @@ private:
     };
 
     void close_window();
+    [[nodiscard]] base::Duration unexplained(const Window& sample) const;
+    void consider(const Window& sample);
     [[nodiscard]] bool has_jumped() const;
     [[nodiscard]] Fit fit(base::TimePoint now) const;
     void follow(base::TimePoint now);

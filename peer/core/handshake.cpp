@@ -16,6 +16,8 @@ constexpr base::Duration start_away_max{std::chrono::seconds{1'000'001}};
 
 // By how much a message may overtake the one before.
 constexpr base::Duration ahead_max{std::chrono::seconds{10}};
+// When none was the newest for so long, the next is, whatever its stamp: a clock has jumped.
+constexpr base::Duration newest_for{std::chrono::seconds{1}};
 
 /// Rounded up, and 0 never: that says nothing.
 std::uint32_t in_milliseconds(base::Duration length)
@@ -161,15 +163,14 @@ void Handshake::on_echo(const std::optional<wire::Echo>& echo, base::TimePoint s
                         base::TimePoint arrived)
 {
     if (echo) clock_.add({echo->of, sent - echo->age, sent, arrived});
-    if (!last_heard_) {
-        last_heard_ = wire::Echo{sent, {}};
-        last_heard_at_ = arrived;
-        return;
-    }
-    // Their clock runs as fast as ours: a time far ahead is damaged, and would be the last.
-    const base::Duration ahead = sent - last_heard_->of;
-    const bool is_newer = ahead > base::Duration{0};
-    if (!is_newer || ahead > (arrived - last_heard_at_) + ahead_max) return;
+    const auto is_next = [&] {
+        const base::Duration passed = arrived - last_heard_at_;
+        if (std::chrono::abs(passed) > newest_for) return true;
+        // Their clock runs as fast as ours: a time far ahead is damaged, and would be the last.
+        const base::Duration ahead = sent - last_heard_->of;
+        return ahead > base::Duration{0} && ahead <= passed + ahead_max;
+    };
+    if (last_heard_ && !is_next()) return;
     last_heard_ = wire::Echo{sent, {}};
     last_heard_at_ = arrived;
 }

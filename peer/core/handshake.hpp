@@ -80,7 +80,13 @@ public:
     [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
 
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
-    [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.estimate(); }
+    /// The other side's clock, to predict from: nullopt before the first echo, and while in doubt.
+    [[nodiscard]] std::optional<ClockEstimate> clock() const
+    {
+        return clock_.is_in_doubt() ? std::nullopt : clock_.estimate();
+    }
+    /// How it was found.
+    [[nodiscard]] const ClockSync& clock_sync() const { return clock_; }
     /// Whether the other side has been heard in this run of it.
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
     /// Its id; 0 before it was met.

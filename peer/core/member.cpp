@@ -12,6 +12,7 @@ Member::Member(const Config& config)
       handshake_{config.introduction, config.start_set_by},
       remote_{config.staleness, config.stale},
       sequences_{config.tick},
+      meter_{config.measures_path ? std::make_unique<PathMeter>() : nullptr},
       tick_{config.tick}
 {}
 
@@ -40,6 +41,7 @@ void Member::begin_session(base::TimePoint now)
     agreed_at_ = now;
     remote_.forget();
     sequences_.forget();
+    if (meter_) *meter_ = PathMeter{};
     last_body_ = now;
     states_without_body_ = 0;
     gone_ = false;
@@ -78,7 +80,10 @@ Member::Heard Member::on_state(const wire::State& state, base::TimePoint arrived
     handshake_.on_state();
     handshake_.on_echo(state.echo, state.sent, arrived);
     last_heard_ = arrived;
+    if (meter_) meter_->on_state(state, arrived, handshake_.clock());
     Heard heard{.taken = remote_.update(state, arrived)};
+    const std::uint32_t jumps = handshake_.clock_sync().jumps();
+    heard.clock_jumped = std::exchange(jumps_told_, jumps) < jumps;
     if (heard.taken) {
         sequences_.on_taken(state, arrived);
         heard.body_missed = misses_body(state, arrived);

@@ -4,9 +4,11 @@
 
 #include "peer/core/handshake.hpp"
 #include "peer/core/outbox.hpp"
+#include "peer/core/path_meter.hpp"
 #include "peer/core/remote.hpp"
 #include "peer/core/sequence_guard.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace hapnet::peer {
@@ -36,6 +38,7 @@ public:
         Staleness staleness{};
         Stale stale = Stale::drop;
         base::Duration tick{std::chrono::milliseconds{1}};
+        bool measures_path = false;
     };
     explicit Member(const Config& config);
 
@@ -55,8 +58,9 @@ public:
     /// Whether it goes on although it has said goodbye; then the goodbye is forgotten.
     [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
     struct Heard {
-        bool taken = false;       // newer than what was known
-        bool body_missed = false; // from now on: the first time in this run
+        bool taken = false;        // newer than what was known
+        bool body_missed = false;  // from now on: the first time in this run
+        bool clock_jumped = false; // its clock, against this one
     };
     [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint arrived);
     /// True the first time in a session.
@@ -69,6 +73,9 @@ public:
     [[nodiscard]] Handshake& handshake() { return handshake_; }
     [[nodiscard]] const Remote& remote() const { return remote_; }
     [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
+    /// What the path to it and back has done since the session with it began; nothing was measured
+    /// where that was not asked for.
+    [[nodiscard]] PathsReport paths() const { return meter_ ? meter_->report() : PathsReport{}; }
     /// Its id: as it was named, or as it has said; 0: neither.
     [[nodiscard]] std::uint16_t id() const { return id_ != 0 ? id_ : handshake_.id(); }
     [[nodiscard]] bool is_gone() const { return gone_; } // it said goodbye
@@ -109,6 +116,7 @@ private:
     Handshake handshake_;
     Remote remote_;
     SequenceGuard sequences_;
+    std::unique_ptr<PathMeter> meter_; // large, and only where asked for
     base::Duration tick_;
     Outbox<wire::Datagram, 8> outbox_;
     Numbering current_;
@@ -124,8 +132,9 @@ private:
     Goodbye goodbye_;
     base::TimePoint last_body_; // of the other side, or the session's agreement
     std::uint32_t states_without_body_ = 0;
-    bool body_missed_ = false; // and a person has been told
-    bool lost_ = false;        // it fell silent
+    bool body_missed_ = false;     // and a person has been told
+    bool lost_ = false;            // it fell silent
+    std::uint32_t jumps_told_ = 0; // of its clock, in this run
 };
 
 } // namespace hapnet::peer

@@ -77,7 +77,8 @@ Member::Config member_of(const Settings& settings)
     Member::Config config{.introduction = settings.introduction,
                           .staleness = settings.staleness,
                           .stale = base_options(settings.algorithm).stale,
-                          .tick = settings.tick};
+                          .tick = settings.tick,
+                          .measures_path = settings.measures_paths};
     config.introduction.length = settings.length;
     return config;
 }
@@ -178,6 +179,7 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
     const Member::Heard heard = other.on_state(state, arrived);
     ++(heard.taken ? counters_.states : counters_.outdated);
     if (heard.body_missed) tell(Event::no_body, &other);
+    if (heard.clock_jumped) tell(Event::clock_jumped, &other);
     const ReceivedState received{.state = state,
                                  .arrived = arrived,
                                  .taken = heard.taken,

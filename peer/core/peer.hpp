@@ -42,6 +42,7 @@ struct Settings {
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration length{std::chrono::seconds{30}}; // of the session, from its start
+    bool measures_paths = false;                     // to the others, for statistics; 80 KiB each
 };
 
 /// The phase of a session. Its last 3 s (half of it, when it is shorter than 6 s) are hands off.
@@ -60,8 +61,9 @@ enum class Event : std::uint8_t {
     refused,   // the two cannot play together: see refusal()
     hands_off,
     ended,
-    stopped, // before there was a session
-    no_body, // states come, but none that tells where the body is
+    stopped,      // before there was a session
+    no_body,      // states come, but none that tells where the body is
+    clock_jumped, // the other side's, against this one
 };
 
 /// Counters of received messages, and of those that could not be used.

@@ -16,6 +16,16 @@ constexpr int servo_priority = 45;    // above the emulator's, below the kernel'
 constexpr int receive_rounds_max = 8; // of up to 64 datagrams
 constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
+OtherStatus describe_other(const Member& other)
+{
+    const ClockSync& clock = other.handshake().clock_sync();
+    return {.id = other.id(),
+            .clock = clock.estimate(),
+            .is_clock_in_doubt = clock.is_in_doubt(),
+            .clock_jumps = clock.jumps(),
+            .paths = other.paths()};
+}
+
 } // namespace
 
 Servo::Servo(const Parts& parts)
@@ -133,7 +143,8 @@ void Servo::describe(ServoStatus& status) const
     status.line = line::status_of(parts_.line, last_tick_);
     status.messages = peer.counters();
     status.session = peer.session();
-    status.clock = peer.clock();
+    status.others_count = peer.others().size();
+    std::ranges::transform(peer.others(), status.others.begin(), describe_other);
     status.refusal = peer.refusal();
     status.calibration = parts_.rig.calibration();
     status.governor_state = governor.state();

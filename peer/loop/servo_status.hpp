@@ -11,6 +11,9 @@
 #include "proto/net/real_time.hpp"
 #include "proto/record/rows.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace hapnet::peer::loop {
@@ -26,7 +29,16 @@ struct LoopCounters {
     std::uint64_t unrecorded = 0; // datagrams of a flood that the record leaves out
 };
 
-/// The status of a peer after one of its ticks; statistics are made from it. 19 KiB.
+/// One of the others: its clock, and the path to it and back.
+struct OtherStatus {
+    std::uint16_t id = 0;               // 0: not known yet
+    std::optional<ClockEstimate> clock; // also while it is in doubt
+    bool is_clock_in_doubt = false;
+    std::uint32_t clock_jumps = 0;
+    PathsReport paths;
+};
+
+/// The status of a peer after one of its ticks; statistics are made from it. 20 KiB.
 struct ServoStatus {
     base::TimePoint at;
     base::Duration elapsed{}; // since the first tick
@@ -37,7 +49,8 @@ struct ServoStatus {
     line::Status line;
     Counters messages;
     std::optional<Session> session;
-    std::optional<ClockEstimate> clock;
+    std::array<OtherStatus, circle_max - 1> others{};
+    std::size_t others_count = 0;
     std::optional<wire::ByeReason> refusal;
     device::CalibrationStep calibration = device::CalibrationStep::done;
     device::GovernorState governor_state = device::GovernorState::off;

@@ -94,7 +94,7 @@ json session_json(const Run& run)
 {
     const auto& session = run.status.session;
     if (!session) return nullptr;
-    const auto& clock = run.status.clock;
+    const auto& clock = run.status.others.front().clock;
     json out{{"number", session->number},
              {"seed", session->seed},
              {"role", session->is_left ? "L" : "R"},
@@ -104,6 +104,56 @@ json session_json(const Run& run)
     if (clock) {
         out["clock_offset_ms"] = base::to_seconds(clock->offset) * 1e3;
         out["clock_uncertainty_ms"] = base::to_seconds(clock->uncertainty) * 1e3;
+    }
+    return out;
+}
+
+json milliseconds(base::Duration duration) { return base::to_seconds(duration) * 1e3; }
+
+json path_json(const PathReport& path)
+{
+    json out{{"delay_ms", nullptr}, {"jitter_ms", nullptr}, {"age_ms", nullptr}};
+    const auto put = [&out](const char* key, const std::optional<TimeQuantiles>& times) {
+        if (!times) return;
+        out[key] = {{"p50", milliseconds(times->p50)},
+                    {"p99", milliseconds(times->p99)},
+                    {"max", milliseconds(times->max)}};
+    };
+    put("delay_ms", path.delay);
+    put("jitter_ms", path.jitter);
+    if (const auto& age = path.age) {
+        out["age_ms"] = {{"mean", milliseconds(age->mean)},
+                         {"peak_max", milliseconds(age->peak_max)}};
+    }
+    return out;
+}
+
+json clock_json(const loop::OtherStatus& other)
+{
+    if (!other.clock) return nullptr;
+    return {{"offset_ms", milliseconds(other.clock->offset)},
+            {"uncertainty_ms", milliseconds(other.clock->uncertainty)},
+            {"skew_ppm", other.clock->skew_ppm},
+            {"in_doubt", other.is_clock_in_doubt},
+            {"jumps", other.clock_jumps}};
+}
+
+json others_json(const loop::ServoStatus& status)
+{
+    json out = json::array();
+    for (std::size_t i = 0; i < status.others_count; ++i) {
+        const loop::OtherStatus& other = status.others.at(i);
+        const ArrivalCounts& arrived = other.paths.arrived;
+        json in = path_json(other.paths.in);
+        in["sent"] = arrived.sent;
+        in["received"] = arrived.received;
+        in["duplicates"] = arrived.duplicates;
+        in["reordered"] = arrived.reordered;
+        in["loss"] = arrived.loss ? json(*arrived.loss) : json{};
+        out.push_back({{"id", other.id != 0 ? json(other.id) : json{}},
+                       {"clock", clock_json(other)},
+                       {"in", std::move(in)},
+                       {"out", path_json(other.paths.out)}});
     }
     return out;
 }
@@ -303,6 +353,7 @@ json statistics_json(const Run& run)
     json out = configuration_json(run.options, run.device);
     out.erase("started_unix_s");
     out["session"] = session_json(run);
+    out["others"] = others_json(run.status);
     out["secure"] = secure_json(run);
     out["tick"] = tick_json(run.status.loop);
     out["messages"] = messages_json(run);

@@ -48,6 +48,7 @@ void DeadReckoning::hear(const ReceivedState& received)
     base_.hear(received);
     const auto age = one_way_delay(received);
     if (age) delay_.add(*age);
+    is_clock_known_ = received.clock.has_value();
     if (!received.taken) return;
     const wire::BodyState* const body = received.state.bodies.first();
     if (body == nullptr && !newest_) return;
@@ -91,7 +92,7 @@ base::Duration DeadReckoning::horizon() const
 {
     switch (options_.horizon.law) {
     case Horizon::Law::none: break;
-    case Horizon::Law::one_way: return delay_.mean();
+    case Horizon::Law::one_way: return is_clock_known_ ? delay_.mean() : base::Duration{0};
     case Horizon::Law::packet_age: return newest_ ? newest_->age : base::Duration{0};
     case Horizon::Law::fixed: return options_.horizon.fixed;
     }

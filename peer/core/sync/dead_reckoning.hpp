@@ -127,6 +127,7 @@ private:
     DeadReckoningOptions options_;
     BaseAlgorithm base_;
     OneWayDelay delay_;
+    bool is_clock_known_ = false; // when the newest message came
     std::optional<Fix> newest_;
     base::Velocity velocity_;
     std::optional<Course> course_; // while a body follows with a blend

@@ -146,6 +146,28 @@ TEST(Path, ThatIsSecondsSlowerOneWayKeepsStatesUsable)
     }
 }
 
+TEST(ClockJump, IsDoubtedAtOnceAndToldWhenItIsSure)
+{
+    World world{under(Task::t3, {.delay = emulator::constant(delay)})};
+    run_until_started(world);
+    world.run_for(5s);
+    world.side(1).clock_ahead = 400ms;
+    world.run_for(delay - 2ms);
+    for (const std::size_t i : {0U, 1U}) EXPECT_TRUE(world.side(i).peer().clock()) << i;
+    world.run_for(4ms); // its new stamps have come
+    EXPECT_FALSE(world.side(0).peer().clock());
+    world.run_for(delay); // and echoes of them have gone back
+    for (const std::size_t i : {0U, 1U}) EXPECT_FALSE(world.side(i).peer().clock()) << i;
+    world.run_for(10s);
+    const std::array<base::Duration, 2> ahead{400ms, -400ms};
+    for (const std::size_t i : {0U, 1U}) {
+        const Player& side = world.side(i);
+        ASSERT_TRUE(side.peer().clock()) << i;
+        EXPECT_EQ(side.peer().clock()->offset, ahead.at(i)) << i;
+        EXPECT_EQ(std::count(side.events.begin(), side.events.end(), Event::clock_jumped), 1) << i;
+    }
+}
+
 TEST(Goodbye, FadesTheOthersForceWithin50MsOfItsArrival)
 {
     World world = squeezing();

@@ -49,6 +49,7 @@ TEST(LabOptions, HoldWhatWasTyped)
     EXPECT_EQ(explain.tick, 1ms);
     EXPECT_EQ(command_of<ExportCommand>({"export", "a.rec", "--csv", "--rows", "messages"}).rows,
               ExportRows::messages);
+    EXPECT_EQ(command_of<ExportCommand>({"export", "a.rec", "b.rec", "--csv"}).other, "b.rec");
     EXPECT_EQ(command_of<ReplayCommand>({"replay", "a.rec", "--algorithm", "dr"}).algorithm,
               "dead-reckoning");
 }

@@ -7,6 +7,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <spdlog/fmt/fmt.h>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace hapnet::lab::records {
 namespace {
@@ -122,12 +126,63 @@ TEST(Csv, CountsTimeFromT0OrElseFromTheFirstTick)
 TEST(Csv, ShowsAMessageAndLeavesCellsEmptyForWhatIsNone)
 {
     Recording recording{1};
-    recording.session(1s).message(9, epoch + 2s, start + 3ms);
+    EXPECT_FALSE(remote_csv_zero(recording.content()));
+    recording.session({.start = start, .length = 1s, .remote_offset = -3001500us, .session = 1})
+        .message(9, epoch + 2s, start + 3ms);
     auto row = recording.content().messages.front();
-    EXPECT_EQ(message_csv_header(), "time_s,tick,size_bytes,session,sequence,sent_s");
-    EXPECT_EQ(csv_line(row, start), "0.003000000,0,86,1,9,2.000000000");
+    const auto remote_zero = remote_csv_zero(recording.content());
+    EXPECT_EQ(message_csv_header(), "time_s,tick,size_bytes,session,sequence,sent_s,sent_time_s");
+    EXPECT_EQ(csv_line(row, start, remote_zero), "0.003000000,0,86,1,9,2.000000000,0.001500000");
+    EXPECT_EQ(csv_line(row, start, std::nullopt), "0.003000000,0,86,1,9,2.000000000,");
     row.bytes.fill(std::byte{0});
-    EXPECT_EQ(csv_line(row, start), "0.003000000,0,86,,,");
+    EXPECT_EQ(csv_line(row, start, remote_zero), "0.003000000,0,86,,,,");
+}
+
+/// The lines of a joined CSV, by their cells.
+std::vector<std::vector<std::string>> joined(const record::Record& a, const record::Record& b)
+{
+    std::vector<std::vector<std::string>> rows;
+    const auto session = common_session(a, b);
+    EXPECT_TRUE(session);
+    if (!session) return rows;
+    for_each_joined_csv_line(*session, [&](const std::string& line) {
+        std::istringstream cells{line + ',' /* an empty last one counts */};
+        rows.emplace_back();
+        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+    });
+    return rows;
+}
+
+TEST(JoinedCsv, PutsToEachTickOfOneTheLastOfTheOtherThatIsNotLater)
+{
+    const auto number = [](record::TickRow& row, base::Duration time) {
+        row.tick = static_cast<std::uint64_t>(time / 1ms);
+    };
+    Recording a{1, "one boot"};
+    a.session({.start = start, .length = 1s, .remote_offset = 2s, .session = 1});
+    a.ticks(0ms, 6ms, Phase::running, number);
+    // Its clock is 2 s ahead: its ticks are half a millisecond later than A's, and two are missing.
+    Recording b{2, "another boot"};
+    b.session({.start = start + 2s, .length = 1s, .session = 1});
+    b.ticks(2001500us, 2003500us, Phase::hands_off, number);
+    b.ticks(2004500us, 2005500us, Phase::hands_off, number);
+    const std::string header = joined_csv_header();
+    const auto columns = static_cast<std::size_t>(std::ranges::count(header, ',')) + 1;
+    ASSERT_TRUE(header.starts_with("time_s,a_tick,a_late_us,"));
+    const auto half = columns / 2;
+    EXPECT_NE(header.find(",a_governor,b_time_s,b_tick,"), std::string::npos);
+    const auto rows = joined(a.content(), b.content());
+    ASSERT_EQ(rows.size(), 6U);
+    const std::vector<std::string> times{
+        "", "", "0.001500000", "0.002500000", "0.002500000", "0.004500000"};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        ASSERT_EQ(rows[i].size(), columns) << i;
+        EXPECT_EQ(rows[i][0], fmt::format("0.00{}000000", i));
+        EXPECT_EQ(rows[i][1], std::to_string(i));
+        EXPECT_EQ(rows[i][5], "running");
+        EXPECT_EQ(rows[i][half], times[i]) << i;
+        EXPECT_EQ(rows[i][half + 5], times[i].empty() ? "" : "hands_off") << i;
+    }
 }
 
 } // namespace

@@ -258,5 +258,38 @@ TEST(Handshake, EchoesTheNewestMessageWithItsAgeUpToWhatTheWireHolds)
     EXPECT_FALSE(handshake.echo(now - 1ns));
 }
 
+TEST(Handshake, EchoesWhatComesAfterAClockHasJumpedOnceNothingWasNewestForASecond)
+{
+    for (const base::Duration jump : {base::Duration{7h}, base::Duration{-7h}}) {
+        Handshake handshake{introduction(0)};
+        const base::TimePoint now{10h};
+        handshake.on_echo(std::nullopt, now, now);
+        handshake.on_echo(std::nullopt, now + 1s + jump, now + 1s);
+        EXPECT_EQ(handshake.echo(now + 1s), (wire::Echo{now, 1s}));
+        handshake.on_echo(std::nullopt, now + 1001ms + jump, now + 1001ms);
+        EXPECT_EQ(handshake.echo(now + 1001ms), (wire::Echo{now + 1001ms + jump, 0ms}));
+    }
+}
+
+TEST(Handshake, TellsNoClockWhileItIsInDoubt)
+{
+    Handshake handshake{introduction(0)};
+    const base::TimePoint now{10h};
+    const auto hear = [&](base::Duration at, base::Duration ahead) {
+        handshake.on_echo(wire::Echo{now + at - 40ms, {}}, now + at - 20ms + ahead, now + at);
+    };
+    for (base::Duration at{0}; at < 3s; at += 10ms) hear(at, 7h);
+    ASSERT_TRUE(handshake.clock());
+    EXPECT_EQ(handshake.clock()->offset, 7h);
+    hear(3s, 7h + 71ms); // half the round trip and 50 ms are 70 ms
+    EXPECT_FALSE(handshake.clock());
+    EXPECT_TRUE(handshake.clock_sync().estimate());
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_FALSE(handshake.clock()) << i;
+        hear(3001ms + i * 1ms, 7h);
+    }
+    EXPECT_TRUE(handshake.clock());
+}
+
 } // namespace
 } // namespace hapnet::peer

@@ -98,5 +98,36 @@ TEST_F(Shown, SaysAFaultAndItsCureBeforeAllElse)
         << says();
 }
 
+TEST_F(Shown, HasTheClockOfEachOtherAndThePathsToItAndBack)
+{
+    const auto others = [&] { return statistics_json({options, status, "a device"})["others"]; };
+    EXPECT_TRUE(others().empty());
+    status.others_count = 2;
+    EXPECT_EQ(others()[0]["clock"], nullptr);
+    EXPECT_EQ(others()[0]["in"]["loss"], nullptr);
+    EXPECT_EQ(others()[0]["out"]["age_ms"], nullptr);
+    loop::OtherStatus& other = status.others[1];
+    other.id = 3;
+    other.clock = ClockEstimate{.offset = -2s, .uncertainty = 40ms, .skew_ppm = 12.5};
+    other.is_clock_in_doubt = true;
+    other.clock_jumps = 1;
+    other.paths.arrived.sent = 4;
+    other.paths.arrived.received = 3;
+    other.paths.arrived.loss = 0.25;
+    other.paths.in.delay = TimeQuantiles{.p50 = 1ms, .p99 = 2ms, .max = 3ms};
+    other.paths.out.age = StateAge{.mean = 4ms, .peak_max = 5ms};
+    const auto shown = others()[1];
+    EXPECT_EQ(shown["id"], 3);
+    EXPECT_EQ(shown["clock"]["offset_ms"], -2000.0);
+    EXPECT_EQ(shown["clock"]["uncertainty_ms"], 40.0);
+    EXPECT_EQ(shown["clock"]["skew_ppm"], 12.5);
+    EXPECT_EQ(shown["clock"]["in_doubt"], true);
+    EXPECT_EQ(shown["clock"]["jumps"], 1);
+    EXPECT_EQ(shown["in"]["loss"], 0.25);
+    EXPECT_EQ(shown["in"]["delay_ms"]["p99"], 2.0);
+    EXPECT_EQ(shown["in"]["jitter_ms"], nullptr);
+    EXPECT_EQ(shown["out"]["age_ms"]["peak_max"], 5.0);
+}
+
 } // namespace
 } // namespace hapnet::peer::monitor

@@ -54,6 +54,22 @@ TEST(DeadReckoning, LooksAheadByTheMeanDelayOrThisMessagesOwnOrAFixedTimeOrNotAt
     EXPECT_NEAR(at_15_ms(no_horizon), 1.2 + 0.3 * 3.0, nm);
 }
 
+TEST(DeadReckoning, LooksAheadByNoDelayWhileTheClockIsInDoubt)
+{
+    for (const Horizon horizon : {Horizon{}, Horizon{Horizon::Law::packet_age, {}}}) {
+        Copy copy = copy_with({.velocity = VelocityRule::sender, .horizon = horizon});
+        copy.hear({.sequence = 1, .sent_ms = 0.0, .body_mm = 0.0}, 10.0);
+        copy.hear({.sequence = 2, .sent_ms = 1.0, .body_mm = 0.3}, 11.0);
+        EXPECT_EQ(copy.algorithm.horizon(), 10ms);
+        copy.clock.reset();
+        copy.hear({.sequence = 3, .sent_ms = 2.0, .body_mm = 0.6}, 12.0);
+        EXPECT_EQ(copy.algorithm.horizon(), 0ms);
+        copy.clock = ClockEstimate{};
+        copy.hear({.sequence = 4, .sent_ms = 3.0, .body_mm = 0.9}, 13.0);
+        EXPECT_EQ(copy.algorithm.horizon(), 10ms);
+    }
+}
+
 TEST(DeadReckoning, CountsAnOvertakenMessageInTheDelayAndNowhereElse)
 {
     Copy copy = copy_with({});
