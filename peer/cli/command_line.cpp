@@ -44,7 +44,7 @@ Examples:
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --record a.rec
   hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --record b.rec
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --device falcon --force-limit 500mN
-  hapnet-peer --key peer-1.key --listen 0.0.0.0:7000 --remote 203.0.113.2:7000 --task T3
+  hapnet-peer --key peer-1.key --listen 0.0.0.0:7000 --remote 203.0.113.2:7000
 Each pair runs in two terminals. The second pair needs hapnet-emulator with --listen-a :7001
 --listen-b :7002 between them. The last but one is for a device in your hand: read
 docs/use/hardware.md, and run doctor and self-test first. The last is for two buildings: the other
