@@ -106,7 +106,7 @@ private:
     /// The rows of each way, in the order of the ways, whenever they come: those of the first way
     /// go to the file, those of the others to a file without a name, in pieces, until the end.
     struct Fates {
-        Fates(const std::string& path, bool has_several_paths);
+        Fates(const std::string& path, bool of_several);
         ~Fates();
         Fates(const Fates&) = delete;
         Fates& operator=(const Fates&) = delete;

@@ -121,7 +121,7 @@ void fix_segment(const Segment& segment)
 void fix_ipv4(std::span<std::byte> packet)
 {
     if (packet.size() < ipv4_header_bytes_min || at8(packet, 0) >> 4 != 4) return;
-    const std::size_t header = (at8(packet, 0) & 0xfU) * 4U;
+    const std::size_t header = std::size_t{4} * (at8(packet, 0) & 0xfU);
     const std::size_t total = at16(packet, 2);
     if (header < ipv4_header_bytes_min || header > total || total > packet.size()) return;
     put16(packet, 10, 0);

@@ -23,7 +23,7 @@ constexpr double owed_max = 0.01;
 constexpr double little = 5e-7;
 // An island that keeps less of its motion than this lost a tenth of its impulses.
 constexpr double slowed = 0.9;
-constexpr int rounds_max = 4;
+constexpr int energy_rounds_max = 4;
 // One that keeps less than this goes back to where it began.
 constexpr double halted = 0.5;
 
@@ -198,7 +198,7 @@ void JointEnergy::settle(const Tick& tick)
     const JointSolver& solver = tick.solver.joints();
     // What grips may give shrinks with the speeds that are left.
     bool any = true;
-    for (int round = 0; any && round < rounds_max; ++round) {
+    for (int round = 0; any && round < energy_rounds_max; ++round) {
         any = false;
         add_all(tick);
         for (std::size_t g = 0; g < solver.groups().size(); ++g) {

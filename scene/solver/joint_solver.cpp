@@ -14,7 +14,7 @@ namespace hapnet::scene {
 namespace {
 
 // Which limits push is found by trying: so often at most. Each try leaves no limit that pulls.
-constexpr std::uint32_t rounds_max = 8;
+constexpr std::uint32_t joint_rounds_max = 8;
 
 // A pivot this small beside its diagonal is rounding: the row depends on those before it, as in a
 // closed loop. See Ldl.
@@ -161,7 +161,7 @@ double JointSolver::solve(const Group& group, const Task& task)
 {
     list_rows(group, task.mode);
     double first_miss = 0.0;
-    for (std::uint32_t round = 0; round < rounds_max; ++round) {
+    for (std::uint32_t round = 0; round < joint_rounds_max; ++round) {
         double miss = 0.0;
         const bool has_changed = choose_active(task, round > 0, miss);
         if (miss == 0.0) break;

@@ -89,7 +89,7 @@ std::string to_text(const Fates& fates)
 
 namespace {
 
-enum Column : std::size_t {
+enum FateColumn : std::size_t {
     direction,
     number,
     verdict,
@@ -103,7 +103,7 @@ enum Column : std::size_t {
     column_count,
 };
 
-using Columns = std::array<std::string_view, column_count>;
+using FateCells = std::array<std::string_view, column_count>;
 
 /// Takes what stands before the next `separator` off the front of `text`; all of it when there is
 /// none.
@@ -115,14 +115,14 @@ std::string_view take(std::string_view& text, char separator)
     return taken;
 }
 
-base::Result<Columns> columns_of(std::string_view line)
+base::Result<FateCells> columns_of(std::string_view line)
 {
     const auto separators = std::count(line.begin(), line.end(), ',');
     if (separators != column_count - 1) {
         return base::fail(
             fmt::format("expected {} columns, found {}", int{column_count}, separators + 1));
     }
-    Columns columns;
+    FateCells columns;
     for (auto& column : columns) column = take(line, ',');
     return columns;
 }
@@ -187,7 +187,7 @@ base::Result<Flips> flips_of(std::string_view text)
     return read;
 }
 
-base::Result<Displacement> displacement_of(const Columns& columns)
+base::Result<Displacement> displacement_of(const FateCells& columns)
 {
     Displacement read;
     if (!columns[places].empty()) {
@@ -210,7 +210,7 @@ base::Result<Displacement> displacement_of(const Columns& columns)
     return read;
 }
 
-base::Result<Fate> delivery_of(const Columns& columns)
+base::Result<Fate> delivery_of(const FateCells& columns)
 {
     Fate fate;
     if (!columns[cause].empty())
@@ -232,7 +232,7 @@ base::Result<Fate> delivery_of(const Columns& columns)
     return fate;
 }
 
-base::Result<Fate> drop_of(const Columns& columns)
+base::Result<Fate> drop_of(const FateCells& columns)
 {
     const auto why = base::named<DropCause>(columns[cause]);
     if (!why) return base::fail(fmt::format("cause: unknown cause '{}'", columns[cause]));
@@ -244,7 +244,7 @@ base::Result<Fate> drop_of(const Columns& columns)
     return Fate{.drop = *why};
 }
 
-base::Result<Fate> fate_of(const Columns& columns)
+base::Result<Fate> fate_of(const FateCells& columns)
 {
     const bool is_drop = columns[verdict] == "drop";
     if (!is_drop && columns[verdict] != "deliver") {

@@ -16,7 +16,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-constexpr std::size_t delays_min = 100; // for the law of the test
+constexpr std::size_t fitted_delays_min = 100; // for the law of the test
 
 /// Sorted, in nanoseconds, with their moments.
 struct Values {
@@ -197,7 +197,7 @@ DelayFit fit_delays(const MeasuredWay& way, std::optional<base::Duration> spacin
     std::vector<base::Duration> apart;
     for (std::size_t i = 0; i < arrived.size(); i += stride) apart.push_back(arrived[i]);
     fit.independent = apart.size();
-    if (apart.size() < delays_min || (fit.correlation > noise && !spacing)) return fit;
+    if (apart.size() < fitted_delays_min || (fit.correlation > noise && !spacing)) return fit;
     const Values independent{apart};
     for (DelayModel& model : fit.models) {
         model.distance = distance_of(model, independent);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double alpha = 1e-3;
 
-double in_ms(base::Duration duration)
+double milliseconds_of(base::Duration duration)
 {
     return std::chrono::duration<double, std::milli>{duration}.count();
 }
@@ -35,7 +35,7 @@ public:
         const DelayModel& nearest = fit.models.front();
         way_.delay = constant(nearest.base);
         if (nearest.name == "constant") {
-            return say(fmt::format("delay: always {:.3f} ms", in_ms(nearest.base)));
+            return say(fmt::format("delay: always {:.3f} ms", milliseconds_of(nearest.base)));
         }
         way_.jitter = {nearest.jitter, fit.correlation_time};
         for (const DelayModel& model : fit.models) say(in_words(model));
@@ -52,7 +52,8 @@ public:
             const double rho = fit.correlation;
             say(fmt::format("delay: neighbours have the correlation {:.3f} +- {:.3f}, which makes "
                             "correlation_time {:.3g} ms",
-                            rho, std::sqrt((1.0 - rho * rho) / n), in_ms(fit.correlation_time)));
+                            rho, std::sqrt((1.0 - rho * rho) / n),
+                            milliseconds_of(fit.correlation_time)));
         } else if (!spacing && fit.correlation > 0.1) {
             say(fmt::format("delay: neighbours have the correlation {:.3f}; the time between "
                             "datagrams is not known, so correlation_time is not either",
@@ -124,7 +125,7 @@ base::Result<Lesson> learn(const Measurement& measurement)
     auto& [up, down] = lesson.profile.path;
     if (spacing) {
         lesson.remarks.push_back(fmt::format("{} datagrams, one every {:.4g} ms",
-                                             measured_down.lost.size(), in_ms(*spacing)));
+                                             measured_down.lost.size(), milliseconds_of(*spacing)));
     }
     WayLearner learner{measured_up ? "down" : "round trip", down, lesson.remarks};
     learner.learn_delays(measured_down, spacing);

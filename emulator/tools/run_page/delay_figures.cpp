@@ -40,7 +40,7 @@ std::vector<Bin> bins_of(const Json& place)
     return bins;
 }
 
-double in_ms(base::Duration duration) { return 1e3 * base::to_seconds(duration); }
+double ms_of(base::Duration duration) { return 1e3 * base::to_seconds(duration); }
 
 std::vector<Bin> drawn_bins(std::span<const Fate> fates)
 {
@@ -50,7 +50,7 @@ std::vector<Bin> drawn_bins(std::span<const Fate> fates)
     }
     std::vector<Bin> bins;
     for (const auto& bin : histogram.filled_bins()) {
-        bins.push_back({in_ms(bin.low), in_ms(bin.high), static_cast<double>(bin.count)});
+        bins.push_back({ms_of(bin.low), ms_of(bin.high), static_cast<double>(bin.count)});
     }
     return bins;
 }

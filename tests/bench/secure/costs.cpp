@@ -134,6 +134,7 @@ HandshakeCost handshake(std::uint8_t seed)
             if (!here.has_key(now)) continue;
             wire::Hello hello;
             hello.nonce = static_cast<std::uint32_t>(side + 1);
+            hello.peer_id = 1;
             hello.task = wire::TaskName::from_text("P1").value();
             const wire::Datagram plain = wire::encode(hello);
             Bytes room{plain.bytes().begin(), plain.bytes().end()};
