@@ -12,16 +12,18 @@ namespace {
 
 constexpr const char* between_description =
     "Runs two commands, A and B, each in a network of its own, with the emulator on the only wire "
-    "between them: any protocol passes, not UDP alone. No root is needed.\n"
+    "between them: any protocol passes, not UDP alone. No root is needed where the system lets "
+    "users make namespaces.\n"
     "\n"
     "A is 10.0.0.1 and fd00::1, B is 10.0.0.2 and fd00::2; both know them as $HAPNET_A, $HAPNET_B, "
     "$HAPNET_A6, $HAPNET_B6, and as the hosts a, b, a6 and b6. B starts first. A starts when B "
-    "listens, after 1 s at the latest. When A ends, B is told to.";
+    "listens, after 1 s at the latest. When A ends, B gets SIGTERM.";
 
 constexpr const char* between_footer =
     R"(up is A to B, down is B to A. The conditions hold for each IP packet from the first one on;
-ARP and the neighbour discovery of IPv6 pass undisturbed. What the commands print
-stays theirs: the emulator's own lines go to stderr. The terminal belongs to A; B reads nothing.
+ARP and the neighbour discovery of IPv6 pass undisturbed unless --all-frames is given. What the
+commands print stays theirs: the emulator's own lines go to stderr. The terminal belongs to A; B
+reads nothing.
 
 Examples:
   hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
@@ -31,7 +33,7 @@ Examples:
 
 constexpr const char* between_exit_codes =
     R"(  N  as COMMAND_A ended; 128 + n when signal n killed it
-  1  the run failed
+  1  the run failed, or did not meet a --require or a [[check]] of its profile
   2  bad usage or input
   3  the system refused (no user namespaces, no such command))";
 
@@ -43,15 +45,15 @@ constexpr const char* bridge_description =
 
 constexpr const char* bridge_footer =
     R"(up is from IF_A to IF_B. The conditions hold for each IP packet; ARP, the neighbour discovery
-of IPv6 and what is not IP pass undisturbed. What the emulator sent is never forwarded. A loop, one
-machine that is heard on both sides, ends the run.
+of IPv6 and what is not IP pass undisturbed unless --all-frames is given. What the emulator sent is
+never forwarded. A loop, one machine that is heard on both sides, ends the run.
 
 Examples:
   hapnet-emulator bridge eth1 eth2 --delay 40ms --loss 1%
   hapnet-emulator bridge eth1 eth2 --profile lte --control emulator.sock)";
 
 constexpr const char* bridge_exit_codes = R"(  0  done
-  1  the run failed, or there is a loop
+  1  the run failed, did not meet a --require or a [[check]], or there is a loop
   2  bad usage or input
   3  the system refused (no CAP_NET_RAW, no such interface))";
 

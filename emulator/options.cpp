@@ -169,7 +169,8 @@ void add_conditions(cli::Command& command, ConditionOptions& into, bool own_rate
                    cli::into(into.seed, cli::seed));
     command
         .option("--set", "KEY=VALUE",
-                "The same by a key: up.delay=20ms, and of one of several paths 1-2.delay=20ms, "
+                "Sets a condition by its key: up.delay=20ms, and of one of several paths "
+                "1-2.delay=20ms, "
                 "wan.up.loss=5% or client.3.delay=80ms; may be repeated",
                 by_key(into))
         .repeated();

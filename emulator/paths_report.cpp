@@ -216,8 +216,9 @@ std::string summary(const LinksRun& run)
 std::string summary(const UpstreamRun& run)
 {
     const Sums sums = sums_of(run.port);
-    auto text = fmt::format("{:.1f} s, seed {}, {} clients in all\n", base::to_seconds(run.elapsed),
-                            run.scenario.seed.value(), run.port.clients_seen());
+    auto text =
+        fmt::format("{:.1f} s, seed {}, clients in all: {}\n", base::to_seconds(run.elapsed),
+                    run.scenario.seed.value(), run.port.clients_seen());
     if (const auto refused = run.port.refused(); refused > 0) {
         text +=
             fmt::format("{} datagrams found no place for their client: raise --clients\n", refused);

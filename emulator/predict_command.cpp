@@ -171,9 +171,10 @@ base::Result<int> run(const PredictOptions& options)
     if (!profile) return tl::unexpected{profile.error()};
     for (const std::string& warning : netem_warnings) net::say("hapnet-emulator", warning);
     if (const auto paths = paths_in(*profile); !paths.empty()) {
-        net::say("hapnet-emulator",
-                 fmt::format("this is of paths without conditions of their own; {} have some",
-                             fmt::join(paths, ", ")));
+        net::say(
+            "hapnet-emulator",
+            fmt::format("this describes a path without conditions of its own; these have some: {}",
+                        fmt::join(paths, ", ")));
     }
     tools::Stream stream = options.stream;
     const auto seed = seed_of(options.conditions, *profile);

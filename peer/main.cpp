@@ -76,9 +76,9 @@ base::Result<Endpoints> look_up(const Options& options)
     const bool is_local = endpoints.remote.is_loopback() && endpoints.listen.is_loopback();
     if (!is_local && !options.key.is_given() && !options.insecure) {
         return base::fail(
-            "forces from a network need a key: make one for each host with 'hapnet-peer keygen "
-            "--peers 2 --out keys' and give each its own with --key FILE; on a network where you "
-            "trust everybody --insecure does without");
+            "a session over a network needs a key: make one for each host with 'hapnet-peer keygen "
+            "--peers 2 --out keys' and give each its own file with --key FILE; or use --insecure "
+            "on a network where you trust every host");
     }
     if (endpoints.listen.is_loopback() && !endpoints.remote.is_loopback()) {
         const std::uint16_t given = endpoints.listen.port();

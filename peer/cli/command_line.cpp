@@ -26,7 +26,7 @@ constexpr const char* footer =
   T4  both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down
   T5  both press the cube against the static one; in turn one lets go suddenly
   T6  L taps the cube at 3 Hz while R rests on its far side
-  T7  T3 for two to eight peers: by turns of their ids they act as L and as R
+  T7  T3 in the scene carry, which has room for eight hands; a session has two so far
 Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). Both peers
 need the same task, and should be given the same --duration. A peer waits for the other one without
 a limit; --duration counts from their common start.

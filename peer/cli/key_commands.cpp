@@ -23,7 +23,7 @@ namespace {
 constexpr const char* keygen_description =
     "Makes keys for peers on different hosts. Give each host its own file and no other: by scp or "
     "a "
-    "USB stick, not by mail. Only who has such a file can move a hand.\n"
+    "USB stick, not by mail. Only a host with such a file can move a hand.\n"
     "  keygen --peers 2 --out DIR   a file for each host: DIR/peer-1.key, DIR/peer-2.key\n"
     "  keygen --own --id 1 --out FILE   this host's file alone; the hosts then tell each other "
     "their public keys, and nothing secret travels";
@@ -105,7 +105,7 @@ void KeyCommands::add_keygen(cli::Command& program)
     keygen_->flag("--own", "A file for this host alone; its public key is printed", own_);
     keygen_->option("--id", "1..31", "With --own: the id of this host's peer",
                     cli::into(id_, base::Count{1, secure::KeyFile::id_max}));
-    keygen_->option("--name", "NAME", "Of the circle, the same on all its hosts (default lab)",
+    keygen_->option("--name", "NAME", "Name of the circle, the same on all its hosts (default lab)",
                     cli::into(name_, parse_circle_name));
     keygen_
         ->option("--out", "DIR|FILE", "Where the files go; with --own the file itself",

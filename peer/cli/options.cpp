@@ -215,7 +215,8 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
                    cli::into(asked.named, parse_named_peer));
     program.option("--scene", "FILE|NAME",
                    "A scene in TOML, or a built-in one by name; it has one movable body that does "
-                   "not turn (default: the task's; lift for T4, wall for T5, paper for the others)",
+                   "not turn (default: the task's; lift for T4, wall for T5, carry "
+                   "for T7, paper for the others)",
                    [&options](const std::string& text) { return take_scene(text, options); });
     add_force_options(program, options);
     program.option("--task", "P1|T1|...|T7", "What the hands do, simulated or yours (default P1)",
@@ -240,8 +241,8 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
                    cli::into(options.duration, base::Time{std::chrono::seconds{1}}));
     add_key_options(program, options.key);
     program.flag("--insecure",
-                 "Allow a session without a key over a real network, where anybody may then move "
-                 "this hand",
+                 "Allow a session without a key over a real network, where any host that can send "
+                 "here can then move this hand",
                  options.insecure);
     program.flag("--untested-device",
                  "Allow a session on a real device that has not passed a self-test in the last 30 "

@@ -340,7 +340,8 @@ void JointEnergy::slow(const Tick& tick, Account& island, std::uint32_t root, do
     // What rounding took of the momentum, where bodies are far apart and turn fast.
     const glm::dvec3 missing = (island.momentum - momentum) / island.mass;
     for (Slot slot = 0; slot < bodies.awake; ++slot)
-        if (root_of(tick, slot) == root) bodies.velocity.put(slot, bodies.velocity.at(slot) + missing);
+        if (root_of(tick, slot) == root)
+            bodies.velocity.put(slot, bodies.velocity.at(slot) + missing);
 }
 
 } // namespace hapnet::scene

@@ -133,7 +133,8 @@ base::Result<Lesson> learn(const Measurement& measurement)
     learner.learn_order(measured_down);
     if (measured_up) {
         WayLearner{"up", up, lesson.remarks}.learn_delays(*measured_up, spacing);
-        lesson.remarks.emplace_back("Which way lost a datagram is not told: all losses are down");
+        lesson.remarks.emplace_back("The file does not say on which way a datagram was lost: all "
+                                    "losses are put into the way down");
         return lesson;
     }
     const auto whole = std::get<ConstantLaw>(down.delay.law).value;

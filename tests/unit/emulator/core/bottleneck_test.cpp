@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr base::TimePoint start{1h};
 
 /// 1 Mbit/s, 25 bytes of overhead, 1000 bytes of queue: 100 bytes of payload take 1 ms.
-constexpr Rate megabit{1'000'000, 25, 1000};
+const Rate megabit{1'000'000, 25, 1000};
 
 using Sent = std::vector<std::pair<std::uint64_t, base::TimePoint>>;
 
