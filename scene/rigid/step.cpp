@@ -5,6 +5,7 @@
 #include "scene/collide/sweep.hpp"
 #include "scene/hand/midpoint.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/rigid/step_velocities.hpp"
 
 #include <algorithm>
 #include <cmath>

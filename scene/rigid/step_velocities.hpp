@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-//
-// The velocities of a tick: what acts on bodies from outside, and what their contacts change.
+#pragma once
+
+// The velocities of a tick: what acts on bodies from outside, and what their contacts change. Part
+// of step.cpp, which makes the steppers.
 #include "scene/rigid/step.hpp"
 
 namespace hapnet::scene {
@@ -129,19 +131,5 @@ void RigidStepper<broad_phase>::solve_anew_what_gains(const WorldConfig& config,
     state.tick_cost.visits += solver_.solve_velocities_anew(velocity_limits(), gaining).visits;
     set_mean_motions();
 }
-
-template void RigidStepper<BroadPhase::none>::integrate_velocities(const WorldConfig&, WorldState&);
-template bool RigidStepper<BroadPhase::none>::solve_velocities(TickCost&);
-template void RigidStepper<BroadPhase::none>::solve_anew_what_gains(const WorldConfig&,
-                                                                    WorldState&);
-template void RigidStepper<BroadPhase::all_pairs>::integrate_velocities(const WorldConfig&,
-                                                                        WorldState&);
-template bool RigidStepper<BroadPhase::all_pairs>::solve_velocities(TickCost&);
-template void RigidStepper<BroadPhase::all_pairs>::solve_anew_what_gains(const WorldConfig&,
-                                                                         WorldState&);
-template void RigidStepper<BroadPhase::grid>::integrate_velocities(const WorldConfig&, WorldState&);
-template bool RigidStepper<BroadPhase::grid>::solve_velocities(TickCost&);
-template void RigidStepper<BroadPhase::grid>::solve_anew_what_gains(const WorldConfig&,
-                                                                    WorldState&);
 
 } // namespace hapnet::scene
