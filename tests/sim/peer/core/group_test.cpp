@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // More than two peers with one cube, over networks as bad as drawn from a seed.
+#include "tests/support/seeds.hpp"
 #include "tests/unit/peer/core/group.hpp"
 
 #include <cmath>
@@ -194,7 +195,7 @@ TEST_P(Groups, OfAnySizeAgreeInTheEndWhateverHappened)
     for (const auto& peer : group.peers) EXPECT_TRUE(peer->finished()) << size;
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, Groups, testing::Range(std::uint64_t{0}, std::uint64_t{50}));
+INSTANTIATE_TEST_SUITE_P(Seed, Groups, testing::Range(std::uint64_t{0}, test::seeds(50)));
 
 } // namespace
 } // namespace hapnet::peer

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // Sessions under an attacker who owns the path, on networks as bad as they come.
+#include "tests/support/seeds.hpp"
 #include "tests/support/session/attacked_session.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ void expect_to_hold(std::uint64_t seed, Seal seal)
 
 class Mallory : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(Mallory, BringsNoForceBeyondItsLimits) { expect_to_hold(GetParam(), Seal::none); }
-INSTANTIATE_TEST_SUITE_P(Seed, Mallory, testing::Range(std::uint64_t{0}, std::uint64_t{50}));
+INSTANTIATE_TEST_SUITE_P(Seed, Mallory, testing::Range(std::uint64_t{0}, test::seeds(50)));
 
 class MalloryWithoutKey : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(MalloryWithoutKey, HasNothingAcceptedThatTheOtherSideHasNotSealed)
@@ -27,7 +28,7 @@ TEST_P(MalloryWithoutKey, HasNothingAcceptedThatTheOtherSideHasNotSealed)
     expect_to_hold(GetParam(), Seal::keys);
 }
 INSTANTIATE_TEST_SUITE_P(Seed, MalloryWithoutKey,
-                         testing::Range(std::uint64_t{0}, std::uint64_t{30}));
+                         testing::Range(std::uint64_t{0}, test::seeds(30)));
 
 } // namespace
 } // namespace hapnet::test

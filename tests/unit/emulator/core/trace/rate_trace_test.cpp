@@ -4,6 +4,7 @@
 
 #include "emulator/core/bottleneck.hpp"
 #include "proto/base/random.hpp"
+#include "tests/support/seeds.hpp"
 
 #include <chrono>
 #include <deque>
@@ -167,7 +168,7 @@ std::vector<Arrival> traffic(std::uint64_t seed)
 TEST(RateTrace, DeliversExactlyWhatTheRuleOfMahimahiDelivers)
 {
     std::size_t compared = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    for (std::uint64_t seed = 0; seed < test::seeds(40); ++seed) {
         const auto schedule = cellular(seed);
         const auto arrivals = traffic(seed);
         const TraceTiming timing{.repeat = seed % 4 != 0,
@@ -179,7 +180,7 @@ TEST(RateTrace, DeliversExactlyWhatTheRuleOfMahimahiDelivers)
         EXPECT_EQ(of_bottleneck(law, arrivals, 1h), expected) << "seed " << seed;
         compared += expected.size();
     }
-    EXPECT_GT(compared, 40'000U);
+    EXPECT_GT(compared, 1000 * test::seeds(40));
 }
 
 TEST(RateTrace, CarriesTheRestOfAnOpportunityToWhatWaits)

@@ -6,6 +6,7 @@
 #include "emulator/core/profile/text.hpp"
 #include "emulator/tools/learn/delays.hpp"
 #include "emulator/tools/learn/losses.hpp"
+#include "tests/support/seeds.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -52,7 +53,7 @@ Law best_loss(const LossLaw& law, std::size_t count, std::uint64_t seed = 42)
 
 TEST(LearnLosses, FindsIndependentLossesWithinTheirStandardError)
 {
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::seeds(5); ++seed) {
         const auto law = best_loss<RandomLoss>(RandomLoss{3_percent}, 20'000, seed);
         EXPECT_NEAR(law.share.fraction(), 0.03, 4.0 * std::sqrt(0.03 * 0.97 / 20'000));
     }
@@ -60,7 +61,7 @@ TEST(LearnLosses, FindsIndependentLossesWithinTheirStandardError)
 
 TEST(LearnLosses, FindsGilbertsChainWithinItsStandardErrors)
 {
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::seeds(5); ++seed) {
         const auto law = best_loss<Gilbert>(Gilbert{5_percent, 4.0}, 50'000, seed);
         // Some 625 runs, geometric with mean 4: sd sqrt(12); the share has 7 times the variance
         // of independent losses, (1 + decay) / (1 - decay) with decay = 0.737.
