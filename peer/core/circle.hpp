@@ -42,8 +42,8 @@ public:
     /// Says hello to those to whom it is due.
     void say_hello(base::TimePoint now);
 
-    /// The start, seed and length that all have in common; its number and side are those with one
-    /// of them, in a pair with the other one.
+    /// The start, seed and length that all have in common. Its number and side are of use in a pair
+    /// alone: among more each member has its own, see Member::session() and rank().
     [[nodiscard]] const std::optional<Session>& session() const;
     /// The place of this peer among all in the order of their ids, from 0. In a pair with an
     /// unknown other one: 0 until it is met.
