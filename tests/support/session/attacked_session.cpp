@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/session/attacked_session.hpp"
 
+#include "tests/support/multiplications.hpp"
 #include "tests/support/session/mallory.hpp"
 #include "tests/support/session/work_of_5s.hpp"
 
@@ -185,6 +186,7 @@ private:
     void judge(std::size_t index);
     void judge_forces(std::size_t index);
     void judge_agreement();
+    void judge_multiplications();
     [[nodiscard]] bool is_over() const;
     template <typename... Values>
     void complain(fmt::format_string<Values...> words, Values&&... values)
@@ -206,6 +208,7 @@ private:
     std::array<Clock, 2> clocks_;
     std::vector<Death> deaths_;
     std::array<Watch, 2> watches_;
+    std::uint64_t multiplied_ = 0; // on the curve, before the step
     AttackedSession result_;
 };
 
@@ -250,7 +253,8 @@ AttackedSession Play::run() &&
     bool is_healed = false;
     while (!is_over() && !result_.complaint) {
         set_clocks();
-        let_die();
+        let_die(); // those that are started again multiply before their first tick
+        multiplied_ = multiplications();
         world_.step();
         for (const std::size_t side : {0U, 1U}) judge(side);
         judge_agreement();
@@ -259,6 +263,7 @@ AttackedSession Play::run() &&
             mallory_.leave();
         }
         mallory_.act();
+        judge_multiplications();
     }
     const bool must_agree = !result_.is_forged && !result_.compared;
     if (must_agree) complain("the two never played together once all was well");
@@ -373,6 +378,16 @@ void Play::judge_agreement()
     const double apart =
         std::abs(world_.side(0).peer().position().x() - world_.side(1).peer().position().x());
     if (apart > agreement_m) complain("the copies are {} mm apart", 1e3 * apart);
+}
+
+/// Of each side at most one in its tick, and none for what comes in.
+void Play::judge_multiplications()
+{
+    const std::uint64_t made = multiplications() - multiplied_;
+    std::uint64_t ticks = 0;
+    for (const std::size_t side : {0U, 1U})
+        if (world_.is_alive(side) && world_.side(side).stepped_at == world_.now()) ++ticks;
+    if (made > ticks) complain("{} multiplications on the curve in {} ticks", made, ticks);
 }
 
 } // namespace

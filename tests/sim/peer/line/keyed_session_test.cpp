@@ -6,6 +6,7 @@
 #include "emulator/core/profile/text.hpp"
 #include "lab/virtual_time/world.hpp"
 #include "peer/line/status.hpp"
+#include "tests/support/multiplications.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +45,8 @@ bool has_event(const VirtualWorld& world, std::size_t side, Event event)
     return std::ranges::count(world.side(side).events, event) > 0;
 }
 
-/// Two players with keys, 3 ms apart, and everything that side 0 ever sent.
+/// Two players with keys, 3 ms apart, everything that side 0 ever sent, and how often each has
+/// multiplied on the curve since the last step began.
 class Wire {
 public:
     explicit Wire(const Setting& setting)
@@ -56,18 +58,30 @@ public:
     [[nodiscard]] base::TimePoint now() const { return now_; }
     [[nodiscard]] const std::vector<Bytes>& seen() const { return seen_; }
 
+    [[nodiscard]] std::uint64_t multiplied(std::size_t side) const { return multiplied_.at(side); }
+
+    void give(std::size_t side, std::span<const std::byte> bytes)
+    {
+        const std::uint64_t before = test::multiplications();
+        players_.at(side).receive(bytes, now_);
+        multiplied_.at(side) += test::multiplications() - before;
+    }
+
     void step()
     {
         now_ += 1ms;
+        multiplied_ = {};
         for (const std::size_t side : {0U, 1U}) {
             auto& inbox = inboxes_.at(side);
             while (!inbox.empty() && inbox.front().due <= now_) {
-                players_.at(side).receive(inbox.front().bytes, inbox.front().due);
+                give(side, inbox.front().bytes);
                 inbox.pop_front();
             }
         }
         for (const std::size_t side : {0U, 1U}) {
+            const std::uint64_t before = test::multiplications();
             players_.at(side).step(now_);
+            multiplied_.at(side) += test::multiplications() - before;
             players_.at(side).send_all([&](std::span<const std::byte> bytes, const auto&) {
                 inboxes_.at(1 - side).push_back({Bytes{bytes.begin(), bytes.end()}, now_ + 3ms});
                 if (side == 0) seen_.emplace_back(bytes.begin(), bytes.end());
@@ -83,9 +97,29 @@ private:
 
     std::array<lab::virtual_time::VirtualPlayer, 2> players_;
     std::array<std::deque<OnTheWay>, 2> inboxes_;
+    std::array<std::uint64_t, 2> multiplied_{};
     std::vector<Bytes> seen_;
     base::TimePoint now_{1000s};
 };
+
+/// Genuine initiations to the other side, of as many earlier runs.
+std::vector<Bytes> initiations_of(const Setting& setting, std::size_t side, std::uint32_t runs)
+{
+    std::vector<Bytes> captured;
+    for (std::uint32_t run = 1000; run < 1000 + runs; ++run) {
+        lab::virtual_time::VirtualPlayer player{setting, {side, run}};
+        player.date_ahead = -1h;
+        base::TimePoint now{900s};
+        const std::size_t before = captured.size();
+        while (captured.size() == before) {
+            player.step(now += 1ms);
+            player.send_all([&](std::span<const std::byte> bytes, const auto&) {
+                captured.emplace_back(bytes.begin(), bytes.end());
+            });
+        }
+    }
+    return captured;
+}
 
 /// What an attacker sends to side 1 in a tick, who sees all that it hears and has no key: plain
 /// messages in the name of the other side that push, buzz and throw, end and start sessions, and
@@ -95,7 +129,7 @@ void attack(Wire& world, int tick)
     constexpr std::size_t victim = 1;
     const std::vector<Bytes>& heard = world.seen();
     auto& player = world.side(victim);
-    const auto give = [&](std::span<const std::byte> bytes) { player.receive(bytes, world.now()); };
+    const auto give = [&](std::span<const std::byte> bytes) { world.give(victim, bytes); };
     wire::State state;
     state.session = player.peer().session() ? player.peer().session()->number : 1;
     state.sequence = static_cast<std::uint32_t>(tick + 500);
@@ -274,6 +308,56 @@ TEST(KeyedSession, DoesNotNoticeThatItsKeyIsRenewed)
         EXPECT_FALSE(has_event(world, side, Event::restarted));
         const Counters& counters = world.side(side).peer().counters();
         EXPECT_LE(counters.sent - counters.states, 150U);
+    }
+}
+
+TEST(KeyedSession, MultipliesEightTimesAHandshakeAndOnceATickAtMost)
+{
+    Setting setting = keyed_setting("");
+    setting.length = 125s; // one renewal of the key
+    Wire world{setting};
+    std::uint64_t multiplied = 0;
+    for (int tick = 0; tick < 124'000; ++tick) {
+        world.step();
+        for (const std::size_t side : {0U, 1U}) {
+            ASSERT_LE(world.multiplied(side), 1U) << tick;
+            multiplied += world.multiplied(side);
+        }
+    }
+    EXPECT_EQ(multiplied, 2U * 8U + 2U); // two for what the higher id began at the same time
+}
+
+TEST(KeyedSession, MultipliesOnceATickAtMostUnderAFloodOfInitiations)
+{
+    Setting setting = keyed_setting("");
+    setting.length = 125s;
+    Wire world{setting};
+    const std::array captured{initiations_of(setting, 1, 200), initiations_of(setting, 0, 200)};
+    std::uint64_t multiplied = 0;
+    for (int tick = 0; tick < 124'000; ++tick) {
+        world.step();
+        // At the beginning, and around the renewal of the key at 110 s; by turns as fast as they
+        // are let in, and so fast that a cookie is asked for.
+        const int every = tick / 1000 % 2 == 0 ? 60 : 1;
+        const bool is_flooded = tick < 5'000 || tick >= 100'000;
+        for (const std::size_t side : {0U, 1U}) {
+            if (!is_flooded) continue;
+            const auto& own = captured.at(side);
+            if (tick % every == 0) world.give(side, own.at(static_cast<std::size_t>(tick) % 200));
+            Bytes forged = own.front(); // its MAC does not fit
+            forged[static_cast<std::size_t>(tick) % forged.size()] ^= std::byte{1};
+            world.give(side, forged);
+            ASSERT_LE(world.multiplied(side), 1U) << tick;
+            multiplied += world.multiplied(side);
+        }
+    }
+    EXPECT_GT(multiplied, 500U);
+    for (const std::size_t side : {0U, 1U}) {
+        const Status::Key key = *status_of(world.side(side).line, world.now()).key;
+        EXPECT_EQ(key.counts.rekeys, 1U) << side;
+        EXPECT_GT(key.counts.cookies, 5'000U) << side;
+        EXPECT_GT(key.counts.replayed, 250U) << side; // opened, and found to be old
+        EXPECT_FALSE(std::ranges::count(world.side(side).events, Event::lost)) << side;
     }
 }
 

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace hapnet::test {
+
+/// How often this program has multiplied on the curve of the handshakes so far. Linking it replaces
+/// libsodium's crypto_scalarmult() and crypto_scalarmult_base(), which are all that
+/// proto/secure/primitives.cpp calls for that.
+[[nodiscard]] std::uint64_t multiplications();
+
+} // namespace hapnet::test
