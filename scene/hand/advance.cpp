@@ -202,9 +202,10 @@ HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
     std::size_t rows = 0;
     const HandEnergy energy = advance_otherwise(
         {body, dynamics, springs, work.first(springs.size()), modes, rows}, start, is_done, tick);
-    // What stiff hands against each other leave of the velocity is what their impulses leave, to
-    // the last digit that such large ones have.
-    if (springs.size() > 1 && dynamics.drag == 0.0) {
+    // What stiff hands leave of the velocity is what their impulses leave, to the last digit that
+    // such large ones have: they may cancel each other, or bring the body to rest.
+    const bool is_stiff = springs.size() > 1 || !are_soft(dynamics, springs, tick);
+    if (is_stiff && dynamics.drag == 0.0) {
         glm::dvec3 impulse{0.0};
         for (std::size_t i = 0; i < springs.size(); ++i) impulse += work[i].impulse;
         body.velocity =

@@ -59,33 +59,36 @@ btScalar damping_of(const btCollisionObject* a, const btCollisionObject* b)
 
 class Bullet final : public Engine {
 public:
-    Bullet(const scene::Description& scene, const EngineOptions& options)
-        : scene_{scene},
+    Bullet(const Translation& all, const EngineOptions& options)
+        : scene_{all.scene},
           options_{options},
+          hands_{all},
           dispatcher_{&configuration_},
           world_{&dispatcher_, &broadphase_, &solver_, &configuration_}
     {
         gCalculateCombinedFrictionCallback = friction_of;
         gCalculateCombinedRestitutionCallback = restitution_of;
         gCalculateCombinedContactDampingCallback = damping_of;
-        world_.setGravity(bullet_of(scene.gravity));
+        world_.setGravity(bullet_of(scene_.gravity));
         if (!options.is_stock) tune();
-        for (const auto& body : scene.bodies) add(body);
-        for (const auto& plane : scene.planes) add(plane);
+        for (std::size_t i = 0; i < all.solids.size(); ++i) add(scene_.bodies[i], all.solids[i]);
+        for (const auto& plane : scene_.planes) add(plane);
+        for (const auto& joint : scene_.joints) add(joint, all.solids[joint.body].frame);
         if (options.hip_force == HipForce::native) {
-            for (std::uint32_t i = 0; i < scene.hands.count; ++i) add_hip();
+            for (std::uint32_t i = 0; i < scene_.hands.count; ++i) add_hip();
         }
     }
 
     ~Bullet() override
     {
+        for (const auto& joint : joints_) world_.removeConstraint(joint.get());
         for (const auto& body : bodies_) world_.removeRigidBody(body.get());
     }
 
     void set_hand(std::uint32_t index, const scene::HandInput& input) override
     {
-        const bool is_new = !hips_[index].present;
-        hips_[index] = input;
+        const bool is_new = !hands_.hips()[index].present;
+        hands_.set(index, input);
         if (options_.hip_force != HipForce::native) return;
         btRigidBody& hand = *bodies_[first_hip() + index];
         hand.getWorldTransform().setOrigin(bullet_of(input.position.value));
@@ -103,6 +106,8 @@ public:
             const btScalar drag = scalar_of(scene_.bodies[i].drag_ns_per_m);
             bodies_[i]->applyCentralForce({-drag * v.x(), 0, -drag * v.z()});
         }
+        if (!scene_.fields.empty()) apply_fields();
+        if (!driven_.empty()) drive();
         world_.stepSimulation(scalar_of(options_.tick_s), 0);
     }
 
@@ -152,11 +157,46 @@ private:
         body.setRestitution(scalar_of(material.restitution));
     }
 
-    void add(const scene::BodyDescription& one)
+    static std::unique_ptr<btCollisionShape> shape_of(const scene::BodyPart& part)
     {
-        btRigidBody& body =
-            add(std::make_unique<btBoxShape>(bullet_of(one.half)), one.movable ? one.mass_kg : 0.0,
-                btTransform{bullet_of(one.orientation), bullet_of(one.position.value)});
+        if (part.rounding == 0.0) return std::make_unique<btBoxShape>(bullet_of(part.half));
+        const btScalar radius = scalar_of(part.rounding);
+        const Core core = core_of(part);
+        if (core.half == 0.0) return std::make_unique<btSphereShape>(radius);
+        const btScalar length = scalar_of(2.0 * core.half);
+        if (core.axis == 0) return std::make_unique<btCapsuleShapeX>(radius, length);
+        if (core.axis == 1) return std::make_unique<btCapsuleShape>(radius, length);
+        return std::make_unique<btCapsuleShapeZ>(radius, length);
+    }
+
+    std::unique_ptr<btCollisionShape> shape_of(const Solid& solid)
+    {
+        if (solid.parts.size() == 1) return shape_of(solid.parts[0]);
+        auto whole = std::make_unique<btCompoundShape>();
+        for (const scene::BodyPart& part : solid.parts) {
+            shapes_.push_back(shape_of(part));
+            const btTransform place{bullet_of(glm::quat_cast(part.axes)), bullet_of(part.at)};
+            whole->addChildShape(place, shapes_.back().get());
+        }
+        return whole;
+    }
+
+    void add(const scene::BodyDescription& one, const Solid& solid)
+    {
+        const btTransform place{bullet_of(solid.frame.orientation),
+                                bullet_of(solid.frame.centre.value)};
+        btRigidBody& body = add(shape_of(solid), one.movable ? one.mass_kg : 0.0, place);
+        // For a capsule Bullet takes the box around it.
+        if (one.movable && !solid.is_box()) {
+            body.setMassProps(scalar_of(one.mass_kg), bullet_of(solid.moments));
+            body.updateInertiaTensor();
+        }
+        if (one.kinematic) {
+            body.setCollisionFlags(body.getCollisionFlags() |
+                                   btCollisionObject::CF_KINEMATIC_OBJECT);
+            body.forceActivationState(DISABLE_DEACTIVATION);
+            driven_.push_back(bodies_.size() - 1);
+        }
         give_skin(body, one.material);
         if (one.movable) {
             body.setLinearVelocity(bullet_of(one.velocity.value));
@@ -205,6 +245,64 @@ private:
         world_.addRigidBody(&body);
     }
 
+    /// Between a body and the world.
+    void add(const scene::JointDescription& joint, const scene::MassFrame& frame)
+    {
+        btRigidBody& body = *bodies_[joint.body];
+        const glm::dquat back = glm::conjugate(frame.orientation);
+        const btVector3 pivot = bullet_of(back * (joint.position - frame.centre).value);
+        const btVector3 axis = bullet_of(back * joint.axis);
+        if (joint.kind == scene::JointKind::hinge) {
+            joints_.push_back(std::make_unique<btHingeConstraint>(body, pivot, axis));
+        } else if (joint.kind == scene::JointKind::ball) {
+            joints_.push_back(std::make_unique<btPoint2PointConstraint>(body, pivot));
+        } else if (joint.kind == scene::JointKind::slider) {
+            const btTransform along{shortestArcQuat(btVector3{1, 0, 0}, axis), pivot};
+            joints_.push_back(std::make_unique<btSliderConstraint>(body, along, true));
+        } else {
+            joints_.push_back(spring_of(joint, body, back, pivot));
+        }
+        world_.addConstraint(joints_.back().get());
+    }
+
+    /// Along its first direction, in which every scene here leaves it.
+    static std::unique_ptr<btTypedConstraint> spring_of(const scene::JointDescription& joint,
+                                                        btRigidBody& body, const glm::dquat& back,
+                                                        const btVector3& pivot)
+    {
+        const glm::dvec3 line = (joint.position - joint.to_position).value;
+        const double length = glm::length(line);
+        const btTransform along{
+            shortestArcQuat(btVector3{1, 0, 0}, bullet_of(back * (line / length))), pivot};
+        auto spring = std::make_unique<btGeneric6DofSpring2Constraint>(body, along);
+        for (int i = 0; i < 6; ++i) spring->setLimit(i, 1, -1); // free
+        spring->enableSpring(0, true);
+        spring->setStiffness(0, scalar_of(joint.stiffness));
+        spring->setDamping(0, scalar_of(joint.damping));
+        spring->setEquilibriumPoint(0, scalar_of(joint.rest.value_or(length) - length));
+        return spring;
+    }
+
+    void apply_fields()
+    {
+        for (scene::BodyId i = 0; i < scene_.bodies.size(); ++i) {
+            if (!scene_.bodies[i].movable) continue;
+            bodies_[i]->applyCentralForce(bullet_of(force_of_fields(scene_, state(i))));
+        }
+    }
+
+    /// Bullet takes the velocity of a kinematic body from where it was put before.
+    void drive()
+    {
+        ++steps_;
+        for (const std::size_t i : driven_) {
+            const double time_s = options_.tick_s * steps_;
+            const glm::dvec3 way = time_s * scene_.bodies[i].velocity.value;
+            bodies_[i]->getWorldTransform().setOrigin(
+                bullet_of(scene_.bodies[i].position.value + way));
+        }
+    }
+
     void add_hip()
     {
         const btScalar far = scalar_of(1.0 + static_cast<double>(bodies_.size()));
@@ -226,8 +324,8 @@ private:
 
     void push(std::uint32_t index)
     {
-        const Load load = penalty(state(0), scene_.bodies[0].half, hips_[index], scene_.hands);
-        forces_[index] = load.force;
+        const Load load = hands_.on_body(index, state(0));
+        forces_[index] = load.force + hands_.on_planes(index);
         if (load.force == glm::dvec3{0.0}) return;
         bodies_[0]->activate();
         bodies_[0]->applyForce(bullet_of(load.force),
@@ -255,10 +353,13 @@ private:
 
     scene::Description scene_;
     EngineOptions options_;
+    HeldHands hands_;
     std::vector<std::unique_ptr<btCollisionShape>> shapes_;
     std::vector<std::unique_ptr<btRigidBody>> bodies_; // bodies, planes, hands
+    std::vector<std::unique_ptr<btTypedConstraint>> joints_;
     std::vector<std::size_t> dragged_;
-    Hips hips_ = absent_hips();
+    std::vector<std::size_t> driven_; // kinematic
+    int steps_ = 0;                   // that these have been driven
     std::array<glm::dvec3, scene::hands_max> forces_{};
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
@@ -272,8 +373,8 @@ private:
 } // namespace hapnet::bench
 
 extern "C" hapnet::bench::Engine*
-hapnet_bench_make_engine(const hapnet::scene::Description* scene,
+hapnet_bench_make_engine(const hapnet::bench::Translation* all,
                          const hapnet::bench::EngineOptions* options)
 {
-    return new hapnet::bench::Bullet{*scene, *options};
+    return new hapnet::bench::Bullet{*all, *options};
 }

@@ -25,7 +25,7 @@ public:
     virtual void set_hand(std::uint32_t index, const scene::HandInput& input) = 0;
     virtual void step() = 0;
     [[nodiscard]] virtual scene::BodyState state(scene::BodyId body) const = 0;
-    /// What a hand did to the bodies in the last step, N.
+    /// What a hand did to the bodies in the last step, N, and to the planes that hands feel.
     [[nodiscard]] virtual glm::dvec3 hip_force(std::uint32_t index) const = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "scene/world.hpp"
 #include "tests/bench/scene/peers.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hapnet::bench {
@@ -14,7 +15,11 @@ std::uint64_t guarded = 0; // of all worlds that have ended
 
 class Hapnet final : public Engine {
 public:
-    explicit Hapnet(scene::World world) : world_{std::move(world)} {}
+    explicit Hapnet(scene::World world)
+        : world_{std::move(world)},
+          feels_planes_{std::any_of(world_.frozen().planes.begin(), world_.frozen().planes.end(),
+                                    [](const auto& plane) { return plane.felt; })}
+    {}
     ~Hapnet() override { guarded += world_.state().interventions.guards(); }
 
     void set_hand(std::uint32_t index, const scene::HandInput& input) override
@@ -28,11 +33,13 @@ public:
     }
     [[nodiscard]] glm::dvec3 hip_force(std::uint32_t index) const override
     {
-        return world_.touch(index).on_body.value;
+        const scene::HandTouch& touch = world_.touch(index);
+        return feels_planes_ ? -touch.on_hand.value : touch.on_body.value;
     }
 
 private:
     scene::World world_;
+    bool feels_planes_;
 };
 
 } // namespace

@@ -64,8 +64,8 @@ std::string reference_of(const scene::Material& material, const EngineOptions& o
 /// A scene as MuJoCo reads it.
 class Text {
 public:
-    Text(const scene::Description& scene, const EngineOptions& options)
-        : scene_{scene}, options_{options}
+    Text(const Translation& all, const EngineOptions& options)
+        : all_{all}, scene_{all.scene}, options_{options}
     {}
 
     [[nodiscard]] std::string write() const
@@ -81,8 +81,8 @@ public:
             contacts, rows_per_contact * contacts, stack_of(contacts), options_.tick_s,
             words_of(scene_.gravity), options_.is_stock ? 1 : 100, integrator());
         for (const auto& plane : scene_.planes) text += geometry(plane);
-        for (const auto& body : scene_.bodies) text += element(body);
-        return text + "</worldbody>\n</mujoco>\n";
+        for (scene::BodyId i = 0; i < scene_.bodies.size(); ++i) text += element(i);
+        return text + sites() + "</worldbody>\n" + tendons() + "</mujoco>\n";
     }
 
 private:
@@ -121,8 +121,12 @@ private:
     }
 
     /// Only the coordinates that it has: what is locked is not there.
-    static std::string joints(const scene::BodyDescription& body)
+    [[nodiscard]] std::string joints(scene::BodyId id) const
     {
+        const auto& body = scene_.bodies[id];
+        for (const auto& joint : scene_.joints) {
+            if (joint.body == id && joint.kind != scene::JointKind::spring) return element(joint);
+        }
         const auto& locked = body.locked;
         const bool is_free =
             body.turning == scene::Turning::free && !locked.x && !locked.y && !locked.z;
@@ -132,15 +136,87 @@ private:
                            locked.z ? "" : "<joint type='slide' axis='0 0 1'/>");
     }
 
-    [[nodiscard]] std::string element(const scene::BodyDescription& body) const
+    /// In place of a free joint.
+    [[nodiscard]] std::string element(const scene::JointDescription& joint) const
     {
-        return fmt::format(
-            "<body pos='{}' quat='{}'>{}<geom type='box' size='{}' mass='{:.17g}' {}/></body>\n",
-            words_of(body.position.value), words_of(body.orientation),
-            body.movable ? joints(body) : "", words_of(body.half), body.mass_kg,
-            skin(body.material));
+        const scene::MassFrame& frame = all_.solids[joint.body].frame;
+        const glm::dquat back = glm::conjugate(frame.orientation);
+        const char* const type = joint.kind == scene::JointKind::hinge  ? "hinge"
+                                 : joint.kind == scene::JointKind::ball ? "ball"
+                                                                        : "slide";
+        return fmt::format("<joint type='{}' axis='{}' pos='{}'/>", type,
+                           words_of(back * joint.axis),
+                           words_of(back * (joint.position - frame.centre).value));
     }
 
+    [[nodiscard]] std::string element(const scene::BodyPart& part, double mass,
+                                      const scene::Material& material) const
+    {
+        const Core core = core_of(part);
+        glm::dquat turn = glm::quat_cast(part.axes);
+        std::string kind = "box", size = words_of(part.half);
+        if (part.rounding > 0.0) {
+            constexpr double root = std::numbers::sqrt2 / 2.0;
+            if (core.axis == 0) turn = turn * glm::dquat{root, 0.0, root, 0.0};
+            if (core.axis == 1) turn = turn * glm::dquat{root, -root, 0.0, 0.0};
+            kind = core.half == 0.0 ? "sphere" : "capsule";
+            size = fmt::format("{:.17g} {:.17g}", part.rounding, core.half);
+        }
+        return fmt::format("<geom type='{}' pos='{}' quat='{}' size='{}' mass='{:.17g}' {}/>", kind,
+                           words_of(part.at), words_of(turn), size, mass, skin(material));
+    }
+
+    [[nodiscard]] std::string element(scene::BodyId id) const
+    {
+        const auto& body = scene_.bodies[id];
+        const Solid& solid = all_.solids[id];
+        std::string inside = body.movable ? joints(id) : "";
+        if (!solid.is_box()) {
+            inside += fmt::format("<inertial pos='0 0 0' mass='{:.17g}' diaginertia='{}'/>",
+                                  body.mass_kg, words_of(solid.moments));
+        }
+        for (const auto& part : solid.parts) inside += element(part, body.mass_kg, body.material);
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            const auto& joint = scene_.joints[i];
+            if (joint.body != id || joint.kind != scene::JointKind::spring) continue;
+            const glm::dvec3 at = glm::conjugate(solid.frame.orientation) *
+                                  (joint.position - solid.frame.centre).value;
+            inside += fmt::format("<site name='on{}' pos='{}'/>", i, words_of(at));
+        }
+        return fmt::format("<body pos='{}' quat='{}'>{}</body>\n",
+                           words_of(solid.frame.centre.value), words_of(solid.frame.orientation),
+                           inside);
+    }
+
+    /// Where springs hold the world.
+    [[nodiscard]] std::string sites() const
+    {
+        std::string text;
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            const auto& joint = scene_.joints[i];
+            if (joint.kind != scene::JointKind::spring) continue;
+            text +=
+                fmt::format("<site name='to{}' pos='{}'/>\n", i, words_of(joint.to_position.value));
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::string tendons() const
+    {
+        std::string text;
+        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+            const auto& joint = scene_.joints[i];
+            if (joint.kind != scene::JointKind::spring) continue;
+            const double length = glm::length((joint.position - joint.to_position).value);
+            text += fmt::format("<tendon><spatial stiffness='{:.17g}' damping='{:.17g}' "
+                                "springlength='{:.17g}'><site site='on{}'/><site site='to{}'/>"
+                                "</spatial></tendon>\n",
+                                joint.stiffness, joint.damping, joint.rest.value_or(length), i, i);
+        }
+        return text;
+    }
+
+    const Translation& all_;
     const scene::Description& scene_;
     const EngineOptions& options_;
 };
@@ -171,9 +247,10 @@ Model compile(const std::string& text)
 
 class Mujoco final : public Engine {
 public:
-    Mujoco(const scene::Description& scene, const EngineOptions& options)
-        : scene_{scene}, model_{compile(Text{scene, options}.write())}
+    Mujoco(const Translation& all, const EngineOptions& options)
+        : scene_{all.scene}, hands_{all}, model_{compile(Text{all, options}.write())}
     {
+        const scene::Description& scene = scene_;
         for (scene::BodyId i = 0; i < scene.bodies.size(); ++i) resist(i);
         data_ = Data{mj_makeData(model_.get())};
         for (scene::BodyId i = 0; i < scene.bodies.size(); ++i) start(i);
@@ -181,11 +258,12 @@ public:
 
     void set_hand(std::uint32_t index, const scene::HandInput& input) override
     {
-        hips_[index] = input;
+        hands_.set(index, input);
     }
 
     void step() override
     {
+        if (!scene_.fields.empty()) apply_fields();
         if (scene_.hands.count > 0) push();
         mj_step(model_.get(), data_.get());
     }
@@ -196,6 +274,7 @@ public:
         state.position = scene_.bodies[body].position;
         state.orientation = scene_.bodies[body].orientation;
         const int joints = model_->body_jntnum[id_of(body)];
+        if (!scene_.joints.empty()) return joined_state(body);
         for (int i = 0; i < joints; ++i) add(state, model_->body_jntadr[id_of(body)] + i);
         return state;
     }
@@ -210,6 +289,17 @@ private:
     static int id_of(scene::BodyId body) { return static_cast<int>(body) + 1; }
 
     [[nodiscard]] bool is_free(int joint) const { return model_->jnt_type[joint] == mjJNT_FREE; }
+
+    /// Where a body with joints of its own is; how fast no scene here asks.
+    [[nodiscard]] scene::BodyState joined_state(scene::BodyId body) const
+    {
+        mj_kinematics(model_.get(), data_.get());
+        scene::BodyState state;
+        const mjtNum* const turn = data_->xquat + 4 * id_of(body);
+        state.position.value = from_numbers(data_->xpos + 3 * id_of(body));
+        state.orientation = {turn[0], turn[1], turn[2], turn[3]};
+        return state;
+    }
 
     /// Drag as damping of the two level coordinates, which the integrator treats implicitly.
     void resist(scene::BodyId body)
@@ -234,6 +324,11 @@ private:
             const int joint = model_->body_jntadr[id_of(body)] + i;
             mjtNum* const rate = data_->qvel + model_->jnt_dofadr[joint];
             const glm::dvec3 v = one.velocity.value;
+            if (model_->jnt_type[joint] == mjJNT_BALL) {
+                const glm::dvec3 w = glm::conjugate(one.orientation) * one.angular_velocity;
+                for (int axis = 0; axis < 3; ++axis) rate[axis] = w[axis];
+                continue;
+            }
             if (!is_free(joint)) {
                 *rate = glm::dot(v, from_numbers(model_->jnt_axis + 3 * joint));
                 continue;
@@ -260,33 +355,45 @@ private:
         }
     }
 
+    void apply_fields()
+    {
+        for (scene::BodyId i = 0; i < scene_.bodies.size(); ++i) {
+            const glm::dvec3 force = force_of_fields(scene_, state(i));
+            for (int axis = 0; axis < 3; ++axis)
+                data_->xfrc_applied[6 * id_of(i) + axis] = force[axis];
+        }
+    }
+
     /// The hands' forces on body 0, at its centre, with their torque.
     void push()
     {
         const scene::BodyState body = state(0);
         glm::dvec3 force{0.0}, torque{0.0};
         for (std::uint32_t i = 0; i < scene_.hands.count; ++i) {
-            const Load load = penalty(body, scene_.bodies[0].half, hips_[i], scene_.hands);
-            forces_[i] = load.force;
+            const Load load = hands_.on_body(i, body);
+            forces_[i] = load.force + hands_.on_planes(i);
             force += load.force;
             torque += glm::cross(load.point - body.position.value, load.force);
         }
+        if (!scene_.fields.empty()) force += force_of_fields(scene_, body);
         const std::array wrench{force.x, force.y, force.z, torque.x, torque.y, torque.z};
         std::copy(wrench.begin(), wrench.end(), data_->xfrc_applied + 6 * id_of(0));
     }
 
     scene::Description scene_;
+    HeldHands hands_;
     Model model_;
     Data data_;
-    Hips hips_ = absent_hips();
     std::array<glm::dvec3, scene::hands_max> forces_{};
 };
 
-/// It could turn about one axis of the world by a hinge, which no scene here asks for.
+/// It could turn about one axis of the world by a hinge, which no scene here asks for. It has no
+/// kinematic bodies: its mocap bodies are moved, and have no velocity where they touch.
 bool can_run(const scene::Description& scene)
 {
     const auto is_known = [](const scene::BodyDescription& body) {
         using scene::Turning;
+        if (body.kinematic) return false;
         return body.turning == Turning::free || body.turning == Turning::locked;
     };
     return scene.bodies.size() <= bodies_at_most &&
@@ -302,7 +409,7 @@ std::unique_ptr<Engine> make_mujoco(const scene::Description& scene, const Engin
     static const bool is_ready = hear_warnings();
     std::ignore = is_ready;
     if (!can_run(scene)) return nullptr;
-    return std::make_unique<Mujoco>(scene, options);
+    return std::make_unique<Mujoco>(translate(scene), options);
 }
 
 } // namespace hapnet::bench

@@ -39,9 +39,10 @@ struct Skin {
 
 class Ode final : public Engine {
 public:
-    Ode(const scene::Description& scene, const EngineOptions& options, Stepping stepping)
-        : scene_{scene}, options_{options}, stepping_{stepping}
+    Ode(const Translation& all, const EngineOptions& options, Stepping stepping)
+        : scene_{all.scene}, options_{options}, stepping_{stepping}, hands_{all}
     {
+        const scene::Description& scene = scene_;
         static const bool is_ready = initialise();
         std::ignore = is_ready;
         world_ = dWorldCreate();
@@ -50,9 +51,10 @@ public:
         contacts_ = dJointGroupCreate(0);
         dWorldSetGravity(world_, scene.gravity.x, scene.gravity.y, scene.gravity.z);
         if (options.sleeping) set_sleeping();
-        skins_.reserve(scene.bodies.size() + scene.planes.size() + scene.hands.count);
+        skins_.reserve(geometries_of(all) + scene.planes.size() + scene.hands.count);
         for (const auto& plane : scene.planes) add(plane);
-        for (const auto& body : scene.bodies) add(body);
+        for (std::size_t i = 0; i < all.solids.size(); ++i) add(scene.bodies[i], all.solids[i]);
+        for (const auto& joint : scene.joints) add(joint);
         if (options.hip_force == HipForce::native) {
             for (std::uint32_t i = 0; i < scene.hands.count; ++i) add_hip();
         }
@@ -67,7 +69,7 @@ public:
 
     void set_hand(std::uint32_t index, const scene::HandInput& input) override
     {
-        hips_[index] = input;
+        hands_.set(index, input);
         if (options_.hip_force == HipForce::native) {
             const auto& p = input.position.value;
             dGeomSetPosition(hip_geoms_[index], p.x, p.y, p.z);
@@ -79,6 +81,7 @@ public:
     {
         for (std::uint32_t i = 0; i < scene_.hands.count; ++i) push(i);
         resist();
+        if (!scene_.fields.empty()) apply_fields();
         dSpaceCollide(space_, this, &Ode::near);
         if (stepping_ == Stepping::quick) {
             dWorldQuickStep(world_, options_.tick_s);
@@ -146,31 +149,64 @@ private:
         give_skin(dCreatePlane(space_, n.x, n.y, n.z, plane.offset_m), plane.material, false);
     }
 
-    void add(const scene::BodyDescription& body)
+    static std::size_t geometries_of(const Translation& all)
     {
-        const glm::dvec3 edges = 2.0 * body.half;
-        const dGeomID geom = dCreateBox(space_, edges.x, edges.y, edges.z);
-        give_skin(geom, body.material, false);
-        const auto& p = body.position.value;
-        const dQuaternion q{body.orientation.w, body.orientation.x, body.orientation.y,
-                            body.orientation.z};
-        if (!body.movable) {
+        std::size_t count = 0;
+        for (const Solid& solid : all.solids) count += solid.parts.size();
+        return count;
+    }
+
+    /// A capsule lies along z in ODE.
+    static glm::dquat onto_z(const scene::BodyPart& part)
+    {
+        const double root = std::sqrt(0.5);
+        if (part.rounding == 0.0) return {1.0, 0.0, 0.0, 0.0};
+        const int axis = core_of(part).axis;
+        if (axis == 2) return {1.0, 0.0, 0.0, 0.0};
+        return axis == 0 ? glm::dquat{root, 0.0, root, 0.0} : glm::dquat{root, -root, 0.0, 0.0};
+    }
+
+    dGeomID geometry(const scene::BodyPart& part)
+    {
+        if (part.rounding == 0.0) {
+            const glm::dvec3 edges = 2.0 * part.half;
+            return dCreateBox(space_, edges.x, edges.y, edges.z);
+        }
+        const Core core = core_of(part);
+        return core.half == 0.0 ? dCreateSphere(space_, part.rounding)
+                                : dCreateCapsule(space_, part.rounding, 2.0 * core.half);
+    }
+
+    static std::array<double, 4> array_of(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
+
+    void add(const scene::BodyDescription& body, const Solid& solid)
+    {
+        const auto& p = solid.frame.centre.value;
+        const auto q = array_of(solid.frame.orientation);
+        if (!body.movable && !body.kinematic) {
+            const dGeomID geom = geometry(solid.parts[0]);
+            give_skin(geom, body.material, false);
             dGeomSetPosition(geom, p.x, p.y, p.z);
-            dGeomSetQuaternion(geom, q);
+            dGeomSetQuaternion(geom, q.data());
             bodies_.push_back(nullptr);
             return;
         }
         const dBodyID id = dBodyCreate(world_);
-        dMass mass;
-        dMassSetBoxTotal(&mass, body.mass_kg, edges.x, edges.y, edges.z);
-        if (body.turning == scene::Turning::locked) {
-            for (dReal& moment : mass.I) moment *= locked_inertia;
+        if (body.movable) {
+            dMass mass;
+            const double share = body.turning == scene::Turning::locked ? locked_inertia : 1.0;
+            const glm::dvec3 moments = share * solid.moments;
+            dMassSetParameters(&mass, body.mass_kg, 0, 0, 0, moments.x, moments.y, moments.z, 0, 0,
+                               0);
+            dBodySetMass(id, &mass);
+        } else {
+            dBodySetKinematic(id);
         }
-        dBodySetMass(id, &mass);
-        dGeomSetBody(geom, id);
+        for (const scene::BodyPart& part : solid.parts) attach(part, id, body.material);
         dBodySetPosition(id, p.x, p.y, p.z);
-        dBodySetQuaternion(id, q);
-        const auto v = array_of(body.velocity.value), w = array_of(body.angular_velocity);
+        dBodySetQuaternion(id, q.data());
+        const auto v = bench::array_of(body.velocity.value);
+        const auto w = bench::array_of(body.angular_velocity);
         dBodySetLinearVel(id, v[0], v[1], v[2]);
         dBodySetAngularVel(id, w[0], w[1], w[2]);
         if (options_.begins_asleep && !bodies_.empty()) dBodyDisable(id);
@@ -178,6 +214,64 @@ private:
         const bool is_held = body.turning == scene::Turning::locked || body.locked.x ||
                              body.locked.y || body.locked.z || body.drag_ns_per_m > 0.0;
         if (is_held) held_.push_back(bodies_.size() - 1);
+    }
+
+    void attach(const scene::BodyPart& part, dBodyID id, const scene::Material& material)
+    {
+        const dGeomID geom = geometry(part);
+        give_skin(geom, material, false);
+        dGeomSetBody(geom, id);
+        const glm::dquat turn = glm::quat_cast(part.axes) * onto_z(part);
+        if (part.at == glm::dvec3{0.0} && turn == glm::dquat{1.0, 0.0, 0.0, 0.0}) return;
+        dGeomSetOffsetPosition(geom, part.at.x, part.at.y, part.at.z);
+        dGeomSetOffsetQuaternion(geom, array_of(turn).data());
+    }
+
+    /// Between a body and the world.
+    void add(const scene::JointDescription& joint)
+    {
+        const glm::dvec3 at = joint.position.value, axis = joint.axis;
+        dJointID id = nullptr;
+        if (joint.kind == scene::JointKind::hinge) {
+            id = dJointCreateHinge(world_, nullptr);
+            dJointAttach(id, bodies_[joint.body], nullptr);
+            dJointSetHingeAnchor(id, at.x, at.y, at.z);
+            dJointSetHingeAxis(id, axis.x, axis.y, axis.z);
+        } else if (joint.kind == scene::JointKind::slider) {
+            id = dJointCreateSlider(world_, nullptr);
+            dJointAttach(id, bodies_[joint.body], nullptr);
+            dJointSetSliderAxis(id, axis.x, axis.y, axis.z);
+        } else if (joint.kind == scene::JointKind::ball) {
+            id = dJointCreateBall(world_, nullptr);
+            dJointAttach(id, bodies_[joint.body], nullptr);
+            dJointSetBallAnchor(id, at.x, at.y, at.z);
+        } else {
+            add_spring(joint);
+        }
+    }
+
+    /// A distance that gives way as error reduction and constraint force mixing say.
+    void add_spring(const scene::JointDescription& joint)
+    {
+        const glm::dvec3 at = joint.position.value, to = joint.to_position.value;
+        const dJointID id = dJointCreateDBall(world_, nullptr);
+        dJointAttach(id, bodies_[joint.body], nullptr);
+        dJointSetDBallAnchor1(id, at.x, at.y, at.z);
+        dJointSetDBallAnchor2(id, to.x, to.y, to.z);
+        dJointSetDBallDistance(id, joint.rest.value_or(glm::length(at - to)));
+        const double h = options_.tick_s;
+        const double mixing = 1.0 / (h * joint.stiffness + joint.damping);
+        dJointSetDBallParam(id, dParamERP, h * joint.stiffness * mixing);
+        dJointSetDBallParam(id, dParamCFM, mixing);
+    }
+
+    void apply_fields()
+    {
+        for (scene::BodyId i = 0; i < scene_.bodies.size(); ++i) {
+            if (!scene_.bodies[i].movable) continue;
+            const glm::dvec3 f = force_of_fields(scene_, state(i));
+            dBodyAddForce(bodies_[i], f.x, f.y, f.z);
+        }
     }
 
     void add_hip()
@@ -190,13 +284,14 @@ private:
     {
         forces_[index] = {};
         if (options_.hip_force == HipForce::native) return;
-        const Load load = penalty(state(0), scene_.bodies[0].half, hips_[index], scene_.hands);
+        forces_[index] = hands_.on_planes(index);
+        const Load load = hands_.on_body(index, state(0));
         if (load.force == glm::dvec3{0.0}) return;
         const auto& f = load.force;
         const auto& p = load.point;
         dBodyEnable(bodies_[0]);
         dBodyAddForceAtPos(bodies_[0], f.x, f.y, f.z, p.x, p.y, p.z);
-        forces_[index] = f;
+        forces_[index] += f;
     }
 
     /// Viscous friction in the plane that carries it, which is level in every scene here.
@@ -272,7 +367,7 @@ private:
         surface.soft_cfm = 1.0 / (h * k + scene_.hands.damping_ns_per_m);
         surface.soft_erp = h * k * surface.soft_cfm;
         const double along =
-            glm::dot(vector_of(contact.normal), hips_[index_of(hip)].velocity.value);
+            glm::dot(vector_of(contact.normal), hands_.hips()[index_of(hip)].velocity.value);
         surface.motionN = hip == contact.g1 ? -along : along;
         return surface;
     }
@@ -303,6 +398,7 @@ private:
     scene::Description scene_;
     EngineOptions options_;
     Stepping stepping_;
+    HeldHands hands_;
     dWorldID world_ = nullptr;
     dSpaceID space_ = nullptr;
     dJointGroupID contacts_ = nullptr;
@@ -310,7 +406,6 @@ private:
     std::vector<dBodyID> bodies_;
     std::vector<std::size_t> held_; // bodies with locks or drag
     std::vector<dGeomID> hip_geoms_;
-    Hips hips_ = absent_hips();
     std::array<glm::dvec3, scene::hands_max> forces_{};
     std::array<dJointFeedback, 16> feedback_{};
     std::array<std::size_t, 16> watched_hips_{};
@@ -324,12 +419,12 @@ long ode_complaints() { return complaints; }
 std::unique_ptr<Engine> make_ode_quick(const scene::Description& scene,
                                        const EngineOptions& options)
 {
-    return std::make_unique<Ode>(scene, options, Stepping::quick);
+    return std::make_unique<Ode>(translate(scene), options, Stepping::quick);
 }
 
 std::unique_ptr<Engine> make_ode_step(const scene::Description& scene, const EngineOptions& options)
 {
-    return std::make_unique<Ode>(scene, options, Stepping::direct);
+    return std::make_unique<Ode>(translate(scene), options, Stepping::direct);
 }
 
 } // namespace hapnet::bench

@@ -20,6 +20,13 @@ MakeEngine* load(const char* path)
     if (symbol == nullptr) throw std::runtime_error{dlerror()};
     return reinterpret_cast<MakeEngine*>(symbol);
 }
+
+std::unique_ptr<Engine> make_translated(MakeEngine* make, const scene::Description& scene,
+                                        const EngineOptions& options)
+{
+    const Translation all = translate(scene);
+    return std::unique_ptr<Engine>{make(&all, &options)};
+}
 #endif
 
 } // namespace
@@ -28,16 +35,31 @@ MakeEngine* load(const char* path)
 std::unique_ptr<Engine> make_bullet(const scene::Description& scene, const EngineOptions& options)
 {
     static MakeEngine* const make = load(HAPNET_BENCH_BULLET);
-    return std::unique_ptr<Engine>{make(&scene, &options)};
+    return make_translated(make, scene, options);
 }
 
 std::unique_ptr<Engine> make_bullet_double(const scene::Description& scene,
                                            const EngineOptions& options)
 {
     static MakeEngine* const make = load(HAPNET_BENCH_BULLET_DOUBLE);
-    return std::unique_ptr<Engine>{make(&scene, &options)};
+    return make_translated(make, scene, options);
 }
 #endif
+
+Translation translate(const scene::Description& scene)
+{
+    Translation all{scene, {}, {}};
+    for (const auto& body : scene.bodies) {
+        all.solids.push_back(
+            {scene::frame_of_mass(body), scene::inertia_of(body), scene::parts_of(body)});
+    }
+    if (!scene.bodies.empty()) {
+        const auto& body = scene.bodies[0];
+        all.hand_friction = combined(friction_of(scene.hands, scene::Feel{}),
+                                     friction_of(body.material, body.feel));
+    }
+    return all;
+}
 
 std::vector<Subject> subjects()
 {

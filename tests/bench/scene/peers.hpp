@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/bench/scene/engine.hpp"
+#include "tests/bench/scene/translation.hpp"
 
 namespace hapnet::bench {
 
@@ -35,7 +36,7 @@ namespace hapnet::bench {
                                                          const EngineOptions& options);
 
 /// What a module of Bullet exports.
-using MakeEngine = Engine*(const scene::Description*, const EngineOptions*);
+using MakeEngine = Engine*(const Translation*, const EngineOptions*);
 inline constexpr const char* make_engine_symbol = "hapnet_bench_make_engine";
 
 } // namespace hapnet::bench

@@ -23,13 +23,15 @@ constexpr int panel_width = 900;
 std::vector<Scenario> chosen()
 {
     using scene::Turning;
-    return {ballistic(),
-            slide(0.0, Turning::free),
-            slide(45.0, Turning::free),
-            bounce(1000.0, 0.0, Turning::locked),
-            squeezed_oscillation(Turning::locked),
-            tumble(),
-            off_centre_push()};
+    std::vector<Scenario> all{ballistic(),
+                              slide(0.0, Turning::free),
+                              slide(45.0, Turning::free),
+                              bounce(1000.0, 0.0, Turning::locked),
+                              squeezed_oscillation(Turning::locked),
+                              tumble(),
+                              off_centre_push()};
+    for (Scenario& one : element_scenarios()) all.push_back(std::move(one));
+    return all;
 }
 
 const char* colour_of(std::string_view subject)

@@ -118,6 +118,7 @@ std::vector<Scenario> all_scenarios(bool is_quick)
     all.push_back(stack_in_long_ticks());
     all.push_back(tumble());
     all.push_back(off_centre_push());
+    for (Scenario& one : element_scenarios()) all.push_back(std::move(one));
     return all;
 }
 

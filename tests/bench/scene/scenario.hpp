@@ -56,6 +56,10 @@ struct Scenario {
 /// The steady push on each engine's own plane, in place of what makes the better contacts.
 [[nodiscard]] Scenario steady_push_on_own_plane();
 
+/// One for each thing that a scene may have beside these: spheres, capsules, bodies of several
+/// parts, joints, fields, kinematic bodies, planes that hands feel, and hands with friction.
+[[nodiscard]] std::vector<Scenario> element_scenarios();
+
 /// The paper's scene, pushed to and fro between two hands: as it is, or with a cube that can turn
 /// and has dry friction.
 [[nodiscard]] Course paper_course(scene::Turning turning);

@@ -3,6 +3,7 @@
 #include "tests/bench/scene/compare.hpp"
 #include "tests/bench/scene/heaps.hpp"
 #include "tests/bench/scene/overlap.hpp"
+#include "tests/bench/scene/peers.hpp"
 #include "tests/bench/scene/precision.hpp"
 #include "tests/bench/scene/reference.hpp"
 #include "tests/bench/scene/stress.hpp"
@@ -224,6 +225,29 @@ TEST(Heaps, BeginWithNothingInsideAnything)
     }
 }
 
+/// How often Hapnet's guards act while it plays some courses.
+std::uint64_t guards_in(std::span<const Course> courses)
+{
+    const std::uint64_t before = hapnet_guards();
+    for (const Course& course : courses) run(*make_hapnet(course.scene, {}), course, 1e-3);
+    return hapnet_guards() - before;
+}
+
+TEST(Guards, ActInNoScenarioOfTheBench)
+{
+    std::vector<Course> courses{tumbling_box(0.0), tumbling_box(0.4), tumbling_box(2.0), top(),
+                                ledge()};
+    for (const Scenario& one : all_scenarios(true)) courses.push_back(one.course);
+    EXPECT_EQ(guards_in(courses), 0U);
+}
+
+TEST(Guards, ActInNoHeapOfTheBench)
+{
+    const std::array courses{bin(50, 0.3), bin(200, 0.3), brick_wall(10.0), brick_wall(40.0),
+                             dominoes(),   pyramid(),     stiff_hands()};
+    EXPECT_EQ(guards_in(courses), 0U);
+}
+
 TEST(Tails, TakeTheLeastOfEveryStepAndTheShareOfThem)
 {
     const Course course{lone_cube(scene::Turning::free), 0.1, {}};
@@ -357,6 +381,24 @@ TEST(Peers, FeelAHandThatPushesThem)
             const auto engine = subject.make(push.course.scene, {});
             const double error = push.measure(*engine, push.course, 1e-3)[0].value;
             EXPECT_LT(error, 0.1) << subject.name; // of the friction
+        }
+    }
+}
+
+TEST(Peers, PlayEveryElementThatTheyHave)
+{
+    for (const Scenario& scenario : element_scenarios()) {
+        Idle nothing{scenario.course.scene};
+        const double missed = scenario.measure(nothing, scenario.course, 1e-3)[0].value;
+        for (const Subject& subject : subjects()) {
+            const auto engine = subject.make(scenario.course.scene, {});
+            if (!engine) {
+                EXPECT_EQ(subject.name, "mujoco") << scenario.name; // no kinematic bodies
+                continue;
+            }
+            // Within a part of what it has to do: ODE's friction is no circle.
+            const double error = scenario.measure(*engine, scenario.course, 1e-3)[0].value;
+            EXPECT_LT(error, 0.35 * missed) << scenario.name << ": " << subject.name;
         }
     }
 }

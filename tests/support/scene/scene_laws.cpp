@@ -395,7 +395,11 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     const double beyond = length(moved) - radius;
     balance.farthest = std::max(balance.farthest, beyond);
     if (beyond > 0.0) balance.fling = std::max(balance.fling, 0.5 * mass * beyond * beyond);
-    balance.jolt += mass * length(v1 - v0);
+    // A field may press bodies together that hardly change their velocities, and what it drives
+    // may be faster within the tick than at its end, where something stops it.
+    const glm::dvec3 by_field = tick * free_part(form, was.field);
+    balance.jolt += std::max(mass * length(v1 - v0), length(mass * (v1 - v0) - by_field));
+    balance.hurry = std::max(balance.hurry, length(by_field) / mass);
     balance.momentum += mass * (length(v0) + length(v1)) + tick * length(force);
     balance.slack += turning_slack(form, was, now, spin * tick);
     const double reach = length(now.state.position.value) + length(was.state.position.value);
@@ -500,7 +504,7 @@ std::optional<std::string> SceneLaws::check_ways(const World& world, const Balan
         if (world.touch(i).touching) return std::nullopt;
     }
     constexpr double cornerwise = 2.0;
-    const double most = cornerwise * world.frozen().tick * balance.fastest;
+    const double most = cornerwise * world.frozen().tick * (balance.fastest + balance.hurry);
     if (balance.farthest <= most) return std::nullopt;
     // Between two touches in the tick a body may be faster than at its ends: a light one that heavy
     // ones throw to each other. Then it is as fast as the energy that there is can make it.

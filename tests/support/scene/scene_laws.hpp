@@ -66,7 +66,8 @@ private:
         double fastest = 0.0;  // m/s, of any corner
         double farthest = 0.0; // m that a body went beyond its own size
         double fling = 0.0;    // J s^2: the most of 1/2 m of that squared
-        double jolt = 0.0;     // N s: the sum of the changes of momentum
+        double jolt = 0.0;     // N s: the sum of the changes of momentum, or of what others did
+        double hurry = 0.0;    // m/s: the most that a field alone changes a velocity by
         double momentum = 0.0; // N s: the sum of the amounts
         double angular = 0.0;  // N m s, likewise
         double astray = 0.0;   // N m s: of moving apart

@@ -108,7 +108,10 @@ INSTANTIATE_TEST_SUITE_P(RandomPlayOfElements, Scars,
                                          Scar{elements_from + 1028, "DrivenAmongSlow"},
                                          Scar{elements_from + 1273, "ThrownOffARoughHand"},
                                          Scar{elements_from + 1821, "ThrownOffAStiffRoughHand"},
-                                         Scar{elements_from + 4001, "DrivenFarAlongItsLocks"}),
+                                         Scar{elements_from + 4001, "DrivenFarAlongItsLocks"},
+                                         Scar{elements_from + 4137,
+                                              "HurriedByAStiffFieldIntoTheFloor"},
+                                         Scar{elements_from + 20869, "PressedTogetherByAField"}),
                          [](const auto& each) { return std::string{each.param.name}; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -168,8 +171,9 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{400080091, "PushedAtHighSpeedByAHandThatHoldsAnother"},
         Scar{600121857, "PushedByAHandThatHoldsOneFarAway"},
         Scar{600155233, "PushedHardByAHandThatHoldsOneFarAway"},
-        Scar{800098062, "NotHitItselfButANeighbour"}, Scar{7015132, "GrippedLightlyWhileItSpins"},
-        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"},
+        Scar{800003605, "BroughtToRestByAStiffHand"}, Scar{800098062, "NotHitItselfButANeighbour"},
+        Scar{7015132, "GrippedLightlyWhileItSpins"}, Scar{7029090, "GrippedHardWhileItSpins"},
+        Scar{7032676, "GrippedInLongTicksWhileItSpins"},
         Scar{1000001991, "PushedThroughItsLockedCentre"}),
     [](const auto& each) { return each.param.name; });
 
