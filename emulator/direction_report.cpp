@@ -115,6 +115,8 @@ nlohmann::ordered_json json_of(const DirectionOfRun& run, base::Duration budget)
               {"in_flight", s.in_flight},
               {"bytes_in", s.bytes_in},
               {"bytes_out", s.bytes_out},
+              {"ce_in", s.ce_in},
+              {"ce_out", s.ce_out},
               {"dropped", dropped},
               {"lateness_us", json_of(s.lateness)},
               {"sojourn_us", json_of(s.sojourn)},

@@ -4,6 +4,7 @@
 
 #include "emulator/core/fate.hpp"
 #include "emulator/core/slab.hpp"
+#include "proto/base/ip_marks.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
@@ -15,6 +16,7 @@ namespace hapnet::emulator {
 // One datagram is described by a value of its own at each stop of its way:
 //
 //   net::Received   proto/net       bytes, sender and receive stamp, from the socket
+//   Headers         here            what its port knows of it besides
 //   Packet          packet.hpp      what a stage of the pipeline may know: number, size, arrival
 //   Fate            fate.hpp        what the stages have drawn for it
 //   Admission       link.hpp        what the link answers on its arrival
@@ -22,11 +24,20 @@ namespace hapnet::emulator {
 //   Datagram        here            it waits for its time in the delay line, or leaves
 //   CapturedPacket  capture/        it passes a socket, as a capture file has it
 
+/// What a port knows of a datagram besides its bytes. No stage of the pipeline sees it.
+struct Headers {
+    /// Before the datagram in its bytes, such as an Ethernet header: carried along, neither counted
+    /// nor changed.
+    std::uint8_t envelope_bytes = 0;
+    base::IpMarks marks{};
+};
+
 /// A datagram that the link holds, or hands back to be sent.
 struct Datagram {
     Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
     bool is_copy = false;
     std::uint8_t envelope_bytes = 0; // at the beginning of `bytes`: carried, and nothing else
+    base::IpMarks marks{};           // carried; the law of a queue may add CE
     std::uint64_t number = 0; // of the datagram in its direction, from 0; a copy has its original's
     base::TimePoint arrival{};
     base::TimePoint due{};              // never leaves before

@@ -51,18 +51,11 @@ public:
 
     /// Takes the next datagram of a direction, which arrived at `arrival`; see Link::on_packet().
     Admission on_packet(Direction direction, std::span<const std::byte> bytes,
-                        base::TimePoint arrival, bool has_destination = true)
+                        base::TimePoint arrival, bool has_destination = true,
+                        const Headers& headers = {})
     {
         advance(arrival);
-        return link_of(direction).on_packet(bytes, arrival, has_destination);
-    }
-
-    /// The same of a datagram in an envelope; see Link::on_packet().
-    Admission on_enveloped(Direction direction, std::span<const std::byte> bytes,
-                           base::TimePoint arrival, std::uint8_t envelope_bytes)
-    {
-        advance(arrival);
-        return link_of(direction).on_packet(bytes, arrival, true, envelope_bytes);
+        return link_of(direction).on_packet(bytes, arrival, has_destination, headers);
     }
 
     /// A datagram of a direction that is due at `now`, the earliest first.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/frame.hpp"
 
+#include "proto/base/ensure.hpp"
+
 #include <algorithm>
 #include <optional>
 
@@ -68,6 +70,50 @@ FrameKind kind_of(std::uint16_t type, std::span<const std::byte> packet)
     }
 }
 
+bool has_ipv4_header(std::uint16_t type, std::span<const std::byte> packet)
+{
+    return type == ether_ipv4 && packet.size() >= ipv4_header_bytes_min && at8(packet, 0) >> 4 == 4;
+}
+
+bool has_ipv6_header(std::uint16_t type, std::span<const std::byte> packet)
+{
+    return type == ether_ipv6 && packet.size() >= ipv6_header_bytes && at8(packet, 0) >> 4 == 6;
+}
+
+base::IpMarks marks_of(std::uint16_t type, std::span<const std::byte> packet)
+{
+    if (has_ipv4_header(type, packet)) return {at8(packet, 1), at8(packet, 8)};
+    if (!has_ipv6_header(type, packet)) return {};
+    return {static_cast<std::uint8_t>(at16(packet, 0) >> 4), at8(packet, 7)};
+}
+
+/// A hash that goes on (FNV-1a).
+class FlowHash {
+public:
+    void add(std::span<const std::byte> bytes)
+    {
+        for (const std::byte byte : bytes) {
+            hash_ = (hash_ ^ std::to_integer<std::uint32_t>(byte)) * 16'777'619U;
+        }
+    }
+    /// With all bits spread over all others, as flows are told apart by some of them.
+    [[nodiscard]] std::uint32_t value() const
+    {
+        std::uint32_t mixed = hash_ ^ hash_ >> 16;
+        mixed *= 0x85eb'ca6bU;
+        mixed ^= mixed >> 13;
+        mixed *= 0xc2b2'ae35U;
+        return mixed ^ mixed >> 16;
+    }
+
+private:
+    std::uint32_t hash_ = 2'166'136'261U;
+};
+
+constexpr unsigned ipv4_offset_and_more = 0x3fff; // not 0: a fragment
+
+bool has_ports(std::uint8_t protocol) { return protocol == ip_tcp || protocol == ip_udp; }
+
 /// The sum of 16-bit words whose complement is the checksum of IP and its protocols (RFC 1071).
 std::uint64_t sum_of(std::span<const std::byte> bytes)
 {
@@ -126,8 +172,7 @@ void fix_ipv4(std::span<std::byte> packet)
     if (header < ipv4_header_bytes_min || header > total || total > packet.size()) return;
     put16(packet, 10, 0);
     put16(packet, 10, folded(sum_of(packet.first(header))));
-    constexpr unsigned fragment_offset_and_more = 0x3fff;
-    if ((at16(packet, 6) & fragment_offset_and_more) != 0) return;
+    if ((at16(packet, 6) & ipv4_offset_and_more) != 0) return;
     fix_segment({.protocol = at8(packet, 9),
                  .bytes = packet.subspan(header, total - header),
                  .pseudo_header = sum_of(packet.subspan(12, 8)),
@@ -166,7 +211,55 @@ Frame read_frame(std::span<const std::byte> bytes)
     }
     frame.header_bytes = static_cast<std::uint8_t>(at + 2);
     frame.kind = kind_of(at16(bytes, at), bytes.subspan(at + 2));
+    frame.marks = marks_of(at16(bytes, at), bytes.subspan(at + 2));
     return frame;
+}
+
+std::uint32_t flow_of(std::span<const std::byte> frame)
+{
+    const std::size_t header = read_frame(frame).header_bytes;
+    if (header < Frame::header_bytes_min) return 0;
+    const auto type = at16(frame, header - 2);
+    const auto packet = frame.subspan(header);
+    FlowHash hash;
+    std::size_t ports_at = 0;
+    std::size_t protocol_at = 0;
+    bool is_fragment = false;
+    if (has_ipv4_header(type, packet)) {
+        protocol_at = 9;
+        ports_at = std::size_t{4} * (at8(packet, 0) & 0xfU);
+        is_fragment = (at16(packet, 6) & ipv4_offset_and_more) != 0;
+        hash.add(packet.subspan(12, 8));
+    } else if (has_ipv6_header(type, packet)) {
+        protocol_at = 6;
+        ports_at = ipv6_header_bytes;
+        hash.add(packet.subspan(8, 32));
+    } else {
+        return 0;
+    }
+    hash.add(packet.subspan(protocol_at, 1));
+    const bool are_there = has_ports(at8(packet, protocol_at)) && packet.size() >= ports_at + 4;
+    if (are_there && !is_fragment) hash.add(packet.subspan(ports_at, 4));
+    return hash.value();
+}
+
+/// The checksum is brought up to date by what has changed (RFC 1624, equation 3).
+void mark_congestion(std::span<std::byte> frame)
+{
+    const std::size_t header = read_frame(frame).header_bytes;
+    base::ensure(header >= Frame::header_bytes_min);
+    const auto type = at16(frame, header - 2);
+    const auto packet = frame.subspan(header);
+    const auto before = at16(packet, 0);
+    if (has_ipv4_header(type, packet)) {
+        const auto after = static_cast<std::uint16_t>(before | 0x0003U);
+        put16(packet, 0, after);
+        const auto old = static_cast<std::uint16_t>(~at16(packet, 10));
+        put16(packet, 10, folded(std::uint64_t{old} + static_cast<std::uint16_t>(~before) + after));
+    } else {
+        base::ensure(has_ipv6_header(type, packet));
+        put16(packet, 0, static_cast<std::uint16_t>(before | 0x0030U));
+    }
 }
 
 void fix_checksums(std::span<std::byte> frame)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/ip_marks.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +25,7 @@ struct Frame {
     FrameKind kind = FrameKind::other;
     std::uint8_t header_bytes = 0; // Ethernet's, with VLAN tags
     MacAddress source{};
+    base::IpMarks marks{}; // of an IP packet with a whole header
 
     static constexpr std::size_t header_bytes_min = 14;
     static constexpr std::size_t vlan_tag_bytes = 4;
@@ -31,6 +34,14 @@ struct Frame {
 /// Reads any bytes; those that are too short for Ethernet, or that have more than two VLAN tags,
 /// are of the kind `other`.
 [[nodiscard]] Frame read_frame(std::span<const std::byte> bytes);
+
+/// Tells the flows of a frame's IP packets apart: a hash of addresses, protocol and ports.
+/// Fragments have no ports, so that all of a packet belong together; what is not IP is one flow.
+[[nodiscard]] std::uint32_t flow_of(std::span<const std::byte> frame);
+
+/// Marks the IP packet of a frame as having experienced congestion (RFC 3168), with the checksum
+/// that belongs to it. Ensures that it has marks.
+void mark_congestion(std::span<std::byte> frame);
 
 /// Computes the checksums of IPv4, TCP, UDP, ICMP and ICMPv6 anew, where the frame has them whole:
 /// no fragment, no header that says more bytes than there are. A UDP datagram over IPv4 without a

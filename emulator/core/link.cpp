@@ -42,13 +42,14 @@ Link::Link(const Conditions& conditions, const Setup& setup)
 }
 
 Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
-                          bool has_destination, std::uint8_t envelope_bytes)
+                          bool has_destination, const Headers& headers)
 {
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
-    const Packet packet{statistics_.received, bytes.size() - envelope_bytes,
+    const Packet packet{statistics_.received, bytes.size() - headers.envelope_bytes,
                         last_arrival_ - setup_.start};
-    const Datagram datagram{.envelope_bytes = envelope_bytes,
+    const Datagram datagram{.envelope_bytes = headers.envelope_bytes,
+                            .marks = headers.marks,
                             .number = packet.number,
                             .arrival = last_arrival_,
                             .due = last_arrival_,
@@ -58,6 +59,7 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
     statistics_.bytes_in += packet.bytes;
+    if (headers.marks.is_congested()) ++statistics_.ce_in;
     if (bottleneck_.is_on() && fate.drop != DropCause::mtu) refuse_or_pass(datagram, admission);
     if (!admission.drop) {
         if (passes_untouched(fate)) {
@@ -238,6 +240,7 @@ void Link::on_sent(const Datagram& datagram, base::TimePoint at)
 {
     ++statistics_.delivered;
     statistics_.bytes_out += datagram.size();
+    if (datagram.marks.is_congested()) ++statistics_.ce_out;
     statistics_.lateness.add(at - datagram.due);
     if (setup_.has_stream_statistics) stream_statistics_.on_sent(datagram, at);
     if (datagram.number >= beyond_highest_delivered_) {

@@ -61,11 +61,9 @@ public:
 
     /// Takes the next datagram of this direction, which arrived at `arrival`, and says what is to
     /// become of it. A queue or Order::keep may make it leave later than its fate says.
-    /// Without a destination it is dropped, after the laws have judged it. An envelope stands
-    /// before the datagram in `bytes`, such as an Ethernet header: it is carried along, and no law
-    /// counts or changes it.
+    /// Without a destination it is dropped, after the laws have judged it.
     Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
-                        bool has_destination = true, std::uint8_t envelope_bytes = 0);
+                        bool has_destination = true, const Headers& headers = {});
 
     /// A datagram that is due at `now`, the earliest first; nullopt when there is none. It comes
     /// back through on_sent() or on_failed(), once; until then it counts as in flight.

@@ -30,6 +30,8 @@ void Statistics::add(const Statistics& other)
     corrupted += other.corrupted;
     reordered += other.reordered;
     in_flight += other.in_flight;
+    ce_in += other.ce_in;
+    ce_out += other.ce_out;
     bytes_in += other.bytes_in;
     bytes_out += other.bytes_out;
     for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] += other.dropped[i];

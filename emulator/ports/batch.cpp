@@ -27,8 +27,9 @@ DropCause cause_of(net::SendOutcome outcome)
 
 void Batch::take(const net::Received& datagram, const Entrance& entrance)
 {
-    const Admission admission = way_.path.on_packet(way_.direction, datagram.bytes, datagram.at,
-                                                    exit_.destination.has_value());
+    const Admission admission =
+        way_.path.on_packet(way_.direction, datagram.bytes, datagram.at,
+                            exit_.destination.has_value(), {.marks = datagram.marks});
     way_.recorder.on_fate(way_.recorded_as, way_.direction, admission.number, admission.fate);
     if (way_.recorder.captures()) {
         Fate fate = admission.fate;
@@ -39,7 +40,8 @@ void Batch::take(const net::Received& datagram, const Entrance& entrance)
                                   .from = udp_address_of(datagram.from),
                                   .to = udp_address_of(entrance.local),
                                   .payload = datagram.bytes,
-                                  .pair = way_.pair},
+                                  .pair = way_.pair,
+                                  .marks = datagram.marks},
                                  fate);
     }
     if (admission.departure) add(*admission.departure);
@@ -47,18 +49,20 @@ void Batch::take(const net::Received& datagram, const Entrance& entrance)
 
 void Batch::flush()
 {
-    if (count_ == 0) return;
+    if (departures_.empty()) return;
     base::ensure(exit_.destination.has_value());
-    const auto outcomes = exit_.socket.send_batch(*exit_.destination, {bytes_.data(), count_});
+    const auto outcomes = exit_.socket.send_batch(*exit_.destination, bytes_.all(), marks_.all());
     const auto at = net::monotonic_now();
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < departures_.size(); ++i) {
         if (outcomes[i] == net::SendOutcome::sent) {
             on_sent(departures_[i], at);
         } else {
             way_.path.on_failed(way_.direction, departures_[i], cause_of(outcomes[i]));
         }
     }
-    count_ = 0;
+    departures_.clear();
+    bytes_.clear();
+    marks_.clear();
 }
 
 void Batch::on_sent(const Datagram& departure, base::TimePoint at)
@@ -70,7 +74,8 @@ void Batch::on_sent(const Datagram& departure, base::TimePoint at)
                                     .from = udp_address_of(exit_.local),
                                     .to = udp_address_of(*exit_.destination),
                                     .payload = departure.bytes,
-                                    .pair = way_.pair},
+                                    .pair = way_.pair,
+                                    .marks = departure.marks},
                                    at - departure.due, departure.is_copy);
     }
     way_.path.on_sent(way_.direction, departure, at); // its bytes go

@@ -5,10 +5,11 @@
 #include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/emulated_path.hpp"
 #include "emulator/recorder.hpp"
+#include "proto/base/inplace_vector.hpp"
+#include "proto/base/ip_marks.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -49,10 +50,10 @@ public:
 
     void add(const Datagram& departure)
     {
-        departures_[count_] = departure;
-        bytes_[count_] = departure.bytes;
-        ++count_;
-        if (count_ == departures_.size()) flush();
+        departures_.push_back(departure);
+        bytes_.push_back(departure.bytes);
+        marks_.push_back(departure.marks);
+        if (departures_.full()) flush();
     }
 
     /// Ensures that there is a destination: without one, the path admits no datagram.
@@ -63,9 +64,11 @@ private:
 
     Way way_;
     Exit exit_;
-    std::size_t count_ = 0;
-    std::array<Datagram, net::BatchSender::batch_max> departures_;
-    std::array<std::span<const std::byte>, net::BatchSender::batch_max> bytes_;
+    template <typename T>
+    using Each = base::InplaceVector<T, net::BatchSender::batch_max>;
+    Each<Datagram> departures_;
+    Each<std::span<const std::byte>> bytes_;
+    Each<base::IpMarks> marks_;
 };
 
 /// How many batches of each direction one release() sends at most. Twice what one receive() takes

@@ -89,9 +89,13 @@ public:
 private:
     void add_bytes(std::span<const std::byte> bytes)
     {
-        if (frames_.setup_.fix_checksums && departures_[count_]) {
+        const auto& departure = departures_[count_];
+        const bool is_to_be_marked =
+            departure && departure->marks.is_congested() && !read_frame(bytes).marks.is_congested();
+        if (departure && (frames_.setup_.fix_checksums || is_to_be_marked)) {
             fixed_.emplace_back(bytes.begin(), bytes.end());
-            fix_checksums(fixed_.back());
+            if (is_to_be_marked) mark_congestion(fixed_.back());
+            if (frames_.setup_.fix_checksums) fix_checksums(fixed_.back());
             bytes = fixed_.back();
         }
         bytes_[count_] = bytes;
@@ -105,7 +109,7 @@ private:
     std::size_t count_ = 0;
     std::array<std::optional<Datagram>, net::PacketSocket::batch_max> departures_{};
     std::array<std::span<const std::byte>, net::PacketSocket::batch_max> bytes_{};
-    std::vector<std::vector<std::byte>> fixed_;
+    std::vector<std::vector<std::byte>> fixed_; // copies that are changed on the way out
 };
 
 Frames::Side::Side(Direction from_here, const std::string& name) : direction{from_here}, interface {
@@ -150,8 +154,9 @@ void Frames::pass(Side& from, Side& to)
             continue;
         }
         paths_.advance(received.at);
-        const Admission admission = path_.on_enveloped(from.direction, received.bytes, received.at,
-                                                       envelope_of(frame, received.bytes.size()));
+        const Admission admission = path_.on_packet(
+            from.direction, received.bytes, received.at, true,
+            {.envelope_bytes = envelope_of(frame, received.bytes.size()), .marks = frame.marks});
         recorder_.on_fate(recorded_as_, from.direction, admission.number, admission.fate);
         if (admission.departure) undelayed.add(*admission.departure);
     }

@@ -37,6 +37,47 @@ bool is_refusal(int error)
            error == EOPNOTSUPP;
 }
 
+/// Whether what is sent there goes as IPv4: also to an IPv4 address in an IPv6 one.
+bool goes_as_v4(const Endpoint& to)
+{
+    if (to.family() == AF_INET) return true;
+    sockaddr_in6 address{};
+    std::memcpy(&address, to.address(), sizeof address);
+    return IN6_IS_ADDR_V4MAPPED(&address.sin6_addr);
+}
+
+/// Writes what stands beside a message, one value behind the other.
+class ControlWriter {
+public:
+    explicit ControlWriter(std::span<std::byte> bytes) : bytes_{bytes} {}
+
+    template <typename T>
+    void put(int level, int type, T value)
+    {
+        cmsghdr header{};
+        header.cmsg_level = level;
+        header.cmsg_type = type;
+        header.cmsg_len = CMSG_LEN(sizeof value);
+        std::memcpy(&bytes_[used_], &header, sizeof header);
+        std::memcpy(&bytes_[used_ + CMSG_LEN(0)], &value, sizeof value);
+        used_ += CMSG_SPACE(sizeof value);
+    }
+    [[nodiscard]] std::size_t used() const { return used_; }
+
+private:
+    std::span<std::byte> bytes_;
+    std::size_t used_ = 0;
+};
+
+void put_marks(ControlWriter& control, base::IpMarks marks, bool as_v4)
+{
+    control.put(as_v4 ? IPPROTO_IP : IPPROTO_IPV6, as_v4 ? IP_TOS : IPV6_TCLASS,
+                int{marks.traffic_class});
+    if (marks.hop_limit == 0) return;
+    control.put(as_v4 ? IPPROTO_IP : IPPROTO_IPV6, as_v4 ? IP_TTL : IPV6_HOPLIMIT,
+                int{marks.hop_limit});
+}
+
 /// What msghdr wants of what it only reads when it sends.
 template <typename T>
 T* writable(const T* read_only)
@@ -52,42 +93,39 @@ SendOutcome send_one(int descriptor, const Endpoint& to, std::span<const std::by
     return sent >= 0 ? SendOutcome::sent : outcome_of(errno);
 }
 
-BatchSender::BatchSender()
-{
-    for (Control& control : controls_) {
-        cmsghdr header{};
-        header.cmsg_level = SOL_UDP;
-        header.cmsg_type = UDP_SEGMENT;
-        header.cmsg_len = CMSG_LEN(sizeof(std::uint16_t));
-        std::memcpy(control.bytes.data(), &header, sizeof header);
-    }
-}
+BatchSender::BatchSender(base::IpMarks usual) : usual_{usual} {}
 
 std::span<const SendOutcome>
 BatchSender::send(int descriptor, const Endpoint& to,
-                  std::span<const std::span<const std::byte>> datagrams)
+                  std::span<const std::span<const std::byte>> datagrams,
+                  std::span<const base::IpMarks> marks)
 {
     base::ensure(datagrams.size() <= batch_max);
-    if (datagrams.size() == 1) {
+    base::ensure(marks.empty() || marks.size() == datagrams.size());
+    const auto is_usual = [this](base::IpMarks one) { return one == usual_; };
+    if (std::ranges::all_of(marks, is_usual)) marks = {}; // what costs least
+    if (datagrams.size() == 1 && marks.empty()) {
         outcomes_[0] = send_one(descriptor, to, datagrams[0]);
         return {outcomes_.data(), 1};
     }
     std::size_t messages = 0;
     for (std::size_t first = 0; first < datagrams.size(); ++messages) {
-        const Train train{first, train_length(datagrams.subspan(first))};
+        const Train train{first, train_length(datagrams.subspan(first),
+                                              marks.empty() ? marks : marks.subspan(first))};
         for (std::size_t i = first; i < first + train.count; ++i) {
             vectors_[i] = {.iov_base = writable(datagrams[i].data()),
                            .iov_len = datagrams[i].size()};
         }
         trains_[messages] = train;
-        write_message(messages, train, to);
+        write_message(messages, train, to,
+                      marks.empty() ? std::nullopt : std::optional{marks[first]});
         first += train.count;
     }
     for (std::size_t next = 0; next < messages;) {
         const int sent =
             sendmmsg(descriptor, &headers_[next], static_cast<unsigned int>(messages - next), 0);
         if (sent <= 0) {
-            on_error(descriptor, trains_[next], to);
+            on_error(descriptor, trains_[next], next);
             ++next;
             continue;
         }
@@ -100,7 +138,8 @@ BatchSender::send(int descriptor, const Endpoint& to,
 }
 
 /// How many of the datagrams, from the first on, can leave as one message.
-std::size_t BatchSender::train_length(std::span<const std::span<const std::byte>> neighbours) const
+std::size_t BatchSender::train_length(std::span<const std::span<const std::byte>> neighbours,
+                                      std::span<const base::IpMarks> marks) const
 {
     const std::size_t segment = neighbours.front().size();
     if (segment == 0 || segment >= refused_bytes_) return 1;
@@ -109,13 +148,15 @@ std::size_t BatchSender::train_length(std::span<const std::span<const std::byte>
     while (count < neighbours.size() && neighbours[count - 1].size() == segment) {
         const std::size_t size = neighbours[count].size();
         if (size == 0 || size > segment || total + size > payload_bytes_max) break;
+        if (!marks.empty() && marks[count] != marks.front()) break;
         total += size;
         ++count;
     }
     return count;
 }
 
-void BatchSender::write_message(std::size_t index, const Train& train, const Endpoint& to)
+void BatchSender::write_message(std::size_t index, const Train& train, const Endpoint& to,
+                                std::optional<base::IpMarks> marks)
 {
     msghdr& header = headers_[index].msg_hdr;
     header = {};
@@ -123,25 +164,29 @@ void BatchSender::write_message(std::size_t index, const Train& train, const End
     header.msg_namelen = to.length();
     header.msg_iov = &vectors_[train.first];
     header.msg_iovlen = train.count;
-    if (train.count == 1) return;
-    const auto segment = static_cast<std::uint16_t>(vectors_[train.first].iov_len);
-    Control& control = controls_[index];
-    std::memcpy(control.bytes.data() + CMSG_LEN(0), &segment, sizeof segment);
-    header.msg_control = control.bytes.data();
-    header.msg_controllen = control.bytes.size();
+    if (train.count == 1 && !marks) return;
+    ControlWriter control{controls_[index].bytes};
+    if (marks) put_marks(control, *marks, goes_as_v4(to));
+    if (train.count > 1) { // the last, so that it can be left away
+        control.put(SOL_UDP, UDP_SEGMENT,
+                    static_cast<std::uint16_t>(vectors_[train.first].iov_len));
+    }
+    header.msg_control = controls_[index].bytes.data();
+    header.msg_controllen = control.used();
 }
 
-void BatchSender::on_error(int descriptor, const Train& train, const Endpoint& to)
+void BatchSender::on_error(int descriptor, const Train& train, std::size_t index)
 {
     const int error = errno;
     const bool is_uncut = train.count > 1 && is_refusal(error);
     if (is_uncut) refused_bytes_ = std::min(refused_bytes_, vectors_[train.first].iov_len);
+    msghdr one = headers_[index].msg_hdr;
+    one.msg_iovlen = 1;
+    if (is_uncut) one.msg_controllen -= CMSG_SPACE(sizeof(std::uint16_t));
     for (std::size_t i = train.first; i < train.first + train.count; ++i) {
-        const iovec& one = vectors_[i];
-        outcomes_[i] = is_uncut
-                           ? send_one(descriptor, to,
-                                      {static_cast<const std::byte*>(one.iov_base), one.iov_len})
-                           : outcome_of(error);
+        one.msg_iov = &vectors_[i];
+        const bool is_sent = is_uncut && sendmsg(descriptor, &one, 0) >= 0;
+        outcomes_[i] = is_sent ? SendOutcome::sent : outcome_of(is_uncut ? errno : error);
     }
 }
 

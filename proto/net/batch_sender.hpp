@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/ip_marks.hpp"
 #include "proto/net/endpoint.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <netinet/in.h>
+#include <optional>
 #include <span>
 #include <sys/socket.h>
 #include <sys/uio.h>
@@ -28,12 +30,14 @@ class BatchSender {
 public:
     static constexpr std::size_t batch_max = 64; // datagrams per send(); segments per message
 
-    BatchSender();
+    /// `usual`: the marks that the socket gives to what is sent without any.
+    explicit BatchSender(base::IpMarks usual = {});
 
     /// What became of each, in their order; valid until the next send(). Ensures that there are at
-    /// most batch_max. Never blocks.
+    /// most batch_max. Never blocks. `marks`: those of each datagram, or empty: the socket's own.
     std::span<const SendOutcome> send(int descriptor, const Endpoint& to,
-                                      std::span<const std::span<const std::byte>> datagrams);
+                                      std::span<const std::span<const std::byte>> datagrams,
+                                      std::span<const base::IpMarks> marks = {});
 
 private:
     /// Neighbours that leave as one message.
@@ -41,18 +45,22 @@ private:
         std::size_t first = 0;
         std::size_t count = 0;
     };
+    /// What stands beside a message: the size of its segments, and its two marks.
     struct alignas(cmsghdr) Control {
-        std::array<std::byte, CMSG_SPACE(sizeof(std::uint16_t))> bytes{};
+        std::array<std::byte, CMSG_SPACE(sizeof(std::uint16_t)) + 2 * CMSG_SPACE(sizeof(int))>
+            bytes{};
     };
 
-    [[nodiscard]] std::size_t
-    train_length(std::span<const std::span<const std::byte>> neighbours) const;
-    void write_message(std::size_t index, const Train& train, const Endpoint& to);
-    void on_error(int descriptor, const Train& train, const Endpoint& to);
+    [[nodiscard]] std::size_t train_length(std::span<const std::span<const std::byte>> neighbours,
+                                           std::span<const base::IpMarks> marks) const;
+    void write_message(std::size_t index, const Train& train, const Endpoint& to,
+                       std::optional<base::IpMarks> marks);
+    void on_error(int descriptor, const Train& train, std::size_t index);
 
     /// The kernel refused to cut segments of this size (the device's MTU is smaller, or it cannot
     /// do it at all): those and larger ones leave one by one from then on.
     std::size_t refused_bytes_ = 65'536;
+    base::IpMarks usual_;
     std::array<iovec, batch_max> vectors_{};
     std::array<Train, batch_max> trains_{};
     std::array<mmsghdr, batch_max> headers_{};

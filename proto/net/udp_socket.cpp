@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <netinet/in.h>
 #include <netinet/udp.h>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -45,6 +46,7 @@ struct Label {
     std::optional<base::Duration> stamp; // CLOCK_REALTIME
     std::optional<std::uint32_t> overflowed;
     std::size_t segment_bytes = 0; // 0: one datagram
+    base::IpMarks marks{};
 };
 
 template <typename T>
@@ -55,25 +57,76 @@ T value_of(const cmsghdr& control)
     return value;
 }
 
-Label label_of(msghdr& header)
+constexpr std::uint64_t kind_of_control(int level, int type)
+{
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(level)) << 32U |
+           static_cast<std::uint32_t>(type);
+}
+
+void read_control(const cmsghdr& control, Label& label)
+{
+    switch (kind_of_control(control.cmsg_level, control.cmsg_type)) {
+    case kind_of_control(SOL_SOCKET, SO_TIMESTAMPNS):
+        label.stamp = to_duration(value_of<timespec>(control));
+        break;
+    case kind_of_control(SOL_SOCKET, SO_RXQ_OVFL):
+        label.overflowed = value_of<std::uint32_t>(control);
+        break;
+    case kind_of_control(SOL_UDP, UDP_GRO):
+        label.segment_bytes = static_cast<std::size_t>(value_of<int>(control));
+        break;
+    case kind_of_control(IPPROTO_IP, IP_TOS): // a byte; the others are ints
+        label.marks.traffic_class = value_of<std::uint8_t>(control);
+        break;
+    case kind_of_control(IPPROTO_IPV6, IPV6_TCLASS):
+        label.marks.traffic_class = static_cast<std::uint8_t>(value_of<int>(control));
+        break;
+    case kind_of_control(IPPROTO_IP, IP_TTL):
+    case kind_of_control(IPPROTO_IPV6, IPV6_HOPLIMIT):
+        label.marks.hop_limit = static_cast<std::uint8_t>(value_of<int>(control));
+        break;
+    default: break;
+    }
+}
+
+/// CMSG_NXTHDR would be a call for each, of which there are several beside each message.
+Label label_of(const msghdr& header)
 {
     Label label;
-    for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
-        if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SO_TIMESTAMPNS) {
-            label.stamp = to_duration(value_of<timespec>(*c));
-        } else if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SO_RXQ_OVFL) {
-            label.overflowed = value_of<std::uint32_t>(*c);
-        } else if (c->cmsg_level == SOL_UDP && c->cmsg_type == UDP_GRO) {
-            label.segment_bytes = static_cast<std::size_t>(value_of<int>(*c));
-        }
+    const auto* const all = static_cast<const std::byte*>(header.msg_control);
+    for (std::size_t at = 0; at + sizeof(cmsghdr) <= header.msg_controllen;) {
+        const auto& control =
+            *reinterpret_cast<const cmsghdr*>(all + at); // NOLINT(*-reinterpret-*)
+        read_control(control, label);
+        at += std::max(CMSG_ALIGN(control.cmsg_len), sizeof(cmsghdr));
     }
     return label;
+}
+
+/// Has the marks of what arrives told, and returns those of what is sent without any. A default of
+/// IPv6 that routers could change later is made fixed by that.
+base::IpMarks ask_for_marks(int descriptor, int family)
+{
+    set_option(descriptor, IPPROTO_IP, IP_RECVTOS, 1); // also of a socket of IPv6 that hears both
+    set_option(descriptor, IPPROTO_IP, IP_RECVTTL, 1);
+    int hops = 0;
+    socklen_t length = sizeof hops;
+    if (family == AF_INET) {
+        getsockopt(descriptor, IPPROTO_IP, IP_TTL, &hops, &length);
+    } else {
+        set_option(descriptor, IPPROTO_IPV6, IPV6_RECVTCLASS, 1);
+        set_option(descriptor, IPPROTO_IPV6, IPV6_RECVHOPLIMIT, 1);
+        getsockopt(descriptor, IPPROTO_IPV6, IPV6_UNICAST_HOPS, &hops, &length);
+        set_option(descriptor, IPPROTO_IPV6, IPV6_UNICAST_HOPS, hops);
+        set_option(descriptor, IPPROTO_IP, IP_TTL, hops);
+    }
+    return {.traffic_class = 0, .hop_limit = static_cast<std::uint8_t>(hops)};
 }
 
 } // namespace
 
 struct UdpSocket::Inbox {
-    static constexpr std::size_t control_bytes = 128;
+    static constexpr std::size_t control_bytes = 256;
     /// UDP_MAX_SEGMENTS of Linux 6.9 and later; it was 64 before.
     static constexpr std::size_t segments_max = 128;
     /// About as many datagrams are taken at a time when messages hold many: a third of a
@@ -105,17 +158,17 @@ struct UdpSocket::Inbox {
     }
 
     /// Cuts a message into its datagrams.
-    void put(std::size_t index, std::size_t segment_bytes, base::TimePoint at)
+    void put(std::size_t index, const Label& label, base::TimePoint at)
     {
         const std::span<const std::byte> bytes{payload.get() + index * payload_bytes_max,
                                                headers[index].msg_len};
         const Endpoint from{senders[index], headers[index].msg_hdr.msg_namelen};
-        const std::size_t step = segment_bytes == 0 ? payload_bytes_max : segment_bytes;
+        const std::size_t step = label.segment_bytes == 0 ? payload_bytes_max : label.segment_bytes;
         std::size_t begin = 0;
         do {
             base::ensure(received.size() < received.capacity());
-            received.push_back(
-                {bytes.subspan(begin, std::min(step, bytes.size() - begin)), from, at});
+            received.push_back({bytes.subspan(begin, std::min(step, bytes.size() - begin)), from,
+                                at, label.marks});
             begin += step;
         } while (begin < bytes.size());
     }
@@ -144,8 +197,7 @@ struct UdpSocket::Inbox {
 
 UdpSocket::UdpSocket(const Endpoint& local, Load load)
     : descriptor_{socket(local.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)},
-      inbox_{std::make_unique<Inbox>(load)},
-      sender_{std::make_unique<BatchSender>()}
+      inbox_{std::make_unique<Inbox>(load)}
 {
     if (descriptor_ < 0) throw std::system_error{errno, std::generic_category(), "socket"};
     set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, 1);
@@ -153,13 +205,16 @@ UdpSocket::UdpSocket(const Endpoint& local, Load load)
     // 4 MB is a second of a busy link while we are not running.
     set_option(descriptor_, SOL_SOCKET, SO_RCVBUF, 4 << 20);
     set_option(descriptor_, SOL_SOCKET, SO_SNDBUF, 4 << 20);
+    base::IpMarks usual;
     if (load == Load::bulk) {
         // Not more: what waits here when a flood ends makes what comes after it late. Merged, 4 MB
         // (the kernel doubles it) hold some 60 000 small datagrams, which take a relay 60 ms; with
         // 8 MB it was late for 160 ms after a flood.
         set_receive_buffer(descriptor_, 4 << 20);
         set_option(descriptor_, SOL_UDP, UDP_GRO, 1);
+        usual = ask_for_marks(descriptor_, local.family());
     }
+    sender_ = std::make_unique<BatchSender>(usual);
     if (bind(descriptor_, local.address(), local.length()) != 0) {
         const int error = errno;
         close(descriptor_);
@@ -194,7 +249,7 @@ std::span<const Received> UdpSocket::receive()
         if (label.overflowed) inbox.count_overflow(*label.overflowed);
         const auto at =
             label.stamp ? std::min(now, base::TimePoint{*label.stamp + to_monotonic}) : now;
-        inbox.put(i, label.segment_bytes, at);
+        inbox.put(i, label, at);
     }
     inbox.make_ready(taken);
     const auto per_message = inbox.received.size() / taken;
@@ -209,9 +264,10 @@ SendOutcome UdpSocket::send(const Endpoint& to, std::span<const std::byte> bytes
 }
 
 std::span<const SendOutcome>
-UdpSocket::send_batch(const Endpoint& to, std::span<const std::span<const std::byte>> datagrams)
+UdpSocket::send_batch(const Endpoint& to, std::span<const std::span<const std::byte>> datagrams,
+                      std::span<const base::IpMarks> marks)
 {
-    return sender_->send(descriptor_, to, datagrams);
+    return sender_->send(descriptor_, to, datagrams, marks);
 }
 
 Endpoint UdpSocket::local() const

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/ip_marks.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/batch_sender.hpp"
 #include "proto/net/endpoint.hpp"
@@ -17,14 +18,16 @@ namespace hapnet::net {
 struct Received {
     std::span<const std::byte> bytes; // valid until the next receive()
     Endpoint from;
-    base::TimePoint at; // the kernel's receive stamp
+    base::TimePoint at;    // the kernel's receive stamp
+    base::IpMarks marks{}; // of Load::bulk; with Load::stream they are not asked for
 };
 
 /// What a socket is for.
 enum class Load : std::uint8_t {
     stream, // one sender at a few thousand datagrams a second
     bulk,   // as many as it can take: the kernel may hand over neighbours of one size together
-            // (UDP_GRO), and a privileged program gets the receive buffer that it asks for
+            // (UDP_GRO), and a privileged program gets the receive buffer that it asks for. Says
+            // the marks of what arrives
 };
 
 /// A bound, non-blocking UDP socket with kernel receive stamps. Sends and receives; decides
@@ -54,9 +57,11 @@ public:
     SendOutcome send(const Endpoint& to, std::span<const std::byte> bytes);
 
     /// Sends up to BatchSender::batch_max datagrams, merged for the kernel where it can take them
-    /// so. What became of each, in their order; valid until the next call. Never blocks.
+    /// so. What became of each, in their order; valid until the next call. Never blocks. `marks`:
+    /// those of each datagram, or empty: the socket's own.
     std::span<const SendOutcome> send_batch(const Endpoint& to,
-                                            std::span<const std::span<const std::byte>> datagrams);
+                                            std::span<const std::span<const std::byte>> datagrams,
+                                            std::span<const base::IpMarks> marks = {});
 
     [[nodiscard]] Endpoint local() const;
     [[nodiscard]] int descriptor() const { return descriptor_; }

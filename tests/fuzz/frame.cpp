@@ -4,6 +4,7 @@
 #include "tests/fuzz/fuzz_target.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 /// Any bytes are a frame of some kind. Fixed checksums are right: fixing them again changes
@@ -21,5 +22,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     base::ensure(twice == fixed);
     const auto again = emulator::read_frame(fixed);
     base::ensure(again.kind == frame.kind && again.header_bytes == frame.header_bytes);
+    std::ignore = emulator::flow_of(bytes);
+    if (frame.marks != base::IpMarks{}) {
+        auto marked = fixed;
+        emulator::mark_congestion(marked);
+        base::ensure(emulator::read_frame(marked).marks == frame.marks.with_congestion());
+        twice = marked;
+        emulator::fix_checksums(twice);
+        base::ensure(twice == marked); // its checksum was brought up to date
+    }
     return 0;
 }

@@ -83,7 +83,6 @@ private:
 
 constexpr std::size_t v4_header_bytes = 20;
 constexpr std::size_t udp_header_bytes = 8;
-constexpr char hop_limit = 64;
 constexpr char udp_protocol = 17;
 
 /// What an IPv4 address begins with as an IPv6 address.
@@ -135,14 +134,20 @@ void set_net16(std::string& bytes, std::size_t at, std::uint16_t value)
     bytes[at + 1] = static_cast<char>(value & 0xff);
 }
 
+char hop_limit_of(const CapturedPacket& packet)
+{
+    constexpr std::uint8_t usual = 64;
+    return static_cast<char>(packet.marks.hop_limit == 0 ? usual : packet.marks.hop_limit);
+}
+
 void put_v4_header(std::string& bytes, const CapturedPacket& packet)
 {
     const auto start = bytes.size();
-    put_net16(bytes, 0x4500); // version 4, five words, no class of service
+    put_net16(bytes, 0x4500U | packet.marks.traffic_class); // version 4, five words
     put_net16(bytes, v4_header_bytes + udp_header_bytes + packet.payload.size());
     put_net16(bytes, 0);      // no identification needed (RFC 6864) ...
     put_net16(bytes, 0x4000); // ... by what is not to be fragmented
-    bytes += hop_limit;
+    bytes += hop_limit_of(packet);
     bytes += udp_protocol;
     put_net16(bytes, 0);
     bytes += v4_bytes(packet.from);
@@ -153,11 +158,11 @@ void put_v4_header(std::string& bytes, const CapturedPacket& packet)
 
 void put_v6_header(std::string& bytes, const CapturedPacket& packet)
 {
-    put_net16(bytes, 0x6000); // version 6
+    put_net16(bytes, 0x6000U | packet.marks.traffic_class << 4U); // version 6
     put_net16(bytes, 0);
     put_net16(bytes, udp_header_bytes + packet.payload.size());
     bytes += udp_protocol;
-    bytes += hop_limit;
+    bytes += hop_limit_of(packet);
     put_v6(bytes, packet.from);
     put_v6(bytes, packet.to);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/fate.hpp"
+#include "proto/base/ip_marks.hpp"
 #include "proto/base/time.hpp"
 
 #include <array>
@@ -15,8 +16,8 @@
 namespace hapnet::emulator {
 
 // A capture as pcapng (draft-ietf-opsawg-pcapng), which Wireshark and tshark open: two interfaces,
-// "side A" and "side B", of raw IP packets, whole, with times in nanoseconds. The relay sees no IP
-// headers: the ones here are made up, with correct lengths and checksums.
+// "side A" and "side B", of raw IP packets, whole, with times in nanoseconds. The relay sees of IP
+// headers only their marks: the rest is made up, with correct lengths and checksums.
 
 enum class CaptureSide : std::uint8_t { a, b };
 
@@ -32,10 +33,11 @@ struct CapturedPacket {
     CaptureSide side = CaptureSide::a; // whose socket it passed
     bool is_outbound = false;          // sent by the emulator
     base::TimePoint at{};
-    UdpAddress from;
-    UdpAddress to;
-    std::span<const std::byte> payload; // at most payload_bytes_max
-    std::uint32_t pair = 0;             // of sides, where there are several
+    UdpAddress from{};
+    UdpAddress to{};
+    std::span<const std::byte> payload{}; // at most payload_bytes_max
+    std::uint32_t pair = 0;               // of sides, where there are several
+    base::IpMarks marks{};                // hop limit 0: 64
 
     static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
 };

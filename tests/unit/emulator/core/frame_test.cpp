@@ -125,5 +125,75 @@ TEST(FixChecksums, ComputesThoseOfIpv6)
     EXPECT_EQ(frame[14 + 43], std::byte{0xbd});
 }
 
+TEST(Marks, AreThoseOfTheIpHeader)
+{
+    EXPECT_EQ(read_frame(framed({8, 0}, udp_v4())).marks, (base::IpMarks{0, 64}));
+    auto packet = icmp_v6(128);
+    packet[0] = std::byte{0x6b};
+    packet[1] = std::byte{0x9f}; // the rest of the class, and of the flow label
+    EXPECT_EQ(read_frame(framed({0x86, 0xdd}, packet)).marks, (base::IpMarks{0xb9, 255}));
+    EXPECT_EQ(read_frame(framed({8, 6}, Bytes(28))).marks, base::IpMarks{}); // ARP has none
+    const auto whole = framed({8, 0}, udp_v4());
+    const Bytes cut(whole.begin(), whole.begin() + 14 + 19);
+    EXPECT_EQ(read_frame(cut).marks, base::IpMarks{});
+}
+
+TEST(MarkCongestion, SetsBothBitsAndKeepsTheChecksumRight)
+{
+    for (const unsigned tos : {0x01U, 0x02U, 0xb9U, 0xbaU, 0x03U}) {
+        auto packet = udp_v4();
+        packet[1] = static_cast<std::byte>(tos);
+        auto frame = framed({0x81, 0, 0, 5, 8, 0}, packet);
+        fix_checksums(frame);
+        mark_congestion(frame);
+        EXPECT_EQ(read_frame(frame).marks,
+                  (base::IpMarks{static_cast<std::uint8_t>(tos | 3U), 64}));
+        auto fixed = frame;
+        fix_checksums(fixed);
+        EXPECT_EQ(fixed, frame) << tos;
+    }
+    auto packet = icmp_v6(128);
+    packet[1] = std::byte{0x25}; // ECT(0), and a flow label
+    auto frame = framed({0x86, 0xdd}, packet);
+    mark_congestion(frame);
+    EXPECT_EQ(frame[14], std::byte{0x60});
+    EXPECT_EQ(frame[15], std::byte{0x35});
+}
+
+TEST(Flows, AreToldApartByAddressesProtocolAndPorts)
+{
+    const auto flow_with = [](std::size_t place) {
+        auto packet = udp_v4();
+        packet[place] ^= std::byte{0x04};
+        return flow_of(framed({8, 0}, packet));
+    };
+    const auto flow = flow_of(framed({8, 0}, udp_v4()));
+    EXPECT_EQ(flow_of(framed({0x81, 0, 0, 5, 8, 0}, udp_v4())), flow); // a tag is none of it
+    for (const std::size_t same : {1U, 4U, 8U, 24U, 28U}) EXPECT_EQ(flow_with(same), flow) << same;
+    for (const std::size_t other : {9U, 12U, 15U, 16U, 19U, 20U, 21U, 22U, 23U}) {
+        EXPECT_NE(flow_with(other), flow) << other;
+    }
+}
+
+TEST(Flows, KeepTheFragmentsOfAPacketTogether)
+{
+    auto first = udp_v4();
+    first[6] = std::byte{0x20}; // more fragments
+    auto second = udp_v4();
+    second[7] = std::byte{0x01}; // of an offset: what stands in the place of ports is data
+    second[20] = std::byte{0x99};
+    EXPECT_EQ(flow_of(framed({8, 0}, first)), flow_of(framed({8, 0}, second)));
+    EXPECT_NE(flow_of(framed({8, 0}, first)), flow_of(framed({8, 0}, udp_v4())));
+}
+
+TEST(Flows, OfIpv6AreToldApart)
+{
+    const auto flow = flow_of(framed({0x86, 0xdd}, icmp_v6(128)));
+    auto other = icmp_v6(128);
+    other[39] = std::byte{1}; // of the destination
+    EXPECT_NE(flow_of(framed({0x86, 0xdd}, other)), flow);
+    EXPECT_EQ(flow_of(framed({8, 6}, Bytes(28))), 0U);
+}
+
 } // namespace
 } // namespace hapnet::emulator

@@ -66,7 +66,7 @@ TEST(Link, CarriesAnEnvelopeThatNoLawCountsOrChanges)
     Link link = link_of(conditions);
     for (int i = 0; i < 200; ++i) {
         const auto at = start + i * 10ms;
-        const auto admission = link.on_packet(payload, at, true, envelope);
+        const auto admission = link.on_packet(payload, at, true, {.envelope_bytes = envelope});
         EXPECT_FALSE(admission.drop);
         const auto departure = link.poll(at + 6ms);
         ASSERT_TRUE(departure);
@@ -79,6 +79,24 @@ TEST(Link, CarriesAnEnvelopeThatNoLawCountsOrChanges)
     EXPECT_EQ(link.statistics().corrupted, 200U);
     EXPECT_EQ(link.statistics().bytes_in, 200 * size);
     EXPECT_EQ(link.statistics().bytes_out, 200 * size);
+}
+
+TEST(Link, CarriesMarksAndCountsThoseOfCongestion)
+{
+    Link link = link_of({.duplicate = {100_percent}, .delay = constant(5ms)});
+    const base::IpMarks congested{0xbb, 17};
+    link.on_packet(payload, start, true, {.marks = congested});
+    link.on_packet(payload, start, true, {.marks = {0xba, 18}});
+    link.on_packet(payload, start);
+    std::vector<base::IpMarks> marks;
+    while (const auto departure = link.poll(start + 5ms)) {
+        marks.push_back(departure->marks);
+        link.on_sent(*departure, start + 5ms);
+    }
+    EXPECT_EQ(marks,
+              (std::vector<base::IpMarks>{congested, congested, {0xba, 18}, {0xba, 18}, {}, {}}));
+    EXPECT_EQ(link.statistics().ce_in, 1U);
+    EXPECT_EQ(link.statistics().ce_out, 2U); // with its copy
 }
 
 TEST(Link, DoesTheSameWithoutALens)

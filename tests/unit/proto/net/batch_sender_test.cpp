@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <optional>
 #include <sys/socket.h>
 #include <tuple>
 
@@ -22,10 +23,11 @@ Datagrams of_sizes(const std::vector<std::size_t>& sizes)
     return all;
 }
 
-std::vector<SendOutcome> send_batch(UdpSocket& from, const Endpoint& to, const Datagrams& datagrams)
+std::vector<SendOutcome> send_batch(UdpSocket& from, const Endpoint& to, const Datagrams& datagrams,
+                                    const std::vector<base::IpMarks>& marks = {})
 {
     const std::vector<std::span<const std::byte>> views(datagrams.begin(), datagrams.end());
-    const auto outcomes = from.send_batch(to, views);
+    const auto outcomes = from.send_batch(to, views, marks);
     return {outcomes.begin(), outcomes.end()};
 }
 
@@ -110,6 +112,65 @@ TEST_P(SendBatch, TellsTheOutcomeOfEachDatagram)
     expected[2] = expected[3] = SendOutcome::too_big;
     EXPECT_EQ(send_batch(from, to.local(), datagrams), expected);
     EXPECT_EQ(receive(to, 4).size(), 4U);
+}
+
+/// Runs of equal marks of several lengths: the usual ones, others, and a class alone.
+std::vector<base::IpMarks> mixed_marks(std::size_t count)
+{
+    std::vector<base::IpMarks> marks;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto kind = i % 7;
+        marks.push_back(kind < 3   ? base::IpMarks{0, 64}
+                        : kind < 5 ? base::IpMarks{static_cast<std::uint8_t>(0xb8 | i % 4), 64}
+                                   : base::IpMarks{1, static_cast<std::uint8_t>(10 + i)});
+    }
+    return marks;
+}
+
+std::vector<base::IpMarks> marks_of(const std::vector<Arrived>& arrived)
+{
+    std::vector<base::IpMarks> all;
+    for (const Arrived& one : arrived) all.push_back(one.marks);
+    return all;
+}
+
+TEST_P(SendBatch, GivesEachDatagramItsMarksAlsoWhereTheKernelRefusesToCut)
+{
+    for (const int without_checksum : {0, 1}) { // with it Linux refuses UDP_SEGMENT
+        UdpSocket from{here(), load()};
+        UdpSocket to{here(), Load::bulk};
+        ASSERT_EQ(setsockopt(from.descriptor(), SOL_SOCKET, SO_NO_CHECK, &without_checksum,
+                             sizeof without_checksum),
+                  0);
+        const auto datagrams = of_sizes(std::vector<std::size_t>(BatchSender::batch_max, 96));
+        const auto marks = mixed_marks(datagrams.size());
+        EXPECT_EQ(send_batch(from, to.local(), datagrams, marks), all_sent(datagrams.size()));
+        const auto arrived = receive(to, datagrams.size());
+        EXPECT_EQ(bytes_of(arrived), datagrams);
+        EXPECT_EQ(marks_of(arrived), marks);
+        // One alone, and one of unknown hop limit, which leaves with the system's.
+        EXPECT_EQ(send_batch(from, to.local(), of_sizes({10}), {{0x2e, 3}}), all_sent(1));
+        EXPECT_EQ(send_batch(from, to.local(), of_sizes({10}), {{0x2e, 0}}), all_sent(1));
+        EXPECT_EQ(marks_of(receive(to, 2)), (std::vector<base::IpMarks>{{0x2e, 3}, {0x2e, 64}}));
+    }
+}
+
+TEST(SendBatchToBothFamilies, GivesMarksToAnIpv4AddressInAnIpv6One)
+{
+    std::optional<UdpSocket> from;
+    std::optional<UdpSocket> to;
+    try {
+        from.emplace(endpoint("[::ffff:127.0.0.1]:0"), Load::bulk);
+        to.emplace(endpoint("[::ffff:127.0.0.1]:0"), Load::bulk);
+    } catch (const std::system_error& error) {
+        GTEST_SKIP() << "this machine has no such loopback: " << error.what();
+    }
+    const auto datagrams = of_sizes(std::vector<std::size_t>(20, 96));
+    const auto marks = mixed_marks(datagrams.size());
+    EXPECT_EQ(send_batch(*from, to->local(), datagrams, marks), all_sent(datagrams.size()));
+    const auto arrived = receive(*to, datagrams.size());
+    EXPECT_EQ(bytes_of(arrived), datagrams);
+    EXPECT_EQ(marks_of(arrived), marks);
 }
 
 INSTANTIATE_TEST_SUITE_P(Loopback, SendBatch,

@@ -23,6 +23,7 @@ struct Arrived {
     std::vector<std::byte> bytes;
     Endpoint from;
     base::TimePoint at;
+    base::IpMarks marks{};
 };
 
 inline std::vector<Arrived> receive(UdpSocket& socket, std::size_t count)
@@ -32,7 +33,7 @@ inline std::vector<Arrived> receive(UdpSocket& socket, std::size_t count)
     while (all.size() < count && monotonic_now() < deadline) {
         wait_readable(std::array{socket.descriptor()}, deadline);
         for (const Received& one : socket.receive()) {
-            all.push_back({{one.bytes.begin(), one.bytes.end()}, one.from, one.at});
+            all.push_back({{one.bytes.begin(), one.bytes.end()}, one.from, one.at, one.marks});
         }
     }
     return all;

@@ -97,6 +97,23 @@ std::optional<std::string> dissected(const std::string& capture)
     return printed;
 }
 
+TEST(Capture, HasTheMarksOfTheDatagram)
+{
+    CapturedPacket packet{.from = v4(1, 7000), .to = v4(9, 7001), .marks = {0xbb, 17}};
+    const auto header = [&](std::size_t count) {
+        std::string bytes;
+        append_packet(bytes, packet, 0s, "");
+        return bytes.substr(28, count); // behind that of the block
+    };
+    EXPECT_EQ(header(2), "\x45\xbb");
+    EXPECT_EQ(header(9).back(), '\x11');
+    packet.marks = {};
+    EXPECT_EQ(header(9).back(), '\x40'); // not known: 64, as most systems have it
+    packet = {.from = v6(1, 7000), .to = v6(9, 7001), .marks = {0xbb, 17}};
+    EXPECT_EQ(header(2), "\x6b\xb0");
+    EXPECT_EQ(header(8).back(), '\x11');
+}
+
 TEST(Capture, IsUnderstoodByTshark)
 {
     const std::vector<std::byte> hello{std::byte{'h'}, std::byte{'e'}, std::byte{'y'}};
