@@ -54,6 +54,7 @@ Examples:
   hapnet-emulator --link 1-2=:7001,:7002 --link 1-3=:7003,:7004 \
       --delay 20ms --set 1-3.delay=80ms --set 3-1.loss=2%
   hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
+  hapnet-emulator exec --delay 40ms --loss 1% -- curl https://example.org
   hapnet-emulator probe 127.0.0.1:7001 --count 10
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
@@ -454,6 +455,15 @@ net::CommandLine<AnyOptions> checked(BetweenOptions options, TypedCommands comma
     return AnyOptions{std::move(options)};
 }
 
+net::CommandLine<AnyOptions> checked(ExecOptions options, TypedCommands commands)
+{
+    auto fine = require_one_command(commands);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    options.command = std::move(commands.first);
+    return AnyOptions{std::move(options)};
+}
+
 net::CommandLine<AnyOptions> checked(BridgeOptions options)
 {
     auto fine = require_two_interfaces(options.a, options.b);
@@ -515,6 +525,9 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     BetweenOptions between_two;
     cli::Command& between = add_between(program);
     add_frames(between, between_two);
+    ExecOptions executing;
+    cli::Command& exec = add_exec(program, executing.through);
+    add_frames(exec, executing);
     BridgeOptions bridging;
     cli::Command& bridge = add_bridge(program, bridging.a, bridging.b);
     add_frames(bridge, bridging);
@@ -529,6 +542,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
         return AnyOptions{std::move(probing)};
     }
     if (between.is_chosen()) return checked(std::move(between_two), std::move(typed));
+    if (exec.is_chosen()) return checked(std::move(executing), std::move(typed));
     if (bridge.is_chosen()) return checked(std::move(bridging));
     if (!check.is_chosen() && !predict.is_chosen()) {
         return chosen_run(std::move(options), std::move(links), std::move(through), program);
