@@ -8,19 +8,18 @@
 
 export LC_ALL=C.UTF-8 TERM=xterm
 # shellcheck disable=SC2016 # the shell of the session expands it
-mosh-server new -i 127.0.0.1 -p 60001 -- bash -c 'read -r line; echo "got $((line * 2))"; sleep 2' \
-    >server.log 2>server.err || fail "mosh-server: $?"
+mosh-server new -i 127.0.0.1 -p 60001 -- bash -c 'echo asks; read -r line; echo "got $((line * 2))"
+    sleep 2' >server.log 2>server.err || fail "mosh-server: $?"
 key=$(sed -n 's/^MOSH CONNECT 60001 //p' server.log)
 [[ -n $key ]] || fail "no key of mosh-server"
 stand_between 60001
-# A pipe that stays open: at the end of its input the client would end the session. A terminal
-# without a size shows nothing.
-{
-    sleep 2
-    echo 2121
-    sleep 30
-} | MOSH_KEY=$key timeout 40 script -qefc \
-    "stty cols 80 rows 24; mosh-client 127.0.0.1 $port" typescript >client.log 2>client.err &
+# Its input does not end, which would end the session. A terminal without a size shows nothing.
+mkfifo keys
+exec 3<>keys
+MOSH_KEY=$key timeout 60 script -qefc "stty cols 80 rows 24; mosh-client 127.0.0.1 $port" \
+    typescript <keys >client.log 2>client.err &
+await asks typescript
+echo 2121 >&3
 await 'got 4242' typescript
 await 'exiting' typescript
 end_between
