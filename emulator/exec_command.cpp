@@ -41,13 +41,16 @@ base::Result<int> run(const ExecOptions& options)
     net::ChildCommand a{setup_of(options, end)};
     connect(a, end);
     world.open();
-    const auto session = open_session(options.run, *scenario,
-                                      {.command = "exec",
-                                       .through = std::string{world.name()},
-                                       .frames = {.interface_a = end.wire,
-                                                  .interface_b = wire_b,
-                                                  .all_frames = options.frames.all_frames,
-                                                  .fix_checksums = options.frames.fix_checksums}});
+    const auto session = open_session(
+        options.run, *scenario,
+        {.command = "exec",
+         .through = std::string{world.name()},
+         .frames = {.interface_a = end.wire,
+                    .interface_b = wire_b,
+                    .all_frames = options.frames.all_frames,
+                    .fix_checksums = options.frames.fix_checksums,
+                    .cure_of_oversized = "pasta does not cut datagrams up, and these do not get "
+                                         "through; slirp4netns does (--through slirp4netns)"}});
     if (const auto fine = session->ensure_checks(); !fine) return tl::unexpected{fine.error()};
     net::say("hapnet-emulator", fmt::format("the command reaches other networks through {}; this "
                                             "machine is {} there",
