@@ -48,7 +48,7 @@ constexpr const char* exec_description =
     "also what listens on its loopback. TCP, UDP and the echoes of ping pass, over IPv4 alone.";
 
 constexpr const char* exec_footer =
-    R"(up is from the command to the network, down comes back. The conditions hold for each IP packet
+    R"(up is from the command to the network, down is back. The conditions hold for each IP packet
 of the command, its questions to name servers too; ARP passes undisturbed unless --all-frames is
 given. The terminal belongs to the command; the emulator's own lines go to stderr.
 

@@ -479,6 +479,40 @@ void add_frames(cli::Command& command, auto& options)
     add_frame_options(command, options.frames);
 }
 
+/// The commands for frames, and what their options go to.
+class FrameCommands {
+public:
+    explicit FrameCommands(cli::Command& program)
+        : between_command_{add_between(program)},
+          exec_command_{add_exec(program, exec_.through)},
+          bridge_command_{add_bridge(program, bridge_.a, bridge_.b)}
+    {
+        add_frames(between_command_, between_);
+        add_frames(exec_command_, exec_);
+        add_frames(bridge_command_, bridge_);
+    }
+    FrameCommands(const FrameCommands&) = delete; // the commands know where the options are
+    FrameCommands& operator=(const FrameCommands&) = delete;
+    ~FrameCommands() = default;
+
+    /// What was asked for, once; nullopt: none of them.
+    std::optional<net::CommandLine<AnyOptions>> chosen(TypedCommands typed)
+    {
+        if (between_command_.is_chosen()) return checked(std::move(between_), std::move(typed));
+        if (exec_command_.is_chosen()) return checked(std::move(exec_), std::move(typed));
+        if (bridge_command_.is_chosen()) return checked(std::move(bridge_));
+        return std::nullopt;
+    }
+
+private:
+    BetweenOptions between_{};
+    ExecOptions exec_{};
+    BridgeOptions bridge_{};
+    cli::Command& between_command_;
+    cli::Command& exec_command_;
+    cli::Command& bridge_command_;
+};
+
 } // namespace
 
 std::string_view to_text(Timing timing)
@@ -522,15 +556,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     ProbeOptions probing;
     const cli::Command& probe = add_probe(program, probing);
 
-    BetweenOptions between_two;
-    cli::Command& between = add_between(program);
-    add_frames(between, between_two);
-    ExecOptions executing;
-    cli::Command& exec = add_exec(program, executing.through);
-    add_frames(exec, executing);
-    BridgeOptions bridging;
-    cli::Command& bridge = add_bridge(program, bridging.a, bridging.b);
-    add_frames(bridge, bridging);
+    FrameCommands frames{program};
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (learn.is_chosen()) return AnyOptions{std::move(learning)};
@@ -541,9 +567,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
         if (auto fine = require_probe(probing, probe); !fine) return tl::unexpected{fine.error()};
         return AnyOptions{std::move(probing)};
     }
-    if (between.is_chosen()) return checked(std::move(between_two), std::move(typed));
-    if (exec.is_chosen()) return checked(std::move(executing), std::move(typed));
-    if (bridge.is_chosen()) return checked(std::move(bridging));
+    if (auto chosen = frames.chosen(std::move(typed))) return *std::move(chosen);
     if (!check.is_chosen() && !predict.is_chosen()) {
         return chosen_run(std::move(options), std::move(links), std::move(through), program);
     }

@@ -7,8 +7,8 @@ set -euo pipefail
 
 usage="usage: scripts/setup.sh [--test] [--programs]
 Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
-also those that scripts/test.sh needs, with --programs those that its kind programs needs. Runs as root or with sudo, asks nothing, and does nothing
-when nothing is missing."
+also those that scripts/test.sh needs, with --programs those that its kind programs needs. Runs as
+root or with sudo, asks nothing, and does nothing when nothing is missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
     libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev

@@ -9,9 +9,9 @@ usage="usage: scripts/test.sh [--all | KIND]
 Installs what is missing, builds the release preset with GCC and runs every test of it: unit,
 property, simulation, conformance, bits, cost, benches' self tests, the house's own rules, programs
 end to end; and checks the format of the sources and the scripts.
---all also runs some of the kind programs, runs the tests and replays the fuzz corpora with Clang under AddressSanitizer and
-UndefinedBehaviorSanitizer (but for the programs themselves and emulated devices: those are the
-workflow asan-e2e), and reads the sources with clang-tidy.
+--all also runs some of the kind programs, runs the tests and replays the fuzz corpora with Clang
+under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs themselves and emulated
+devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
 KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
 curl, dig, iperf, iperf3, mosh, ping, QUIC), web (a browser), ship (packages in a bare root), fleet
 (many machines). Only programs has tests yet.
@@ -147,9 +147,10 @@ test_asan() {
 
 # Says why a test was left out, where one was.
 test_programs() {
-    ctest --test-dir build/release/tests/e2e/programs -C programs --label-regex "^${1:-programs}\$" \
+    local tests=build/release/tests/e2e/programs
+    ctest --test-dir "$tests" -C programs --label-regex "^${1:-programs}\$" \
         --parallel "$(nproc)" --output-on-failure --no-tests=error
-    sed -n 's/^skipped: /left out: /p' build/release/tests/e2e/programs/Testing/Temporary/LastTest.log
+    sed -n 's/^skipped: /left out: /p' "$tests/Testing/Temporary/LastTest.log"
 }
 
 build_programs() {

@@ -32,5 +32,6 @@ for n in {1..10}; do
     grep -qx "192.0.2.$n" "answer$n.log" || fail "no answer for n$n"
 done
 end_between
-jq -e '.up.received >= 10 and .clients_seen >= 10' stats.json >said.log || fail "fewer than ten clients"
+jq -e '.up.received >= 10 and .clients_seen >= 10' stats.json >said.log ||
+    fail "fewer than ten clients"
 echo passed
