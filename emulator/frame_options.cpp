@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/frame_options.hpp"
 
+#include "proto/cli/parsers.hpp"
+
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
