@@ -17,6 +17,8 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<int> run(const UpstreamOptions& options);
 /// Runs two commands with the emulator between them; gives the exit code of the first.
 [[nodiscard]] base::Result<int> run(const BetweenOptions& options);
+/// Runs a command with the emulator between it and the network; gives its exit code.
+[[nodiscard]] base::Result<int> run(const ExecOptions& options);
 /// Joins two interfaces until it is told to stop, or finds a loop.
 [[nodiscard]] base::Result<int> run(const BridgeOptions& options);
 /// Prints the profile in canonical form, each stage in words, and warnings.

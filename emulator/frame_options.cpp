@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/frame_options.hpp"
 
+#include "proto/cli/parsers.hpp"
+
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
@@ -37,6 +39,32 @@ constexpr const char* between_exit_codes =
   2  bad usage or input
   3  the system refused (no user namespaces, no such command))";
 
+constexpr const char* exec_description =
+    "Runs one command in a network of its own, with the emulator on its only wire; the other end "
+    "of "
+    "that wire is joined to the network of this machine by pasta (Debian's package passt) or "
+    "slirp4netns. Any program meets the conditions so, without being told an address. No root is "
+    "needed where the system lets users make namespaces.\n"
+    "\n"
+    "The command is 10.0.2.100. 10.0.2.2, $HAPNET_HOST and the host name host are this machine, "
+    "also what listens on its loopback. TCP, UDP and the echoes of ping pass, over IPv4 alone.";
+
+constexpr const char* exec_footer =
+    R"(up is from the command to the network, down is back. The conditions hold for each IP packet
+of the command, its questions to name servers too; ARP passes undisturbed unless --all-frames is
+given. The terminal belongs to the command; the emulator's own lines go to stderr.
+
+Examples:
+  hapnet-emulator exec --delay 40ms --loss 1% -- curl https://example.org
+  hapnet-emulator exec --profile lte --stats run.json -- bash
+  hapnet-emulator exec --up.rate 1Mbit/s -- iperf3 -c "$SERVER")";
+
+constexpr const char* exec_exit_codes =
+    R"(  N  as COMMAND ended; 128 + n when signal n killed it
+  1  the run failed, or did not meet a --require or a [[check]] of its profile
+  2  bad usage or input
+  3  the system refused (no user namespaces, neither pasta nor slirp4netns, no such command))";
+
 constexpr const char* bridge_description =
     "Joins two network interfaces, as a switch with two ports and a bad cable would: what arrives "
     "at one leaves from the other, any protocol, VLAN tags and all. The ends keep their addresses "
@@ -57,6 +85,13 @@ constexpr const char* bridge_exit_codes = R"(  0  done
   2  bad usage or input
   3  the system refused (no CAP_NET_RAW, no such interface))";
 
+base::Result<WorldProgram> parse_world_program(const std::string& text)
+{
+    const auto program = cli::one_of({"pasta", "slirp4netns"})(text);
+    if (!program) return tl::unexpected{program.error()};
+    return *program == "pasta" ? WorldProgram::pasta : WorldProgram::slirp4netns;
+}
+
 base::Result<std::string> parse_interface(const std::string& text)
 {
     constexpr std::size_t length_max = 15; // of Linux
@@ -73,10 +108,11 @@ std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands)
         return [text](const char* word) { return word == text; };
     };
     if (words.size() < 2) return words;
-    if (!is("between")(words[1])) return words;
+    const bool is_one = is("exec")(words[1]);
+    if (!is_one && !is("between")(words[1])) return words;
     const auto dashes = std::ranges::find_if(words, is("--"));
     if (dashes == words.end()) return words;
-    const auto three = std::find_if(dashes + 1, words.end(), is("---"));
+    const auto three = is_one ? words.end() : std::find_if(dashes + 1, words.end(), is("---"));
     commands.first.assign(dashes + 1, three);
     if (three != words.end()) commands.second.assign(three + 1, words.end());
     return words.first(static_cast<std::size_t>(dashes - words.begin()));
@@ -103,6 +139,20 @@ cli::Command& add_between(cli::Command& program)
     return command;
 }
 
+cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& through)
+{
+    cli::Command& command = program.command(
+        "exec", "Runs one command with the emulator between it and the network, any protocol");
+    command.describe(exec_description);
+    command.add_footer(exec_footer);
+    command.add_exit_codes(exec_exit_codes);
+    command.option("--through", "pasta|slirp4netns",
+                   "The program that joins the command's network to this machine's (default: the "
+                   "first of them that works)",
+                   cli::into(through, parse_world_program));
+    return command;
+}
+
 cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b)
 {
     cli::Command& command =
@@ -123,6 +173,18 @@ base::Result<void> require_two_commands(const TypedCommands& commands)
     return base::fail(
         "two commands are required: hapnet-emulator between --delay 40ms -- ping -c 5 "
         "b --- sleep infinity");
+}
+
+base::Result<void> require_one_command(const TypedCommands& commands)
+{
+    if (!commands.first.empty()) return {};
+    return base::fail("a command is required: hapnet-emulator exec --delay 40ms -- curl "
+                      "https://example.org");
+}
+
+std::string_view to_text(WorldProgram program)
+{
+    return program == WorldProgram::pasta ? "pasta" : "slirp4netns";
 }
 
 base::Result<void> require_two_interfaces(const std::string& a, const std::string& b)

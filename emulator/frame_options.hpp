@@ -5,8 +5,11 @@
 #include "proto/base/result.hpp"
 #include "proto/cli/command.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -23,19 +26,25 @@ struct TypedCommands {
     std::vector<std::string> second;
 };
 
-/// Takes these words from the command line of `between`: they are commands of other programs, with
-/// options of their own. What is left is returned.
+/// Takes these words from the command line of `between` and `exec`: they are commands of other
+/// programs, with options of their own. What is left is returned.
 [[nodiscard]] std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands);
 
 /// Adds what the commands for frames have in common, besides the options of every run.
 void add_frame_options(cli::Command& command, FrameOptions& options);
 
-/// `between`, and `bridge` with its two interfaces.
+/// The programs that join a namespace to the network that its user has, without root.
+enum class WorldProgram : std::uint8_t { pasta, slirp4netns };
+[[nodiscard]] std::string_view to_text(WorldProgram program);
+
+/// `between`; `exec` with the program that it goes through; `bridge` with its two interfaces.
 cli::Command& add_between(cli::Command& program);
+cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& through);
 cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b);
 
 /// What is wrong with the commands that were typed.
 [[nodiscard]] base::Result<void> require_two_commands(const TypedCommands& commands);
+[[nodiscard]] base::Result<void> require_one_command(const TypedCommands& commands);
 /// What is wrong with the two interfaces together.
 [[nodiscard]] base::Result<void> require_two_interfaces(const std::string& a, const std::string& b);
 

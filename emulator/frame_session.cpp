@@ -129,6 +129,7 @@ nlohmann::ordered_json FrameSession::statistics() const
     }
     FrameJson json = head_of(run_);
     json["command"] = setup_.command;
+    if (setup_.through) json["through"] = *setup_.through;
     json["frames"] = {{"a", json_of(frames_.a())}, {"b", json_of(frames_.b())}};
     json["generation"] = paths_.generation();
     add_course(json, run_, frames_.path(), "");

@@ -28,7 +28,8 @@ namespace hapnet::emulator {
 class FrameSession {
 public:
     struct Setup {
-        std::string command; // "between"
+        std::string command;                  // "between"
+        std::optional<std::string> through{}; // the program that stands behind B, if one does
         ports::Frames::Setup frames;
     };
 

@@ -54,6 +54,7 @@ Examples:
   hapnet-emulator --link 1-2=:7001,:7002 --link 1-3=:7003,:7004 \
       --delay 20ms --set 1-3.delay=80ms --set 3-1.loss=2%
   hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
+  hapnet-emulator exec --delay 40ms --loss 1% -- curl https://example.org
   hapnet-emulator probe 127.0.0.1:7001 --count 10
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
@@ -454,6 +455,15 @@ net::CommandLine<AnyOptions> checked(BetweenOptions options, TypedCommands comma
     return AnyOptions{std::move(options)};
 }
 
+net::CommandLine<AnyOptions> checked(ExecOptions options, TypedCommands commands)
+{
+    auto fine = require_one_command(commands);
+    if (fine) fine = require_own_files(options.run);
+    if (!fine) return tl::unexpected{fine.error()};
+    options.command = std::move(commands.first);
+    return AnyOptions{std::move(options)};
+}
+
 net::CommandLine<AnyOptions> checked(BridgeOptions options)
 {
     auto fine = require_two_interfaces(options.a, options.b);
@@ -468,6 +478,40 @@ void add_frames(cli::Command& command, auto& options)
     add_run_options(command, options.run);
     add_frame_options(command, options.frames);
 }
+
+/// The commands for frames, and what their options go to.
+class FrameCommands {
+public:
+    explicit FrameCommands(cli::Command& program)
+        : between_command_{add_between(program)},
+          exec_command_{add_exec(program, exec_.through)},
+          bridge_command_{add_bridge(program, bridge_.a, bridge_.b)}
+    {
+        add_frames(between_command_, between_);
+        add_frames(exec_command_, exec_);
+        add_frames(bridge_command_, bridge_);
+    }
+    FrameCommands(const FrameCommands&) = delete; // the commands know where the options are
+    FrameCommands& operator=(const FrameCommands&) = delete;
+    ~FrameCommands() = default;
+
+    /// What was asked for, once; nullopt: none of them.
+    std::optional<net::CommandLine<AnyOptions>> chosen(TypedCommands typed)
+    {
+        if (between_command_.is_chosen()) return checked(std::move(between_), std::move(typed));
+        if (exec_command_.is_chosen()) return checked(std::move(exec_), std::move(typed));
+        if (bridge_command_.is_chosen()) return checked(std::move(bridge_));
+        return std::nullopt;
+    }
+
+private:
+    BetweenOptions between_{};
+    ExecOptions exec_{};
+    BridgeOptions bridge_{};
+    cli::Command& between_command_;
+    cli::Command& exec_command_;
+    cli::Command& bridge_command_;
+};
 
 } // namespace
 
@@ -512,12 +556,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     ProbeOptions probing;
     const cli::Command& probe = add_probe(program, probing);
 
-    BetweenOptions between_two;
-    cli::Command& between = add_between(program);
-    add_frames(between, between_two);
-    BridgeOptions bridging;
-    cli::Command& bridge = add_bridge(program, bridging.a, bridging.b);
-    add_frames(bridge, bridging);
+    FrameCommands frames{program};
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (learn.is_chosen()) return AnyOptions{std::move(learning)};
@@ -528,8 +567,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
         if (auto fine = require_probe(probing, probe); !fine) return tl::unexpected{fine.error()};
         return AnyOptions{std::move(probing)};
     }
-    if (between.is_chosen()) return checked(std::move(between_two), std::move(typed));
-    if (bridge.is_chosen()) return checked(std::move(bridging));
+    if (auto chosen = frames.chosen(std::move(typed))) return *std::move(chosen);
     if (!check.is_chosen() && !predict.is_chosen()) {
         return chosen_run(std::move(options), std::move(links), std::move(through), program);
     }

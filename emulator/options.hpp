@@ -89,6 +89,14 @@ struct BetweenOptions {
     Options run; // its ends are not used
 };
 
+/// `hapnet-emulator exec ... -- COMMAND`
+struct ExecOptions {
+    FrameOptions frames;
+    std::optional<WorldProgram> through; // nullopt: the first that works
+    std::vector<std::string> command;
+    Options run; // its ends are not used
+};
+
 /// `hapnet-emulator bridge IF_A IF_B`
 struct BridgeOptions {
     std::string a;
@@ -112,9 +120,9 @@ struct PredictOptions {
     bool as_json = false;
 };
 
-using AnyOptions =
-    std::variant<Options, LinkOptions, UpstreamOptions, BetweenOptions, BridgeOptions, CheckOptions,
-                 PredictOptions, VerifyOptions, ReportOptions, LearnOptions, ProbeOptions>;
+using AnyOptions = std::variant<Options, LinkOptions, UpstreamOptions, BetweenOptions, ExecOptions,
+                                BridgeOptions, CheckOptions, PredictOptions, VerifyOptions,
+                                ReportOptions, LearnOptions, ProbeOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -5,22 +5,26 @@
 # Installs what is missing to build Hapnet on Debian 12 and, with --test, to test it.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--test]
+usage="usage: scripts/setup.sh [--test] [--programs]
 Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
-also those that scripts/test.sh needs. Runs as root or with sudo, asks nothing, and does nothing
-when nothing is missing."
+also those that scripts/test.sh needs, with --programs those that its kind programs needs. Runs as
+root or with sudo, asks nothing, and does nothing when nothing is missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
     libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
     libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
-test_packages=(clang-14 clang-format-14 clang-tidy-14 libbenchmark-dev libbullet-dev
-    libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
-    python3-dissononce python3-transitions shellcheck
-    tshark umockdev valgrind)
+test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping libbenchmark-dev
+    libbullet-dev libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
+    passt python3-dissononce python3-transitions shellcheck slirp4netns tshark umockdev valgrind)
+
+# Other people's programs, which run through the emulator.
+program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ngtcp2-client
+    ngtcp2-server openssl passt python3 slirp4netns)
 
 for argument in "$@"; do
     case $argument in
     --test) packages+=("${test_packages[@]}") ;;
+    --programs) packages+=("${program_packages[@]}") ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) echo "setup: unknown argument '$argument'"$'\n'"$usage" >&2 && exit 2 ;;
     esac

@@ -14,6 +14,7 @@ emulator:
   2. an emulator with everything switched on at 20 000 datagrams/s for N minutes (default 10):
      its memory stays flat, nothing is lost that is not counted,
   3. floods of three times what the emulator can take beside a stream of 1 kHz,
+     and of frames between two commands, both ways at once: each packet is in one counter,
   4. each row of the table of jitter and order at 1 kHz for 20 s, against 'predict';
 scene:
   5. 1 000 000 random scenes under the laws of energy, momentum and force, from SEED on
@@ -166,6 +167,7 @@ if [[ $subject == all || $subject == emulator ]]; then
     run loss-laws property_loss
     run memory soak_emulator '--gtest_filter=Soak.*'
     run floods soak_emulator '--gtest_filter=Flood.*'
+    run frames soak_emulator '--gtest_filter=FrameFlood.*'
     run jitter-and-order soak_emulator '--gtest_filter=JitterAndOrder.*'
 fi
 if [[ $subject == all || $subject == scene ]]; then

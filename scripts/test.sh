@@ -9,11 +9,12 @@ usage="usage: scripts/test.sh [--all | KIND]
 Installs what is missing, builds the release preset with GCC and runs every test of it: unit,
 property, simulation, conformance, bits, cost, benches' self tests, the house's own rules, programs
 end to end; and checks the format of the sources and the scripts.
---all also runs the tests and replays the fuzz corpora with Clang under AddressSanitizer and
-UndefinedBehaviorSanitizer (but for the programs themselves and emulated devices: those are the
-workflow asan-e2e), and reads the sources with clang-tidy.
-KIND runs instead what needs more than a compiler: web (a browser), programs (other people's),
-ship (packages in a bare root), fleet (many machines).
+--all also runs some of the kind programs, runs the tests and replays the fuzz corpora with Clang
+under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs themselves and emulated
+devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
+KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
+curl, dig, iperf, iperf3, mosh, ping, QUIC), web (a browser), ship (packages in a bare root), fleet
+(many machines). Only programs has tests yet.
 What each step said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument, 3 when something that it needs cannot be installed."
 
@@ -24,17 +25,19 @@ refuse() {
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 all=
+kind=
 (($# <= 1)) || refuse "one argument at most, not $#"
 case ${1-} in
 '') ;;
 --all) all=yes ;;
 -h | --help) echo "$usage" && exit 0 ;;
-web | programs | ship | fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
+programs) kind=programs ;;
+web | ship | fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
 -*) refuse "unknown argument '$1'" ;;
 *) refuse "unknown kind '$1': use web, programs, ship or fleet" ;;
 esac
 
-scripts/setup.sh --test
+scripts/setup.sh --test ${kind:+--programs}
 logs=build/test-logs
 rm -rf "$logs"
 mkdir -p "$logs"
@@ -142,17 +145,43 @@ test_asan() {
     finish tidy
 }
 
-step "format" check_format || true
-step "scripts" check_scripts || true
-step "pages" check_pages || true
-test_release || true
-[[ -z $all ]] || test_asan || true
+# Says why a test was left out, where one was.
+test_programs() {
+    local tests=build/release/tests/e2e/programs
+    ctest --test-dir "$tests" -C programs --label-regex "^${1:-programs}\$" \
+        --parallel "$(nproc)" --output-on-failure --no-tests=error
+    sed -n 's/^skipped: /left out: /p' "$tests/Testing/Temporary/LastTest.log"
+}
+
+build_programs() {
+    cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
+        --target hapnet-emulator hapnet-ctl own_loopback
+}
+
+# closing LOG...: what ctest said at the end of each.
+closing() {
+    local run said
+    for run in "$@"; do
+        said=$(sed -n '/% tests passed/,$p' "$logs/$run.log" 2>/dev/null || true)
+        printf '%s: %s\n' "${run/-/ }" "${said:-not run to the end}"
+    done
+}
+
+if [[ -n $kind ]]; then
+    { step "build" build_programs && step "programs" test_programs; } || true
+    runs=(programs)
+else
+    step "format" check_format || true
+    step "scripts" check_scripts || true
+    step "pages" check_pages || true
+    test_release || true
+    [[ -z $all ]] || step "programs smoke" test_programs smoke || true
+    [[ -z $all ]] || test_asan || true
+    runs=(release-e2e release-tests release-conformance ${all:+programs-smoke} ${all:+asan-tests})
+fi
 
 printf '\n== what the tests say\n'
-for run in release-e2e release-tests release-conformance ${all:+asan-tests}; do
-    closing=$(sed -n '/% tests passed/,$p' "$logs/$run.log" 2>/dev/null || true)
-    printf '%s: %s\n' "${run/-/ }" "${closing:-not run to the end}"
-done
+closing "${runs[@]}"
 printf '\n== summary\n'
 printf '%s\n' "${summary[@]}"
 if ((failed > 0)); then

@@ -162,10 +162,13 @@ void Frames::pass(Side& from, Side& to)
     }
     undelayed.flush();
     if (from.oversized > 0 && !std::exchange(has_told_of_oversized_, true)) {
+        const auto& cure = setup_.cure_of_oversized;
         untold_ =
-            fmt::format("{} hands over packets that are longer than its MTU: it puts segments "
-                        "together. Switch that off: ethtool -K {} gro off lro off",
-                        from.interface, from.interface);
+            fmt::format("{} hands over packets that are longer than its MTU: {}", from.interface,
+                        cure.empty() ? fmt::format("it puts segments together. Switch that "
+                                                   "off: ethtool -K {} gro off lro off",
+                                                   from.interface)
+                                     : cure);
     }
 }
 

@@ -29,6 +29,9 @@ public:
         bool all_frames = false;    // the conditions hold for every frame
         bool fix_checksums = false; // of what leaves: damage is then not found by them
         bool stops_at_loop = false; // when one machine is heard on both sides
+        /// Why a packet may be longer than the MTU, and what a person can do; "": the interface
+        /// puts segments together.
+        std::string cure_of_oversized{};
     };
 
     /// One interface, and the direction that begins there.

@@ -190,6 +190,8 @@ std::size_t mtu_of(const std::string& interface)
     return static_cast<std::size_t>(request.ifr_mtu);
 }
 
+bool has_interface(const std::string& interface) { return if_nametoindex(interface.c_str()) != 0; }
+
 void make_veth(const std::string& here, const std::string& there, pid_t process_there)
 {
     NetlinkRequest request{RTM_NEWLINK, NLM_F_CREATE | NLM_F_EXCL, ifinfomsg{}};

@@ -9,10 +9,12 @@
 namespace hapnet::net {
 
 // The network interfaces of the network namespace of the calling process. Each function throws
-// std::system_error naming the interface; all but the first need CAP_NET_ADMIN there.
+// std::system_error naming the interface; those that change something need CAP_NET_ADMIN there.
 
 /// The longest IP packet that it sends, in bytes.
 [[nodiscard]] std::size_t mtu_of(const std::string& interface);
+
+[[nodiscard]] bool has_interface(const std::string& interface);
 
 /// Makes two interfaces that are joined: what is sent on one arrives at the other. The second one
 /// is made in the network namespace of another process.

@@ -47,12 +47,6 @@ public:
     }
 };
 
-[[noreturn]] void deny_network(int error, const std::string& what)
-{
-    static const NetworkErrors errors;
-    throw std::system_error{error, errors, what};
-}
-
 constexpr std::string_view user_namespace_cure =
     "cannot make a user namespace, which another user than root needs for a network of its own; "
     "the system forbids it: run as root, or have an administrator allow it: sysctl -w "
@@ -144,6 +138,12 @@ std::array<int, 2> make_pipe()
 
 } // namespace
 
+void deny_network(int error, const std::string& what)
+{
+    static const NetworkErrors errors;
+    throw std::system_error{error, errors, what};
+}
+
 void enter_own_network()
 {
     if (geteuid() != 0) {
@@ -162,6 +162,7 @@ void enter_own_network()
                      "(with Docker: --cap-add SYS_ADMIN --cap-add NET_ADMIN), or the right to make "
                      "user namespaces and another user than root");
     }
+    write_to("/proc/sys/net/ipv6/conf/default/disable_ipv6", "1");
 }
 
 ChildCommand::ChildCommand(const Setup& setup) : has_own_group_{setup.has_own_group}
@@ -203,6 +204,10 @@ void ChildCommand::be_child(const Setup& setup, int orders, int reports) const
         send_report(reports, 0, "");
         await_order(orders);
         reset_signals();
+        if (setup.output >= 0) {
+            dup2(setup.output, STDOUT_FILENO);
+            dup2(setup.output, STDERR_FILENO);
+        }
         for (const std::string& variable : setup.environment) {
             const auto equals = variable.find('=');
             setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);

@@ -10,9 +10,13 @@
 
 namespace hapnet::net {
 
+/// Throws std::system_error whose text has named the cure.
+[[noreturn]] void deny_network(int error, const std::string& what);
+
 /// Moves the process into a network namespace of its own. Root does it as root; others get a user
-/// namespace first, in which they are themselves and may administrate that network. The process
-/// must have one thread. Throws std::system_error whose text names the cure.
+/// namespace first, in which they are themselves and may administrate that network. Interfaces made
+/// there have no IPv6 address of their own accord, and say nothing. The process must have one
+/// thread. Throws std::system_error whose text names the cure.
 void enter_own_network();
 
 /// A command as a child process. Killed with SIGKILL when it goes out of scope; dies with this
@@ -23,6 +27,7 @@ public:
         std::vector<std::string> words;         // the command and its arguments
         bool has_own_network = false;           // in a network namespace of its own
         bool has_own_group = false;             // a process group, and /dev/null as its stdin
+        int output = -1;                        // its stdout and stderr; -1: those of this process
         std::vector<std::string> environment{}; // "NAME=value", besides the environment of this one
         std::string hosts{};                    // lines that it reads after those of /etc/hosts
         std::string name_servers{};             // the text of its /etc/resolv.conf; "": as it is

@@ -75,6 +75,11 @@ struct StopSignal::State {
             if (is_hangup && hangup == Hangup::reload) {
                 reload.store(true, std::memory_order_release);
             } else {
+                if (!is_requested()) {
+                    number.store(static_cast<int>(info.ssi_signo), std::memory_order_relaxed);
+                    // The kernel's own is of the terminal.
+                    is_of_terminal.store(info.ssi_code == SI_KERNEL, std::memory_order_relaxed);
+                }
                 request();
             }
         }
@@ -90,6 +95,8 @@ struct StopSignal::State {
 
     std::atomic<base::Duration::rep> requested_at{0}; // on the timeline; 0: never
     std::atomic<bool> reload{false};
+    std::atomic<int> number{SIGTERM}; // before the request that it belongs to
+    std::atomic<bool> is_of_terminal{false};
 };
 
 namespace {
@@ -128,6 +135,13 @@ base::Duration StopSignal::requested_for() const
     if (!requested()) return {};
     const base::TimePoint at{base::Duration{state_->requested_at.load(std::memory_order_acquire)}};
     return std::max(base::Duration{1}, monotonic_now() - at);
+}
+
+int StopSignal::number() const { return state_->number.load(std::memory_order_relaxed); }
+
+bool StopSignal::came_to_group() const
+{
+    return state_->is_of_terminal.load(std::memory_order_relaxed);
 }
 
 void StopSignal::request() const { state_->request(); }

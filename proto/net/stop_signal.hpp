@@ -33,6 +33,13 @@ public:
     /// For how long a stop has been asked for; 0: it has not.
     [[nodiscard]] base::Duration requested_for() const;
 
+    /// The signal that asked first: SIGINT, SIGTERM or SIGHUP; SIGTERM when request() did, and
+    /// before any.
+    [[nodiscard]] int number() const;
+
+    /// Whether a key of the terminal or its hangup sent it: to all programs of its group.
+    [[nodiscard]] bool came_to_group() const;
+
     /// From any thread: as if such a signal had come.
     void request() const;
 

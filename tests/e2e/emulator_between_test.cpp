@@ -195,7 +195,7 @@ TEST_F(EmulatorBetween, StopsBothCommandsWhenItIsInterrupted)
         {"between", "--", "sh", "-c", "echo A; exec sleep 1000", "---", "sleep", "1000"}};
     ASSERT_TRUE(process.wait_for_out("A", 20s)) << process.err();
     process.signal(SIGINT);
-    EXPECT_EQ(process.wait_exit(20s), 128 + SIGTERM);
+    EXPECT_EQ(process.wait_exit(20s), 128 + SIGINT);
     EXPECT_NE(process.err().find("down (B to A)"), std::string::npos);
 }
 

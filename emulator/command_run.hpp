@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/frame_session.hpp"
+#include "proto/base/time.hpp"
+#include "proto/net/own_network.hpp"
+#include "proto/net/stop_signal.hpp"
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// Command A beside the rounds of a session, and what it talks to: from the start of A to the end
+/// of both.
+class CommandRun {
+public:
+    /// What stands at the other end of the wire. It runs already.
+    struct Other {
+        net::ChildCommand& process;
+        std::string name; // "command B"
+        /// Whether A can start; it does so after `patience` in any case.
+        std::function<bool()> is_ready;
+        base::Duration patience = std::chrono::seconds{1};
+    };
+
+    CommandRun(net::ChildCommand& a, Other other, FrameSession& session,
+               const net::StopSignal& stop);
+
+    /// Gives the exit code of A.
+    int run();
+
+private:
+    /// The end of a process that has been told to end.
+    class Ending {
+    public:
+        explicit Ending(net::ChildCommand& process) : process_{process} {}
+        /// Sends it this signal, once; SIGTERM when it has not ended 2 s later, and SIGKILL a
+        /// second after that. `number` 0: it has that signal already.
+        void pursue(int number, base::TimePoint now);
+
+    private:
+        net::ChildCommand& process_;
+        std::optional<base::TimePoint> told_;
+        bool is_told_again_ = false;
+    };
+
+    [[nodiscard]] bool is_over();
+    [[nodiscard]] bool is_told() const;
+    [[nodiscard]] std::vector<int> descriptors();
+    void look_after(base::TimePoint now);
+    void start_a(base::TimePoint now);
+    void end_both(base::TimePoint now);
+
+    net::ChildCommand& a_;
+    Other other_;
+    FrameSession& session_;
+    const net::StopSignal& stop_;
+    Ending end_of_a_;
+    Ending end_of_other_;
+    base::TimePoint began_{};
+    std::optional<base::TimePoint> next_look_;
+    bool has_a_started_ = false;
+    bool is_ending_ = false;
+    bool has_told_of_other_ = false;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/command_run.hpp"
+#include "emulator/commands.hpp"
+#include "emulator/scenario.hpp"
+#include "emulator/wire_end.hpp"
+#include "emulator/world.hpp"
+#include "proto/net/own_network.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/stop_signal.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <string>
+
+namespace hapnet::emulator {
+
+namespace {
+
+net::ChildCommand::Setup setup_of(const ExecOptions& options, const WireEnd& end)
+{
+    return {.words = options.command,
+            .has_own_network = true,
+            .environment = {fmt::format("HAPNET_HOST={}", World::router)},
+            .hosts = fmt::format("{}\thost\n", World::router),
+            .name_servers = name_servers_of_world(),
+            .prepare = [end] { prepare(end); }};
+}
+
+} // namespace
+
+base::Result<int> run(const ExecOptions& options)
+{
+    const auto scenario = scenario_of(options.run);
+    if (!scenario) return tl::unexpected{scenario.error()};
+    const net::StopSignal stop{net::Hangup::stop};
+    const WireEnd end{
+        .wire = "wire-a", .addresses = {{World::address_of_command, 24}}, .router = World::router};
+    const std::string wire_b = "wire-b";
+    World world{options.through, wire_b};
+    net::enter_own_network();
+    net::ChildCommand a{setup_of(options, end)};
+    connect(a, end);
+    world.open();
+    const auto session = open_session(
+        options.run, *scenario,
+        {.command = "exec",
+         .through = std::string{world.name()},
+         .frames = {.interface_a = end.wire,
+                    .interface_b = wire_b,
+                    .all_frames = options.frames.all_frames,
+                    .fix_checksums = options.frames.fix_checksums,
+                    .cure_of_oversized = "pasta does not cut datagrams up, and these do not get "
+                                         "through; slirp4netns does (--through slirp4netns)"}});
+    if (const auto fine = session->ensure_checks(); !fine) return tl::unexpected{fine.error()};
+    net::say("hapnet-emulator", fmt::format("the command reaches other networks through {}; this "
+                                            "machine is {} there",
+                                            world.name(), World::router));
+    session->announce();
+    const int code = CommandRun{a,
+                                {.process = world.process(),
+                                 .name = std::string{world.name()},
+                                 .is_ready = [] { return true; }},
+                                *session,
+                                stop}
+                         .run();
+    const bool is_complete = session->finish();
+    return code == 0 && !is_complete ? net::exit_failed : code;
+}
+
+} // namespace hapnet::emulator

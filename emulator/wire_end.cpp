@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/wire_end.hpp"
+
+#include "proto/net/interface.hpp"
+
+#include <cerrno>
+#include <spdlog/fmt/fmt.h>
+#include <system_error>
+
+namespace hapnet::emulator {
+
+namespace {
+
+constexpr const char* end_interface = "eth0";
+
+} // namespace
+
+void prepare(const WireEnd& end)
+{
+    net::set_up("lo");
+    net::switch_off_offloads(end_interface);
+    net::set_up(end_interface);
+    for (const auto& [text, bits] : end.addresses) net::add_address(end_interface, text, bits);
+    if (!end.router.empty()) net::add_default_route(end_interface, end.router);
+}
+
+void connect(net::ChildCommand& command, const WireEnd& end)
+{
+    net::make_veth(end.wire, end_interface, command.pid());
+    net::switch_off_offloads(end.wire);
+    net::set_up(end.wire);
+    command.prepare();
+}
+
+std::unique_ptr<FrameSession> open_session(const Options& options, const Scenario& scenario,
+                                           const FrameSession::Setup& setup)
+{
+    try {
+        return std::make_unique<FrameSession>(options, scenario, setup);
+    } catch (const std::system_error& error) {
+        const int code = error.code().value();
+        if (code != EPERM && code != EACCES && code != EAFNOSUPPORT) throw;
+        net::deny_network(
+            code, fmt::format("cannot take the frames of {} (a packet socket, AF_PACKET): in a "
+                              "container, allow it (with Docker: --cap-add NET_RAW --security-opt "
+                              "seccomp=unconfined); elsewhere: modprobe af_packet",
+                              setup.command));
+    }
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/frame_session.hpp"
+#include "proto/net/own_network.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// The end of the emulated wire at a command that has a network of its own: the interface eth0.
+struct WireEnd {
+    struct Address {
+        std::string text; // "10.0.0.1"
+        std::uint8_t bits = 24;
+    };
+
+    std::string wire; // the emulator's interface to it
+    std::vector<Address> addresses;
+    std::string router{}; // where all other networks are; "": there is none
+};
+
+/// Makes eth0 as the command is to find it: for net::ChildCommand::Setup::prepare.
+void prepare(const WireEnd& end);
+
+/// In the emulator's network: makes the wire to the command, and has it prepare its end.
+void connect(net::ChildCommand& command, const WireEnd& end);
+
+/// A session between two interfaces of the emulator's own network. Throws std::system_error that
+/// names the cure where the system refuses their frames.
+[[nodiscard]] std::unique_ptr<FrameSession>
+open_session(const Options& options, const Scenario& scenario, const FrameSession::Setup& setup);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/world.hpp"
+
+#include "proto/base/time.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/interface.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <fstream>
+#include <spdlog/fmt/fmt.h>
+#include <sstream>
+#include <sys/mman.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// It finds the emulator's network by the process, which has entered it by the time that this runs.
+std::vector<std::string> words_of(WorldProgram program, const std::string& interface)
+{
+    const auto process = std::to_string(getpid());
+    if (program == WorldProgram::slirp4netns) {
+        return {"slirp4netns", "--mtu=1500", process, interface};
+    }
+    std::vector<std::string> words{"pasta", "--foreground", "--quiet", "--ipv4-only"};
+    // It takes no port of the machine, and gives the command no address of the machine's.
+    for (const auto& [option, value] : {std::pair{"--ns-ifname", interface.c_str()},
+                                        {"--mtu", "1500"},
+                                        {"--address", World::address_of_command},
+                                        {"--netmask", "24"},
+                                        {"--gateway", World::router},
+                                        {"--dns-forward", World::name_server},
+                                        {"--tcp-ports", "none"},
+                                        {"--udp-ports", "none"},
+                                        {"--tcp-ns", "none"},
+                                        {"--udp-ns", "none"}}) {
+        words.insert(words.end(), {option, value});
+    }
+    words.push_back(process);
+    return words;
+}
+
+struct Cure {
+    std::string text;
+    int error = 0; // what it cures
+};
+
+/// What a person can do, as far as the reason can be seen from here.
+Cure cure_of_both(bool is_one_installed)
+{
+    constexpr const char* tun = "/dev/net/tun";
+    if (!is_one_installed)
+        return {"install one of them: apt-get install passt slirp4netns", ENOENT};
+    const int device = ::open(tun, O_RDWR | O_CLOEXEC);
+    const int error = device < 0 ? errno : 0;
+    if (device >= 0) close(device);
+    if (error == EACCES || error == EPERM) {
+        return {fmt::format("this user may not open {0}, as on most systems users may: have an "
+                            "administrator run chmod 666 {0}",
+                            tun),
+                error};
+    }
+    if (error != 0) {
+        return {fmt::format("there is no {0}: modprobe tun; in a container, pass it on (with "
+                            "Docker: --device {0})",
+                            tun),
+                error};
+    }
+    if (geteuid() == 0) {
+        return {"pasta does not serve root: apt-get install slirp4netns, or run this as another "
+                "user",
+                EPERM};
+    }
+    return {"this machine needs a default route: see 'ip route'; slirp4netns does without",
+            ENETUNREACH};
+}
+
+} // namespace
+
+/// One of the two programs, before it runs and while it does.
+class World::Helper {
+public:
+    Helper(WorldProgram program, const std::string& interface)
+        : program_{program},
+          process_{{.words = words_of(program, interface),
+                    .has_own_group = true,
+                    .output = output_.descriptor()}}
+    {}
+
+    [[nodiscard]] WorldProgram program() const { return program_; }
+    [[nodiscard]] net::ChildCommand& process() { return process_; }
+    [[nodiscard]] bool is_installed() const { return is_installed_; }
+
+    /// nullopt: the interface is there. Else what went wrong.
+    std::optional<std::string> open(const std::string& interface)
+    {
+        constexpr base::Duration patience = 10s;
+        try {
+            process_.prepare();
+            process_.go();
+        } catch (const std::system_error& error) {
+            is_installed_ = error.code().value() != ENOENT;
+            return is_installed_ ? error.what() : "not installed";
+        }
+        const auto deadline = net::monotonic_now() + patience;
+        while (!net::has_interface(interface)) {
+            if (const auto code = process_.exit_code()) {
+                const auto said = output_.last_line();
+                return said.empty() ? fmt::format("it ended with {}", *code) : said;
+            }
+            const auto now = net::monotonic_now();
+            if (now > deadline) {
+                process_.signal(SIGKILL);
+                return "it made no interface within 10 s";
+            }
+            net::sleep_until(now + 2ms);
+        }
+        return std::nullopt;
+    }
+
+private:
+    /// What it says, in a file in memory.
+    class Output {
+    public:
+        Output() : descriptor_{memfd_create("output", MFD_CLOEXEC)}
+        {
+            if (descriptor_ < 0) net::deny_network(errno, "memfd_create");
+        }
+        ~Output() { close(descriptor_); }
+        Output(const Output&) = delete;
+        Output& operator=(const Output&) = delete;
+        [[nodiscard]] int descriptor() const { return descriptor_; }
+
+        /// Its last line; "" when there is none.
+        [[nodiscard]] std::string last_line() const
+        {
+            std::string text(4096, '\0');
+            const auto length = pread(descriptor_, text.data(), text.size(), 0);
+            std::istringstream lines{
+                text.substr(0, length > 0 ? static_cast<std::size_t>(length) : 0)};
+            std::string last;
+            for (std::string line; std::getline(lines, line);) {
+                // pasta writes to the log of the system, too, and says when there is none.
+                if (!line.empty() && line.find("to syslog") == std::string::npos) last = line;
+            }
+            return last;
+        }
+
+    private:
+        int descriptor_;
+    };
+
+    WorldProgram program_;
+    Output output_;
+    net::ChildCommand process_;
+    bool is_installed_ = true;
+};
+
+World::World(std::optional<WorldProgram> only, std::string interface)
+    : interface_{std::move(interface)}
+{
+    for (const auto program : {WorldProgram::pasta, WorldProgram::slirp4netns}) {
+        if (only && *only != program) continue;
+        helpers_.push_back(std::make_unique<Helper>(program, interface_));
+    }
+}
+
+World::~World() = default;
+
+void World::open()
+{
+    std::string troubles;
+    bool is_one_installed = false;
+    for (const auto& helper : helpers_) {
+        const auto trouble = helper->open(interface_);
+        if (!trouble) {
+            used_ = helper.get();
+            net::switch_off_offloads(interface_);
+            net::set_up(interface_);
+            return;
+        }
+        is_one_installed = is_one_installed || helper->is_installed();
+        troubles += fmt::format("{}: {}; ", to_text(helper->program()), *trouble);
+    }
+    const auto [cure, error] = cure_of_both(is_one_installed);
+    net::deny_network(error, fmt::format("cannot join the command to this machine's network: {}{}",
+                                         troubles, cure));
+}
+
+std::string_view World::name() const { return to_text(used_->program()); }
+
+net::ChildCommand& World::process() { return used_->process(); }
+
+std::string name_servers_of_world()
+{
+    std::string text;
+    std::ifstream file{"/etc/resolv.conf"};
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with("nameserver")) text += line + "\n";
+    }
+    return text + fmt::format("nameserver {}\n", World::name_server);
+}
+
+} // namespace hapnet::emulator
