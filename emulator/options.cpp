@@ -419,6 +419,9 @@ base::Result<void> require_addresses(const cli::Command& program)
         if (!program.is_given(option)) continue;
         return base::fail(fmt::format("{} goes with --upstream HOST:PORT", option));
     }
+    if (program.is_given("--threads")) {
+        return base::fail("--threads goes with --link or --upstream: a pair is never divided");
+    }
     return {};
 }
 
@@ -497,6 +500,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     add_upstream_options(program, through);
     LinkOptions links;
     add_link_options(program, links);
+    add_threads(program, options.threads);
 
     CheckOptions checking;
     bool is_list = false;
