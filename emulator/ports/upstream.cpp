@@ -196,6 +196,7 @@ std::unique_ptr<Upstream::Client> Upstream::Part::admit(const net::Received& dat
         return nullptr;
     }
     ++common_.present;
+    next_look_ = base::earlier(next_look_, table_.idle_at(place));
     client->name = name_of(*client);
     client->path = &paths_.add(client->name);
     client->recorded_as = common_.recorder.add_path(client->name);
@@ -265,14 +266,22 @@ bool has_nothing_in_flight(const EmulatedPath& path)
 
 } // namespace
 
-/// What is in flight is still delivered.
+/// What is in flight is still delivered. All are looked at when the first of them may be idle, not
+/// in each round: of those that have been heard since, it is not true any more.
 void Upstream::Part::forget_idle(base::TimePoint now)
 {
+    if (!base::is_due(next_look_, now)) return;
+    constexpr base::Duration until_delivered = std::chrono::milliseconds{10};
+    next_look_.reset();
     for (std::size_t place = 0; place < clients_.size(); ++place) {
-        auto& client = clients_[place];
-        if (!client || now < table_.idle_at(place) || !has_nothing_in_flight(*client->path))
-            continue;
-        forget(place);
+        const auto& client = clients_[place];
+        if (!client) continue;
+        const auto idle_at = table_.idle_at(place);
+        if (now >= idle_at && has_nothing_in_flight(*client->path)) {
+            forget(place);
+        } else {
+            next_look_ = base::earlier(next_look_, std::max(idle_at, now + until_delivered));
+        }
     }
 }
 
@@ -290,19 +299,6 @@ void Upstream::Part::forget(std::size_t place)
     table_.forget(place);
     const std::scoped_lock guard{common_.lock};
     --common_.present;
-}
-
-std::optional<base::TimePoint> Upstream::Part::next_deadline() const
-{
-    std::optional<base::TimePoint> next;
-    for (std::size_t place = 0; place < clients_.size(); ++place) {
-        const auto& client = clients_[place];
-        if (!client) continue;
-        if (has_nothing_in_flight(*client->path)) {
-            next = base::earlier(next, table_.idle_at(place));
-        }
-    }
-    return next;
 }
 
 std::optional<std::string> Upstream::Part::next_notice()

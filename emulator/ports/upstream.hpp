@@ -116,8 +116,8 @@ public:
     /// Sends what is due at `now`, and forgets who has been silent.
     void release(base::TimePoint now);
 
-    /// When a client may be forgotten.
-    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
+    /// When a client may have to be forgotten.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_look_; }
 
     /// To wait for.
     [[nodiscard]] std::vector<int> descriptors() const
@@ -162,6 +162,7 @@ private:
     ClientTable<net::Endpoint> table_;
     std::vector<std::unique_ptr<Client>> clients_; // by their places
     std::map<std::string, std::uint64_t> visits_;  // by addresses, where they are names
+    std::optional<base::TimePoint> next_look_;     // at who is idle
     Departed departed_;
     std::uint64_t strangers_ = 0;
     std::uint64_t refused_ = 0;
