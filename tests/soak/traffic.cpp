@@ -36,8 +36,6 @@ std::span<const std::byte> payload_of(std::uint64_t number)
 constexpr base::Duration beginning = 1s;
 constexpr std::int64_t beginning_factor = 4;
 
-constexpr std::int64_t growth_max_kib = 1024;
-
 net::Endpoint any_port() { return net::resolve({"127.0.0.1", 0}); }
 
 } // namespace
@@ -66,7 +64,7 @@ std::string line(std::int64_t seconds, const Memory& memory)
                        memory.data);
 }
 
-void expect_flat(const std::vector<Memory>& memory)
+void expect_flat(const std::vector<Memory>& memory, std::int64_t growth_max_kib)
 {
     const std::size_t warm = std::min<std::size_t>(60, memory.size() / 5);
     ASSERT_GE(warm, 5U) << "too short to say anything: at least 25 s";
