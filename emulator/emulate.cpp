@@ -3,6 +3,7 @@
 #include "emulator/checks.hpp"
 #include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
+#include "emulator/core/all_paths.hpp"
 #include "emulator/core/paths.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/endpoints.hpp"
@@ -14,26 +15,28 @@
 #include "emulator/profile_file.hpp"
 #include "emulator/recorder.hpp"
 #include "emulator/report.hpp"
+#include "emulator/results.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/status.hpp"
+#include "emulator/workers.hpp"
 #include "proto/control/server.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
-#include <system_error>
+#include <thread>
+#include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -45,11 +48,28 @@ struct Plan {
     const Options& options;
     const Scenario& scenario;
     Recorder::Files files;
-    Paths::Setup paths;
+    std::vector<Paths::Setup> parts; // a thread each
 };
 
-/// One run, from bound sockets to written files. Everything but the recorder's writing happens on
-/// the thread that constructs it. `Run`: what its reports are made from, with its port.
+std::vector<std::unique_ptr<Paths>> paths_of(const Plan& plan)
+{
+    std::vector<std::unique_ptr<Paths>> paths;
+    for (const Paths::Setup& part : plan.parts) {
+        paths.push_back(std::make_unique<Paths>(plan.scenario.profile, part));
+    }
+    return paths;
+}
+
+AllPaths together(const std::vector<std::unique_ptr<Paths>>& parts)
+{
+    std::vector<Paths*> all;
+    for (const auto& part : parts) all.push_back(part.get());
+    return AllPaths{std::move(all)};
+}
+
+/// One run, from bound sockets to written files. The thread that constructs it relays the first
+/// part and does all that concerns the whole of it; `workers_` relay the others, and the recorder
+/// writes. `Run`: what its reports are made from, with its port.
 template <typename Run>
 class Session {
     using Port = typename Run::Port;
@@ -60,13 +80,13 @@ public:
     Session(const Plan& plan, base::TimePoint start, const MakePort& make)
         : start_{start},
           recorder_{plan.files},
-          paths_{plan.scenario.profile, plan.paths},
+          paths_{paths_of(plan)},
           port_{make(paths_, recorder_)},
-          run_{{plan.options, plan.scenario, paths_, recorder_}, *port_},
+          run_{{plan.options, plan.scenario, together(paths_), recorder_}, *port_},
+          results_{plan.options},
           status_{start_}
     {
         const Options& options = run_.options;
-        if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
         if (options.control) control_.emplace(*options.control);
         if (options.duration) end_ = start_ + *options.duration;
         // After the recorder's thread was made. Most of the slab is never used.
@@ -78,6 +98,12 @@ public:
         if (const auto shortage = run_.real_time.shortage(); !shortage.empty())
             status_.say(shortage);
         if (run_.options.timing == Timing::spin) status_.say(spin_warning);
+        if (const auto processors = std::thread::hardware_concurrency();
+            processors > 0 && paths_.size() > processors) {
+            status_.say(fmt::format("--threads {}, and {} processors: a thread that waits for one "
+                                    "is late",
+                                    paths_.size(), processors));
+        }
         for (const std::string& warning : run_.scenario.warnings) status_.say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
@@ -85,26 +111,31 @@ public:
 
     void relay_until_stopped(net::StopSignal& stop)
     {
-        std::vector<int> descriptors = port_->descriptors();
+        Workers workers{other_parts(), run_.options.timing};
+        auto& part = *port_->parts().front();
+        std::vector<int> descriptors = part.descriptors();
         descriptors.push_back(stop.descriptor());
         if (control_) descriptors.push_back(control_->descriptor());
+        if (!workers.empty()) descriptors.push_back(workers.descriptor());
         Emulation emulation = controlled();
-        const control::Subject subject = subject_of(emulation);
+        const control::Subject subject = at_rest(subject_of(emulation), workers);
         Pacer pacer{run_.options.timing, start_};
         auto now = start_;
-        while (!stop.requested() && !is_stopped_ && !base::is_due(end_, now)) {
+        while (!stop.requested() && !is_stopped_ && !workers.has_failed() &&
+               !base::is_due(end_, now)) {
             pacer.wait(descriptors, next_deadline());
-            port_->receive();
-            now = net::monotonic_now();
-            paths_.advance(now);
-            port_->release(now);
+            now = relay(0);
             run_.elapsed = now - start_;
-            while (const auto notice = port_->next_notice()) status_.say(*notice);
-            if (control_) control_->serve(subject, now, paths_.next_due());
-            if (stop.reload_requested()) reload(now);
-            tell_of_files();
-            status_.show([this] { return status_line(run_); }, now);
+            if (control_) control_->serve(subject, now, paths_.front()->next_due());
+            if (stop.reload_requested()) reload(now, workers);
+            status_.show(
+                [&] {
+                    const Workers::Rest rest{workers};
+                    return status_line(run_);
+                },
+                now);
         }
+        workers.stop();
         status_.finish();
     }
 
@@ -118,46 +149,72 @@ public:
     /// the recorder from its files.
     int finish()
     {
-        net::leave_real_time();
-        std::exception_ptr failure;
-        try {
-            recorder_.finish();
-        } catch (const std::system_error&) {
-            failure = std::current_exception();
-        }
-        run_.is_over = true;
-        const auto statistics = statistics_of(run_);
-        const std::string text = statistics.dump(2) + "\n";
-        if (stats_) {
-            try {
-                stats_->commit(text);
-            } catch (const std::system_error&) { // they are worth more than their place
-                failure = std::current_exception();
-                fmt::print("{}", text);
-            }
-        } else if (run_.options.stats) {
-            fmt::print("{}", text);
-        }
-        const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
-        net::tell(summary(run_) + failed);
-        if (failure) std::rethrow_exception(failure);
-        const bool is_complete = recorder_.fates_lost() == 0 && recorder_.capture_lost() == 0;
-        return is_complete && failed.empty() ? 0 : net::exit_failed;
+        const bool is_fine = results_.finish(run_, recorder_,
+                                             {.statistics = [this] { return statistics_of(run_); },
+                                              .summary = [this] { return summary(run_); }});
+        return is_fine ? 0 : net::exit_failed;
     }
 
 private:
+    /// A round of one part, on its thread; gives the time.
+    base::TimePoint relay(std::size_t number)
+    {
+        auto& part = *port_->parts()[number];
+        part.receive();
+        const auto now = net::monotonic_now();
+        paths_[number]->advance(now);
+        part.release(now);
+        while (const auto notice = part.next_notice()) status_.say(*notice);
+        tell_of_files();
+        return now;
+    }
+
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline(std::size_t number) const
+    {
+        const Paths& paths = *paths_[number];
+        const auto deadline = base::earlier(paths.next_due(), paths.next_change());
+        return base::earlier(deadline, port_->parts()[number]->next_deadline());
+    }
+
+    /// That of the first part, and of the run.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
     {
-        auto deadline = base::earlier(paths_.next_due(), paths_.next_change());
-        deadline = base::earlier(deadline, port_->next_deadline());
+        auto deadline = next_deadline(0);
         deadline = base::earlier(deadline, end_);
         deadline = base::earlier(deadline, status_.next_deadline());
         return control_ ? base::earlier(deadline, control_->next_deadline()) : deadline;
     }
 
+    /// All but the first.
+    [[nodiscard]] std::vector<Workers::Part> other_parts()
+    {
+        std::vector<Workers::Part> parts;
+        for (std::size_t i = 1; i < paths_.size(); ++i) {
+            parts.push_back({.descriptors = port_->parts()[i]->descriptors(),
+                             .next_deadline = [this, i] { return next_deadline(i); },
+                             .relay = [this, i] { relay(i); }});
+        }
+        return parts;
+    }
+
+    /// Its functions, called while no other thread relays.
+    [[nodiscard]] static control::Subject at_rest(control::Subject subject, Workers& workers)
+    {
+        if (workers.empty()) return subject;
+        return {[answer = std::move(subject.answer), &workers](std::string_view line,
+                                                               base::TimePoint now) {
+                    const Workers::Rest rest{workers};
+                    return answer(line, now);
+                },
+                [statistics = std::move(subject.statistics), &workers] {
+                    const Workers::Rest rest{workers};
+                    return statistics();
+                }};
+    }
+
     [[nodiscard]] Emulation controlled()
     {
-        return {.paths = paths_,
+        return {.paths = run_.paths,
                 .statistics_json = [this] { return statistics_of(run_).dump(); },
                 .open = text_beside,
                 .preset = preset_text,
@@ -165,34 +222,34 @@ private:
     }
 
     /// Reads the profile again. One that is wrong changes nothing.
-    void reload(base::TimePoint now)
+    void reload(base::TimePoint now, Workers& workers)
     {
         Options options = run_.options;
         options.replay.reset(); // stays as it was read; reading it would hold up the relay
-        const auto scenario = scenario_of(options, paths_.names());
+        const auto scenario = scenario_of(options, run_.paths.names());
         if (!scenario) {
             return status_.say(
                 fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
         const Profile& profile = scenario->profile;
-        const auto done = paths_.apply(
-            [&](std::string_view name, const Path& /*path*/) -> base::Result<Command> {
-                return Apply{profile_of(profile, name)};
-            },
-            paths_in(profile), now, ChangeCause::reload);
+        const auto command = [&](std::string_view name,
+                                 const Path& /*path*/) -> base::Result<Command> {
+            return Apply{profile_of(profile, name)};
+        };
+        const Workers::Rest rest{workers};
+        const auto done = run_.paths.apply(command, paths_in(profile), now, ChangeCause::reload);
         if (!done) {
             return status_.say(
                 fmt::format("SIGHUP: the old profile stays: {}", done.error().message));
         }
         status_.say(fmt::format("SIGHUP: {} is read again, generation {}",
-                                *run_.options.conditions.profile, paths_.generation()));
+                                *run_.options.conditions.profile, run_.paths.generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
     void tell_of_files()
     {
-        if (has_told_of_files_ || !recorder_.has_failed()) return;
-        has_told_of_files_ = true;
+        if (!recorder_.has_failed() || has_told_of_files_.exchange(true)) return;
         status_.say(
             "what this run records cannot be written any more (is the disk full?): the run goes "
             "on, but its files will end here");
@@ -200,14 +257,14 @@ private:
 
     base::TimePoint start_;
     Recorder recorder_;
-    Paths paths_;
+    std::vector<std::unique_ptr<Paths>> paths_;
     std::unique_ptr<Port> port_;
     std::optional<control::Server> control_;
-    std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;
-    bool has_told_of_files_ = false;
+    std::atomic<bool> has_told_of_files_{false};
     bool is_stopped_ = false; // by a client
     Run run_;
+    Results results_;
     Status status_;
 };
 
@@ -229,20 +286,28 @@ base::Result<int> run_session(const Plan& plan, base::TimePoint start, const Mak
     return session.finish();
 }
 
-/// What a run with so many paths needs, which share the memory.
+/// What a run with so many paths needs, which share the memory; each thread has its part of it.
 Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths,
              base::TimePoint start)
 {
-    return {
+    const std::size_t threads = std::min(options.threads, paths);
+    Plan plan{
         .options = options,
         .scenario = scenario,
-        .files = {.fates = options.fates, .capture = options.capture, .has_several_paths = true},
-        .paths = {.seed = scenario.seed,
-                  .start = start,
-                  .limits = QueueLimits::shared(options.in_flight_bytes, paths),
-                  .slab = std::make_shared<Slab>(options.in_flight_bytes),
-                  .replay = scenario.replay,
-                  .changes_max = std::max(ChangeLog::entries_max / paths, std::size_t{20})}};
+        .files = {.fates = options.fates,
+                  .capture = options.capture,
+                  .has_several_paths = true,
+                  .lanes = threads},
+        .parts = {threads,
+                  {.seed = scenario.seed,
+                   .start = start,
+                   .limits = QueueLimits::shared(options.in_flight_bytes, paths),
+                   .replay = scenario.replay,
+                   .changes_max = std::max(ChangeLog::entries_max / paths, std::size_t{20})}}};
+    for (Paths::Setup& part : plan.parts) {
+        part.slab = std::make_shared<Slab>(options.in_flight_bytes / threads);
+    }
+    return plan;
 }
 
 /// The interfaces of a link in the capture: "1 (to 2)", "2 (to 1)".
@@ -269,7 +334,7 @@ base::Result<int> run(const Options& options)
     const auto start = net::monotonic_now();
     Plan plan = plan_of(options, *scenario, 1, start);
     plan.files.has_several_paths = false;
-    return run_session<Run>(plan, start, [&](Paths& paths, Recorder& recorder) {
+    return run_session<Run>(plan, start, [&](const auto& paths, Recorder& recorder) {
         return std::make_unique<ports::Links>(*places, paths, recorder);
     });
 }
@@ -285,8 +350,14 @@ base::Result<int> run(const LinkOptions& options)
     const auto start = net::monotonic_now();
     Plan plan = plan_of(options.run, *scenario, options.links.size(), start);
     plan.files.pairs.clear();
-    for (const auto& name : names.links) plan.files.pairs.push_back(capture_names(name));
-    return run_session<LinksRun>(plan, start, [&](Paths& paths, Recorder& recorder) {
+    for (std::size_t i = 0; i < names.links.size(); ++i) {
+        plan.files.pairs.push_back(capture_names(names.links[i]));
+        for (std::size_t part = 0; part < plan.parts.size(); ++part) {
+            if (ports::Links::part_of(i, plan.parts.size()) == part) continue;
+            plan.parts[part].elsewhere.push_back(names.links[i]);
+        }
+    }
+    return run_session<LinksRun>(plan, start, [&](const auto& paths, Recorder& recorder) {
         return std::make_unique<ports::Links>(*places, paths, recorder);
     });
 }
@@ -300,11 +371,11 @@ base::Result<int> run(const UpstreamOptions& options)
     const auto start = net::monotonic_now();
     Plan plan = plan_of(options.run, *scenario, options.clients_max, start);
     plan.files.pairs = {{"clients", "server"}};
-    plan.paths.takes_newcomers = true;
+    for (Paths::Setup& part : plan.parts) part.takes_newcomers = true;
     const ports::Upstream::Setup setup{.clients_max = options.clients_max,
                                        .idle = options.idle,
                                        .named_by_address = options.named_by_address};
-    return run_session<UpstreamRun>(plan, start, [&](Paths& paths, Recorder& recorder) {
+    return run_session<UpstreamRun>(plan, start, [&](const auto& paths, Recorder& recorder) {
         return std::make_unique<ports::Upstream>(*places, setup, paths, recorder);
     });
 }

@@ -11,10 +11,8 @@
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
 
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
-#include <system_error>
 #include <utility>
 
 namespace hapnet::emulator {
@@ -69,9 +67,9 @@ FrameSession::FrameSession(const Options& options, const Scenario& scenario, Set
                  .open = text_beside,
                  .preset = preset_text,
                  .stop = [this] { is_stopped_ = true; }},
-      pacer_{options.timing, start_}
+      pacer_{options.timing, start_},
+      results_{options}
 {
-    if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
     if (options.control) control_.emplace(*options.control);
     if (options.duration) end_ = start_ + *options.duration;
     // After the recorder's thread was made. Most of the slab is never used.
@@ -155,25 +153,9 @@ std::string FrameSession::summary() const
 
 bool FrameSession::finish()
 {
-    net::leave_real_time();
-    std::exception_ptr failure;
-    try {
-        recorder_.finish();
-    } catch (const std::system_error&) {
-        failure = std::current_exception();
-    }
-    run_.is_over = true;
-    const auto json = statistics();
-    const std::string text = json.dump(2) + "\n";
-    if (stats_) {
-        stats_->commit(text);
-    } else if (run_.options.stats) {
-        fmt::print("{}", text);
-    }
-    const std::string failed = not_met(json.value("checks", FrameJson{}));
-    net::tell(summary() + failed);
-    if (failure) std::rethrow_exception(failure);
-    return recorder_.fates_lost() == 0 && failed.empty();
+    return results_.finish(
+        run_, recorder_,
+        {.statistics = [this] { return statistics(); }, .summary = [this] { return summary(); }});
 }
 
 } // namespace hapnet::emulator

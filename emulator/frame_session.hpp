@@ -9,11 +9,11 @@
 #include "emulator/ports/frames.hpp"
 #include "emulator/recorder.hpp"
 #include "emulator/report.hpp"
+#include "emulator/results.hpp"
 #include "emulator/scenario.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 #include "proto/control/server.hpp"
-#include "proto/net/result_file.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -69,7 +69,7 @@ private:
     Emulation emulation_;
     Pacer pacer_;
     std::optional<control::Server> control_;
-    std::optional<net::ResultFile> stats_;
+    Results results_;
     std::optional<base::TimePoint> end_;
     std::vector<int> descriptors_;
     bool has_told_of_files_ = false;

@@ -5,6 +5,7 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/paths_options.hpp"
 #include "emulator/presets.hpp"
+#include "emulator/spacing.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
@@ -286,20 +287,6 @@ void add_capture(cli::Command& program, Options& options)
                    cli::into(options.capture));
 }
 
-/// The spacing of datagrams that come "1000" or "1000/s".
-base::Result<base::Duration> parse_spacing(const std::string& text)
-{
-    auto digits = text;
-    if (digits.ends_with("/s")) digits.resize(digits.size() - 2);
-    constexpr double slowest = 1e-3;
-    constexpr double fastest = 1e7;
-    const auto rate = cli::value_of<double>(base::Number{slowest, fastest}, digits);
-    if (rate) return base::from_seconds(1.0 / *rate);
-    return base::fail(fmt::format("'{}' is not a rate: write datagrams a second, such as 1000 or "
-                                  "1000/s; at most 10^7",
-                                  text));
-}
-
 /// Datagrams a second, or the bit rate that the condition of this name is.
 cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
 {
@@ -308,7 +295,10 @@ cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
             into.settings.push_back({"rate", text});
             return {};
         }
-        return cli::into(stream.spacing, parse_spacing)(text);
+        const auto spacing = parse_spacing(text, "datagrams", 7);
+        if (!spacing) return tl::unexpected{spacing.error()};
+        stream.spacing = *spacing;
+        return {};
     };
 }
 
@@ -419,6 +409,9 @@ base::Result<void> require_addresses(const cli::Command& program)
     for (const char* option : {"--listen", "--allow", "--clients", "--idle", "--name-by"}) {
         if (!program.is_given(option)) continue;
         return base::fail(fmt::format("{} goes with --upstream HOST:PORT", option));
+    }
+    if (program.is_given("--threads")) {
+        return base::fail("--threads goes with --link or --upstream: a pair is never divided");
     }
     return {};
 }
@@ -541,6 +534,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     add_upstream_options(program, through);
     LinkOptions links;
     add_link_options(program, links);
+    add_threads(program, options.threads);
 
     CheckOptions checking;
     bool is_list = false;

@@ -57,6 +57,7 @@ struct Options {
     Timing timing = Timing::precise;
     base::Duration budget = std::chrono::milliseconds{1};
     std::size_t in_flight_bytes = QueueLimits{}.bytes_max;
+    std::size_t threads = 1;                // that relay; of a run with several paths
     std::optional<base::Duration> duration; // nullopt: until SIGINT or SIGTERM
     std::optional<std::string> stats;       // a file, or "-" for stdout
     std::optional<std::string> fates;

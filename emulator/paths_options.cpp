@@ -114,6 +114,18 @@ void add_link_options(cli::Command& program, LinkOptions& options)
         .under(links_group);
 }
 
+void add_threads(cli::Command& program, std::size_t& threads)
+{
+    constexpr std::uint64_t threads_most = 16;
+    program
+        .option("--threads", "NUMBER",
+                "How many threads relay, with --link or --upstream (default 1): each link or "
+                "client is on one of them, and --in-flight is divided among them. What becomes of "
+                "a datagram does not depend on it",
+                cli::into(threads, base::Count{1, threads_most}))
+        .under(links_group);
+}
+
 base::Result<void> require_upstream(const cli::Command& program)
 {
     for (const char* option : ends_of_a_pair) {

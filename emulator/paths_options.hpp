@@ -7,6 +7,7 @@
 #include "proto/cli/command.hpp"
 #include "proto/net/address_set.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -15,6 +16,8 @@ namespace hapnet::emulator {
 
 void add_upstream_options(cli::Command& program, UpstreamOptions& options);
 void add_link_options(cli::Command& program, LinkOptions& options);
+/// Of both kinds.
+void add_threads(cli::Command& program, std::size_t& threads);
 
 [[nodiscard]] base::Result<void> require_upstream(const cli::Command& program);
 [[nodiscard]] base::Result<void> require_links(const LinkOptions& options,

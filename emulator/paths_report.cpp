@@ -38,14 +38,14 @@ struct Sums {
 
 Sums sums_of(const ports::Upstream& port)
 {
-    Sums sums{.up = port.departed().up,
-              .down = port.departed().down,
+    const auto departed = port.departed();
+    Sums sums{.up = departed.up,
+              .down = departed.down,
               .strangers_up = port.strangers() + port.refused(),
-              .strangers_down = port.departed().strangers_down,
+              .strangers_down = departed.strangers_down,
               .overflowed_up = port.overflowed(),
-              .overflowed_down = port.departed().overflowed_down};
-    for (const auto& client : port.clients()) {
-        if (!client) continue;
+              .overflowed_down = departed.overflowed_down};
+    for (const auto* client : port.clients()) {
         ++sums.paths;
         sums.up.add(client->path->link(Direction::up).statistics());
         sums.down.add(client->path->link(Direction::down).statistics());
@@ -183,7 +183,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run)
     json["listen"] = run.port.local().to_text();
     json["upstream"] = run.port.server().to_text();
     json["clients_seen"] = run.port.clients_seen();
-    json["clients_forgotten"] = run.port.clients_forgotten();
+    json["clients_forgotten"] = run.port.departed().count;
     json["refused"] = run.port.refused();
     json["generation"] = run.paths.generation();
     json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
@@ -192,9 +192,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run)
     add_files(json, run);
     add_sums(json, sums_of(run.port), run.options.budget, {});
     Json clients = Json::array();
-    for (const auto& client : run.port.clients()) {
-        if (client) clients.push_back(json_of(*client, run));
-    }
+    for (const auto* client : run.port.clients()) clients.push_back(json_of(*client, run));
     json["clients"] = std::move(clients);
     add_checks(json, run);
     return json;

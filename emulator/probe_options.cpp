@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/probe_options.hpp"
 
-#include "proto/base/formats.hpp"
+#include "emulator/spacing.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -42,15 +42,7 @@ base::Result<net::HostPort> parse_target(const std::string& text)
 
 base::Result<base::Duration> parse_probe_rate(const std::string& text)
 {
-    auto digits = text;
-    if (digits.ends_with("/s")) digits.resize(digits.size() - 2);
-    constexpr double slowest = 1e-3;
-    constexpr double fastest = 1e5;
-    const auto rate = cli::value_of<double>(base::Number{slowest, fastest}, digits);
-    if (rate) return base::from_seconds(1.0 / *rate);
-    return base::fail(fmt::format("'{}' is not a rate: write questions a second, such as 10 or "
-                                  "1000; at most 10^5",
-                                  text));
+    return parse_spacing(text, "questions", 5);
 }
 
 } // namespace

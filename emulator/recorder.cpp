@@ -97,7 +97,8 @@ Recorder::Fates::Way& Recorder::Fates::way_of(const FateEntry& entry)
     return ways[way];
 }
 
-void Recorder::Fates::write()
+/// What waits in a queue, for a while at most.
+void Recorder::Fates::write(Queue<FateEntry>& queue)
 {
     FateEntry entry;
     for (std::size_t i = 0; i < batch_max && queue.try_dequeue(entry); ++i) {
@@ -169,11 +170,11 @@ Recorder::Capture::Capture(const std::string& path, const std::vector<CaptureNam
     append_capture_head(bytes, base::version_line("hapnet-emulator"), pairs);
 }
 
-void Recorder::Capture::write()
+void Recorder::Capture::write(Queue<Part>& queue, Incomplete& incomplete)
 {
     Part part;
     for (std::size_t i = 0; i < batch_max && queue.try_dequeue(part); ++i) {
-        take(part);
+        take(part, incomplete);
         if (bytes.size() < buffer_bytes) continue;
         file.append(bytes);
         bytes.clear();
@@ -183,8 +184,9 @@ void Recorder::Capture::write()
 }
 
 /// A packet whose chunks do not all come was lost: the next one begins instead.
-void Recorder::Capture::take(const Part& part)
+void Recorder::Capture::take(const Part& part, Incomplete& incomplete)
 {
+    auto& [head, payload] = incomplete;
     if (const auto* beginning = std::get_if<CaptureHeader>(&part)) {
         head = *beginning;
         payload.clear();
@@ -194,20 +196,21 @@ void Recorder::Capture::take(const Part& part)
                        chunk.bytes.begin() + static_cast<std::ptrdiff_t>(chunk.count));
     }
     if (!head || payload.size() < head->packet.payload.size()) return;
-    append(*head);
+    append(incomplete);
     head.reset();
 }
 
-void Recorder::Capture::append(const CaptureHeader& complete)
+void Recorder::Capture::append(const Incomplete& complete)
 {
     comment.clear();
-    CapturedPacket packet = complete.packet;
+    const CaptureHeader& head = *complete.head;
+    CapturedPacket packet = head.packet;
     if (packet.is_outbound) {
-        append_departure_comment(comment, complete.late, complete.is_copy);
+        append_departure_comment(comment, head.late, head.is_copy);
     } else {
-        append_arrival_comment(comment, complete.fate);
+        append_arrival_comment(comment, head.fate);
     }
-    packet.payload = payload;
+    packet.payload = complete.payload;
     append_packet(bytes, packet, since_1970, comment);
 }
 
@@ -215,6 +218,9 @@ Recorder::Recorder(const Files& files)
 {
     if (files.fates) fates_ = std::make_unique<Fates>(*files.fates, files.has_several_paths);
     if (files.capture) capture_ = std::make_unique<Capture>(*files.capture, files.pairs);
+    for (std::size_t i = 0; i < files.lanes; ++i) {
+        lanes_.push_back(std::make_unique<Lane>(fates_ != nullptr, capture_ != nullptr));
+    }
     if (fates_ || capture_) thread_ = std::thread{[this] { run(); }};
 }
 
@@ -226,58 +232,88 @@ Recorder::~Recorder()
 
 std::uint32_t Recorder::add_path(const std::string& name)
 {
+    const std::scoped_lock guard{paths_lock_}; // numbers and names in one order
     if (fates_ && fates_->has_several_paths) {
-        const std::scoped_lock guard{fates_->coming_lock};
+        const std::scoped_lock coming_guard{fates_->coming_lock};
         fates_->coming.push_back(name);
     }
     return paths_++;
 }
 
-void Recorder::on_fate(std::uint32_t path, Direction direction, std::uint64_t number,
-                       const Fate& fate)
+std::uint64_t Recorder::fates_lost() const
+{
+    std::uint64_t sum = 0;
+    for (const auto& lane : lanes_) sum += lane->fates_lost_.load(relaxed);
+    return sum;
+}
+
+std::uint64_t Recorder::capture_lost() const
+{
+    std::uint64_t sum = 0;
+    for (const auto& lane : lanes_) sum += lane->packets_lost_.load(relaxed);
+    return sum;
+}
+
+Recorder::Lane::Lane(bool has_fates, bool has_capture)
+{
+    if (has_fates) fates_.emplace(fates_max);
+    if (has_capture) packets_.emplace(packets_max);
+}
+
+void Recorder::Lane::on_fate(std::uint32_t path, Direction direction, std::uint64_t number,
+                             const Fate& fate)
 {
     if (!fates_) return;
-    if (!fates_->queue.try_enqueue({fate, number, path, direction})) {
-        fates_lost_.fetch_add(1, relaxed);
-    }
+    if (!fates_->try_enqueue({fate, number, path, direction})) fates_lost_.fetch_add(1, relaxed);
 }
 
-void Recorder::on_arrival(const CapturedPacket& packet, const Fate& fate)
+void Recorder::Lane::on_arrival(const CapturedPacket& packet, const Fate& fate)
 {
-    if (capture_) put({.packet = packet, .fate = fate, .late = {}, .is_copy = false});
+    if (packets_) put({.packet = packet, .fate = fate, .late = {}, .is_copy = false});
 }
 
-void Recorder::on_departure(const CapturedPacket& packet, base::Duration late, bool is_copy)
+void Recorder::Lane::on_departure(const CapturedPacket& packet, base::Duration late, bool is_copy)
 {
-    if (capture_) put({.packet = packet, .fate = {}, .late = late, .is_copy = is_copy});
+    if (packets_) put({.packet = packet, .fate = {}, .late = late, .is_copy = is_copy});
 }
 
-void Recorder::put(const CaptureHeader& header)
+void Recorder::Lane::put(const CaptureHeader& header)
 {
-    bool fits = capture_->queue.try_enqueue(Part{header});
+    bool fits = packets_->try_enqueue(Part{header});
     for (auto rest = header.packet.payload; fits && !rest.empty();) {
         Part part{std::in_place_type<CaptureChunk>};
         auto& chunk = std::get<CaptureChunk>(part);
         chunk.count = std::min(rest.size(), chunk.bytes.size());
         std::copy_n(rest.begin(), chunk.count, chunk.bytes.begin());
         rest = rest.subspan(chunk.count);
-        fits = capture_->queue.try_enqueue(std::move(part));
+        fits = packets_->try_enqueue(std::move(part));
     }
-    if (!fits) capture_lost_.fetch_add(1, relaxed);
+    if (!fits) packets_lost_.fetch_add(1, relaxed);
+}
+
+void Recorder::write()
+{
+    for (const auto& lane : lanes_) {
+        if (lane->fates_) fates_->write(*lane->fates_);
+        if (lane->packets_) capture_->write(*lane->packets_, lane->incomplete_);
+    }
+}
+
+/// Of the queue in which most waits.
+std::size_t Recorder::waiting() const
+{
+    std::size_t most = 0;
+    for (const auto& lane : lanes_) {
+        if (lane->fates_) most = std::max(most, lane->fates_->size_approx());
+        if (lane->packets_) most = std::max(most, lane->packets_->size_approx());
+    }
+    return most;
 }
 
 /// The thread: writes what waits, and sleeps. Polling, so that the relay need not wake it.
 void Recorder::run()
 {
     net::leave_real_time(); // that of the relay may be inherited; it is not for files
-    const auto write = [this] {
-        if (fates_) fates_->write();
-        if (capture_) capture_->write();
-    };
-    const auto waiting = [this] {
-        return std::max(fates_ ? fates_->queue.size_approx() : 0,
-                        capture_ ? capture_->queue.size_approx() : 0);
-    };
     try {
         while (!stop_.load(std::memory_order_acquire)) {
             write();

@@ -37,7 +37,10 @@ public:
         std::optional<std::string> capture{};
         std::vector<CaptureNames> pairs{CaptureNames{}}; // of interfaces of the capture
         bool has_several_paths = false;                  // the fates say of which path they are
+        std::size_t lanes = 1;                           // threads that hand over
     };
+
+    class Lane;
 
     /// Throws std::system_error when a file cannot be written. No thread when there is none. The
     /// signals that are to reach the calling thread alone are blocked already.
@@ -47,25 +50,18 @@ public:
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    [[nodiscard]] bool captures() const { return capture_ != nullptr; }
+    /// Where one of the threads hands over, by its number from 0.
+    [[nodiscard]] Lane& lane(std::size_t number = 0) { return *lanes_.at(number); }
 
-    /// A path whose fates will come, and the number by which they do. May allocate and lock.
+    /// A path whose fates will come, and the number by which they do: from 0, in the order of the
+    /// calls. The file has their rows in that order, whichever lanes they come through. May
+    /// allocate and lock; from any thread.
     [[nodiscard]] std::uint32_t add_path(const std::string& name);
-
-    // For the relay's thread. They neither allocate nor lock nor call the system; nothing happens
-    // where no file is asked for.
-
-    /// The datagram of this number was given this fate on that path.
-    void on_fate(std::uint32_t path, Direction direction, std::uint64_t number, const Fate& fate);
-    /// A datagram arrived, and this becomes of it, queues included.
-    void on_arrival(const CapturedPacket& packet, const Fate& fate);
-    /// A datagram left, `late` after it was due.
-    void on_departure(const CapturedPacket& packet, base::Duration late, bool is_copy);
 
     /// How many fates and how many packets are missing in their files: if any, the file is not
     /// complete.
-    [[nodiscard]] std::uint64_t fates_lost() const { return fates_lost_.load(relaxed); }
-    [[nodiscard]] std::uint64_t capture_lost() const { return capture_lost_.load(relaxed); }
+    [[nodiscard]] std::uint64_t fates_lost() const;
+    [[nodiscard]] std::uint64_t capture_lost() const;
 
     /// Whether a file could not be written (a full disk): from then on everything is lost.
     [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
@@ -111,7 +107,7 @@ private:
         Fates(const Fates&) = delete;
         Fates& operator=(const Fates&) = delete;
 
-        void write();
+        void write(Queue<FateEntry>& queue);
         void finish();
 
         struct Piece {
@@ -126,8 +122,6 @@ private:
         void set_aside(Way& way);
         void copy(const Piece& piece, std::string& buffer);
 
-        static constexpr std::size_t capacity = 1 << 16; // 3 s at 20 000 datagrams/s
-        Queue<FateEntry> queue{capacity};
         net::ResultFile file;
         bool has_several_paths;
         int aside; // the file without a name
@@ -138,35 +132,67 @@ private:
         std::mutex coming_lock;
         std::vector<std::string> coming; // names of paths that the writer has not seen yet
     };
+    /// What has come of a packet through a lane.
+    struct Incomplete {
+        std::optional<CaptureHeader> head; // of the packet whose chunks come
+        std::vector<std::byte> payload;
+    };
     struct Capture {
         Capture(const std::string& path, const std::vector<CaptureNames>& pairs);
 
-        void write();
-        void take(const Part& part);
-        void append(const CaptureHeader& complete);
+        void write(Queue<Part>& queue, Incomplete& incomplete);
+        void take(const Part& part, Incomplete& incomplete);
+        void append(const Incomplete& complete);
 
-        static constexpr std::size_t capacity = 1 << 17; // 1.6 s at 20 000 datagrams/s
-        Queue<Part> queue{capacity};
         net::ResultFile file;
         base::Duration since_1970; // of the time point 0
         std::string bytes;
-        std::optional<CaptureHeader> head; // of the packet whose chunks come
-        std::vector<std::byte> payload;
         std::string comment;
     };
 
-    void put(const CaptureHeader& header);
     void run();
+    void write();
+    [[nodiscard]] std::size_t waiting() const;
 
     std::unique_ptr<Fates> fates_;
     std::unique_ptr<Capture> capture_;
+    std::vector<std::unique_ptr<Lane>> lanes_;
+    std::mutex paths_lock_;
     std::uint32_t paths_ = 0;
-    std::atomic<std::uint64_t> fates_lost_{0};
-    std::atomic<std::uint64_t> capture_lost_{0};
     std::atomic<bool> stop_{false};
     std::atomic<bool> failed_{false};
     std::exception_ptr failure_;
     std::thread thread_; // last: it uses the others
+};
+
+/// The way of one thread to the files: for that thread alone. Handing over neither allocates nor
+/// locks nor calls the system; nothing happens where no file is asked for.
+class Recorder::Lane {
+public:
+    /// For whom it may be: see Recorder::lane().
+    Lane(bool has_fates, bool has_capture);
+
+    [[nodiscard]] bool captures() const { return packets_.has_value(); }
+
+    /// The datagram of this number was given this fate on that path.
+    void on_fate(std::uint32_t path, Direction direction, std::uint64_t number, const Fate& fate);
+    /// A datagram arrived, and this becomes of it, queues included.
+    void on_arrival(const CapturedPacket& packet, const Fate& fate);
+    /// A datagram left, `late` after it was due.
+    void on_departure(const CapturedPacket& packet, base::Duration late, bool is_copy);
+
+private:
+    friend class Recorder;
+
+    void put(const CaptureHeader& header);
+
+    static constexpr std::size_t fates_max = 1 << 16;   // 3 s at 20 000 datagrams/s
+    static constexpr std::size_t packets_max = 1 << 17; // 1.6 s at 20 000 datagrams/s
+    std::optional<Queue<FateEntry>> fates_;
+    std::optional<Queue<Part>> packets_;
+    std::atomic<std::uint64_t> fates_lost_{0};
+    std::atomic<std::uint64_t> packets_lost_{0};
+    Incomplete incomplete_; // for the thread that writes
 };
 
 } // namespace hapnet::emulator

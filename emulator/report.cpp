@@ -170,7 +170,7 @@ nlohmann::ordered_json statistics_of(const Run& run)
     json["strangers"] = a.strangers + b.strangers;
     json["overflowed"] = a.socket.overflowed() + b.socket.overflowed();
     json["generation"] = run.paths.generation();
-    add_course(json, run, *run.paths.all().front().path, "");
+    add_course(json, run, *run.paths.all().front()->path, "");
     add_files(json, run);
     json["valid"] = reasons.empty();
     json["invalid_because"] = reasons;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/paths.hpp"
+#include "emulator/core/all_paths.hpp"
 #include "emulator/direction_report.hpp"
 #include "emulator/options.hpp"
 #include "emulator/ports/links.hpp"
@@ -21,7 +21,7 @@ namespace hapnet::emulator {
 struct AnyRun {
     const Options& options;
     const Scenario& scenario;
-    const Paths& paths;
+    AllPaths paths;
     const Recorder& recorder;
     net::RealTime real_time{};
     base::Duration elapsed{}; // since the sockets were bound

@@ -11,6 +11,7 @@ namespace hapnet::emulator {
 
 void Status::say(std::string_view message)
 {
+    const std::scoped_lock guard{lock_};
     screen_.put(fmt::format("{}hapnet-emulator: {}\n", line_.room(), message));
 }
 

@@ -7,7 +7,9 @@
 #include "proto/net/text_queue.hpp"
 
 #include <chrono>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <unistd.h>
 
@@ -29,16 +31,19 @@ public:
     {
         if (!base::is_due(next_, now)) return;
         next_ = now + std::chrono::milliseconds{500};
-        screen_.put(line_.shown(line()));
+        const std::string text = line();
+        const std::scoped_lock guard{lock_};
+        screen_.put(line_.shown(text));
     }
 
-    /// A message: a sentence without the program's name.
+    /// A message: a sentence without the program's name. From any thread.
     void say(std::string_view message);
 
     /// Takes the status line away, and waits for the messages to be written, a second at most.
     void finish();
 
 private:
+    std::mutex lock_;
     net::TextQueue screen_{STDERR_FILENO};
     net::TerminalLine line_{STDERR_FILENO};
     std::optional<base::TimePoint> next_; // nullopt: no terminal

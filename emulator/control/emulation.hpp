@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/paths.hpp"
+#include "emulator/core/all_paths.hpp"
 #include "proto/base/result.hpp"
 
 #include <functional>
@@ -10,10 +10,10 @@
 
 namespace hapnet::emulator {
 
-/// The running emulator as its control sees it. All functions are called from the thread that
-/// relays, between two datagrams.
+/// The running emulator as its control sees it. All functions are called between two datagrams,
+/// while nothing is relayed.
 struct Emulation {
-    Paths& paths;
+    AllPaths paths;
     /// The statistics as one JSON object.
     std::function<std::string()> statistics_json;
     /// The text of a file that a profile or a setting names; `beside` is the file of the profile,

@@ -66,12 +66,12 @@ Json next_numbers(const EmulatedPath& path)
 }
 
 /// Of the only path, or of each by its name.
-Json effective_at(const Paths& paths)
+Json effective_at(const AllPaths& paths)
 {
     Json json = Json::object();
-    for (const auto& [name, path] : paths.all()) {
-        if (name.empty()) return next_numbers(*path);
-        json[name] = next_numbers(*path);
+    for (const Paths::Named* one : paths.all()) {
+        if (one->name.empty()) return next_numbers(*one->path);
+        json[one->name] = next_numbers(*one->path);
     }
     return json;
 }
@@ -80,7 +80,7 @@ Json effective_at(const Paths& paths)
 std::string effect_of(const Paths::CommandFor& command, std::span<const std::string> mentioned,
                       Emulation& emulation, base::TimePoint now)
 {
-    Paths& paths = emulation.paths;
+    AllPaths& paths = emulation.paths;
     const auto generation = paths.generation();
     if (const auto done = paths.apply(command, mentioned, now); !done) {
         return refusal(done.error().message);

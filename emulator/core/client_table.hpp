@@ -6,15 +6,14 @@
 #include "proto/base/time.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
 
-/// The clients of one server, by the addresses that they send from. Each has a place, which is free
-/// again when it is forgotten, and a number, which is not used again.
+/// Clients of one server, by the addresses that they send from. Each has a place, which is free
+/// again when it is forgotten.
 template <typename Address>
 class ClientTable {
 public:
@@ -39,14 +38,12 @@ public:
     {
         for (std::size_t place = 0; place < places_.size(); ++place) {
             if (places_[place]) continue;
-            places_[place].emplace(Client{address, ++numbered_, at});
+            places_[place].emplace(Client{address, at});
             return place;
         }
         return std::nullopt;
     }
 
-    /// A number from 1, in the order of the first datagrams.
-    [[nodiscard]] std::uint64_t number(std::size_t place) const { return at(place).number; }
     [[nodiscard]] const Address& address(std::size_t place) const { return at(place).address; }
 
     /// When the client will have been silent for so long that it may be forgotten.
@@ -63,13 +60,10 @@ public:
 
     [[nodiscard]] bool is_used(std::size_t place) const { return places_[place].has_value(); }
     [[nodiscard]] std::size_t size_max() const { return places_.size(); }
-    /// Also those that are forgotten.
-    [[nodiscard]] std::uint64_t numbered() const { return numbered_; }
 
 private:
     struct Client {
         Address address;
-        std::uint64_t number = 0;
         base::TimePoint heard{};
     };
     [[nodiscard]] const Client& at(std::size_t place) const
@@ -81,7 +75,6 @@ private:
     base::Duration idle_;
     std::vector<std::optional<Client>> places_;
     std::size_t last_ = 0;
-    std::uint64_t numbered_ = 0;
 };
 
 } // namespace hapnet::emulator

@@ -14,6 +14,10 @@ namespace hapnet::emulator {
 Paths::Paths(const Profile& profile, Setup setup)
     : profile_{profile}, setup_{std::move(setup)}, now_{setup_.start}
 {
+    for (const std::string& name : setup_.elsewhere) {
+        absent_.push_back({name, Director{profile_of(profile_, name), setup_.start}});
+    }
+    find_next_change();
     if (!setup_.takes_newcomers) return;
     newcomers_.emplace(profile_of(profile_, ""), setup_.start);
     mentioned_ = paths_in(profile_);
@@ -163,6 +167,7 @@ PathNames Paths::names() const
     for (const Named& one : paths_) {
         if (!one.name.empty()) names.links.push_back(one.name);
     }
+    names.links.insert(names.links.end(), setup_.elsewhere.begin(), setup_.elsewhere.end());
     return names;
 }
 

@@ -36,6 +36,8 @@ public:
         std::shared_ptr<const FatesOfPaths> replay{}; // null: fates are drawn
         bool takes_newcomers = false;                 // paths come later, and have names of clients
         std::size_t changes_max = ChangeLog::entries_max; // that each of them keeps
+        /// Names of paths that another thread has: what is decided for them counts here, too.
+        std::vector<std::string> elsewhere{};
     };
 
     Paths(const Profile& profile, Setup setup);
@@ -71,6 +73,11 @@ public:
     /// 1 at first, and one more whenever conditions have changed or other profiles were applied.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
     [[nodiscard]] base::Duration elapsed() const { return now_ - setup_.start; }
+    /// The latest time that it has been told.
+    [[nodiscard]] base::TimePoint now() const { return now_; }
+
+    /// The next generation comes after this one.
+    void count_from(std::uint64_t generation) { generation_ = std::max(generation_, generation); }
 
     [[nodiscard]] std::optional<base::TimePoint> next_due() const;
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
@@ -110,7 +117,7 @@ private:
     Profile profile_;
     Setup setup_;
     std::optional<Director> newcomers_; // what holds for whoever comes
-    std::vector<Absent> absent_;        // what holds for some of them
+    std::vector<Absent> absent_;        // what holds for some of them, or elsewhere
     std::vector<std::string> mentioned_;
     std::vector<Named> paths_;
     base::TimePoint now_;

@@ -21,7 +21,7 @@ namespace hapnet::emulator::ports {
 struct Way {
     EmulatedPath& path;
     Direction direction;
-    Recorder& recorder;
+    Recorder::Lane& recorder;
     std::uint32_t recorded_as = 0; // by its fates
     std::uint32_t pair = 0;        // of interfaces in the capture
 };

@@ -120,7 +120,7 @@ Frames::Frames(const Setup& setup, Paths& paths, Recorder& recorder)
     : setup_{setup},
       paths_{paths},
       path_{paths.add("")},
-      recorder_{recorder},
+      recorder_{recorder.lane()},
       recorded_as_{recorder.add_path("")},
       a_{Direction::up, setup.interface_a},
       b_{Direction::down, setup.interface_b}

@@ -79,7 +79,7 @@ private:
     Setup setup_;
     Paths& paths_;
     EmulatedPath& path_;
-    Recorder& recorder_;
+    Recorder::Lane& recorder_;
     std::uint32_t recorded_as_;
     Side a_;
     Side b_;

@@ -6,22 +6,30 @@
 
 namespace hapnet::emulator::ports {
 
-Links::Links(const Places& places, Paths& paths, Recorder& recorder)
+Links::Links(const Places& places, const std::vector<std::unique_ptr<Paths>>& paths,
+             Recorder& recorder)
 {
-    if (places.size() > 1) ready_.emplace();
+    for (std::size_t i = 0; i < paths.size(); ++i) parts_.push_back(std::make_unique<Part>());
+    const bool has_several = places.size() > 1;
     for (const auto& [name, endpoints] : places) {
-        const auto number = static_cast<std::uint32_t>(relays_.size());
-        relays_.push_back(
-            std::make_unique<Relay>(endpoints, paths, recorder, Relay::Among{name, own_, number}));
-        if (!ready_) continue;
-        const Relay& relay = *relays_.back();
-        ready_->add(relay.a().socket.descriptor(), 2 * std::uint64_t{number}, {.to_read = true});
-        ready_->add(relay.b().socket.descriptor(), 2 * std::uint64_t{number} + 1,
-                    {.to_read = true});
+        const std::size_t part = part_of(relays_.size(), paths.size());
+        const Relay::Among among{name, own_, recorder.add_path(name), recorder.lane(part)};
+        relays_.push_back(std::make_unique<Relay>(endpoints, *paths[part], among));
+        if (has_several && !parts_[part]->ready_) parts_[part]->ready_.emplace();
+        parts_[part]->add(*relays_.back());
     }
 }
 
-void Links::receive()
+void Links::Part::add(Relay& relay)
+{
+    const auto place = static_cast<std::uint64_t>(relays_.size());
+    relays_.push_back(&relay);
+    if (!ready_) return;
+    ready_->add(relay.a().socket.descriptor(), 2 * place, {.to_read = true});
+    ready_->add(relay.b().socket.descriptor(), 2 * place + 1, {.to_read = true});
+}
+
+void Links::Part::receive()
 {
     if (!ready_) return relays_.front()->receive(); // to ask first would cost another call
     for (const net::Ready& ready : ready_->ready()) {
@@ -30,21 +38,21 @@ void Links::receive()
     }
 }
 
-void Links::release(base::TimePoint now)
+void Links::Part::release(base::TimePoint now)
 {
-    for (const auto& relay : relays_) relay->release(now);
+    for (Relay* relay : relays_) relay->release(now);
 }
 
-std::vector<int> Links::descriptors() const
+std::vector<int> Links::Part::descriptors() const
 {
     if (ready_) return {ready_->descriptor()};
     const Relay& only = *relays_.front();
     return {only.a().socket.descriptor(), only.b().socket.descriptor()};
 }
 
-std::optional<std::string> Links::next_notice()
+std::optional<std::string> Links::Part::next_notice()
 {
-    for (const auto& relay : relays_) {
+    for (Relay* relay : relays_) {
         if (auto notice = relay->next_notice()) return notice;
     }
     return std::nullopt;

@@ -10,6 +10,7 @@
 #include "proto/base/time.hpp"
 #include "proto/net/wait_set.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,37 +19,60 @@
 
 namespace hapnet::emulator::ports {
 
-/// The relays of a run: the only one, which has no name, or those of several links.
+/// The relays of a run: the only one, which has no name, or those of several links. They are dealt
+/// out to parts, which may be at work side by side, each on a thread of its own.
 class Links {
 public:
     using Places = std::vector<NamedEndpoints>;
 
-    /// Binds all sockets. Throws std::system_error when it cannot. The paths and the recorder
-    /// outlive it.
-    Links(const Places& places, Paths& paths, Recorder& recorder);
+    /// Some of the relays.
+    class Part {
+    public:
+        /// Takes what has arrived, at most one batch of each socket that has something; see
+        /// Relay::receive().
+        void receive();
 
-    /// Takes what has arrived, at most one batch of each socket that has something; see
-    /// Relay::receive().
-    void receive();
+        /// Sends what is due at `now`.
+        void release(base::TimePoint now);
 
-    /// Sends what is due at `now`.
-    void release(base::TimePoint now);
+        /// To wait for.
+        [[nodiscard]] std::vector<int> descriptors() const;
 
-    /// To wait for.
-    [[nodiscard]] std::vector<int> descriptors() const;
+        /// When release() is to be called though no datagram is due and no conditions change.
+        [[nodiscard]] static std::optional<base::TimePoint> next_deadline() { return std::nullopt; }
 
-    /// When release() is to be called though no datagram is due and no conditions change.
-    [[nodiscard]] static std::optional<base::TimePoint> next_deadline() { return std::nullopt; }
+        /// A sentence about one of the links; see Relay::next_notice().
+        [[nodiscard]] std::optional<std::string> next_notice();
 
-    /// A sentence about one of the links; see Relay::next_notice().
-    [[nodiscard]] std::optional<std::string> next_notice();
+    private:
+        friend class Links;
+        void add(Relay& relay);
 
+        std::optional<net::WaitSet> ready_; // of several
+        std::vector<Relay*> relays_;
+    };
+
+    /// Binds all sockets. A part for each of the paths: the links are dealt out in turn. Throws
+    /// std::system_error when it cannot. The paths and the recorder, with as many lanes, outlive
+    /// it.
+    Links(const Places& places, const std::vector<std::unique_ptr<Paths>>& paths,
+          Recorder& recorder);
+
+    /// Which part the link of this place belongs to.
+    [[nodiscard]] static std::size_t part_of(std::size_t place, std::size_t parts)
+    {
+        return place % parts;
+    }
+
+    [[nodiscard]] std::vector<std::unique_ptr<Part>>& parts() { return parts_; }
+
+    /// In the order of their places.
     [[nodiscard]] const std::vector<std::unique_ptr<Relay>>& relays() const { return relays_; }
 
 private:
     OwnSockets own_;
-    std::optional<net::WaitSet> ready_; // of several links
     std::vector<std::unique_ptr<Relay>> relays_;
+    std::vector<std::unique_ptr<Part>> parts_;
 };
 
 } // namespace hapnet::emulator::ports

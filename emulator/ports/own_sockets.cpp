@@ -11,17 +11,20 @@ void OwnSockets::add(const net::Endpoint& local)
 {
     Socket socket{local, {}};
     socket.host.add_host(local);
+    const std::scoped_lock guard{lock_};
     sockets_.push_back(std::move(socket));
 }
 
 void OwnSockets::remove(const net::Endpoint& local)
 {
+    const std::scoped_lock guard{lock_};
     const auto found = std::ranges::find(sockets_, local, &Socket::local);
     if (found != sockets_.end()) sockets_.erase(found);
 }
 
 bool OwnSockets::contains(const net::Endpoint& from) const
 {
+    const std::scoped_lock guard{lock_};
     const auto port = from.port();
     return std::ranges::any_of(sockets_, [&](const Socket& socket) {
         if (socket.local.port() != port) return false;

@@ -5,12 +5,14 @@
 #include "proto/net/address_set.hpp"
 #include "proto/net/endpoint.hpp"
 
+#include <mutex>
 #include <vector>
 
 namespace hapnet::emulator::ports {
 
 /// The emulator's own sockets. A datagram that seems to come from one of them is forged, or one of
-/// its own that has come back: let in, it would go round for ever.
+/// its own that has come back: let in, it would go round for ever. For any thread; asked only
+/// about senders that are not known.
 class OwnSockets {
 public:
     void add(const net::Endpoint& local);
@@ -23,6 +25,7 @@ private:
         net::AddressSet host; // where it can be reached, when that is not all of this machine
     };
     net::AddressSet this_machine_ = net::addresses_of_this_machine();
+    mutable std::mutex lock_;
     std::vector<Socket> sockets_;
 };
 

@@ -57,13 +57,12 @@ void Relay::Side::on_stranger(const net::Received& datagram, Refusal why)
     stranger = Stranger{datagram.from, filter.address(), filter.heard_at(), why, datagram.at};
 }
 
-Relay::Relay(const Endpoints& endpoints, Paths& paths, Recorder& recorder, const Among& among)
+Relay::Relay(const Endpoints& endpoints, Paths& paths, const Among& among)
     : name_{among.name},
       paths_{paths},
       path_{paths.add(among.name)},
-      recorder_{recorder},
-      recorded_as_{recorder.add_path(among.name)},
-      pair_{among.pair},
+      recorder_{among.recorder},
+      number_{among.number},
       own_{among.own},
       a_{CaptureSide::a, endpoints, path_.link(Direction::up)},
       b_{CaptureSide::b, endpoints, path_.link(Direction::down)}

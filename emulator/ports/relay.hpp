@@ -24,17 +24,18 @@ namespace hapnet::emulator::ports {
 /// every decision.
 class Relay {
 public:
-    /// What it has among the relays of a run: a name, unless it is the only one, all sockets, and
-    /// its place in the capture.
+    /// What it has among the relays of a run: a name, unless it is the only one, all sockets, its
+    /// place in the records, and the lane to them.
     struct Among {
         std::string name;
         OwnSockets& own;
-        std::uint32_t pair = 0;
+        std::uint32_t number = 0;
+        Recorder::Lane& recorder;
     };
 
-    /// Binds both sockets. Throws std::system_error when it cannot. The paths, the recorder and
-    /// what it is among outlive it.
-    Relay(const Endpoints& endpoints, Paths& paths, Recorder& recorder, const Among& among);
+    /// Binds both sockets. Throws std::system_error when it cannot. The paths and what it is among
+    /// outlive it.
+    Relay(const Endpoints& endpoints, Paths& paths, const Among& among);
     Relay(const Relay&) = delete;
     Relay& operator=(const Relay&) = delete;
     ~Relay() = default;
@@ -98,15 +99,14 @@ private:
     [[nodiscard]] std::optional<Refusal> refusal_of(Side& from, const net::Received& datagram);
     [[nodiscard]] Way way(Direction direction) const
     {
-        return {path_, direction, recorder_, recorded_as_, pair_};
+        return {path_, direction, recorder_, number_, number_};
     }
 
     std::string name_;
     Paths& paths_;
     EmulatedPath& path_;
-    Recorder& recorder_;
-    std::uint32_t recorded_as_;
-    std::uint32_t pair_;
+    Recorder::Lane& recorder_;
+    std::uint32_t number_;
     OwnSockets& own_;
     Side a_;
     Side b_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/ports/upstream.hpp"
 
+#include "proto/base/ensure.hpp"
+
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
@@ -31,25 +33,105 @@ Upstream::Client::Client(std::uint64_t its_number, const net::Endpoint& its_addr
       local{socket.local()}
 {}
 
-Upstream::Upstream(ServerAndClients places, Setup setup, Paths& paths, Recorder& recorder)
-    : places_{std::move(places)},
-      setup_{setup},
-      paths_{paths},
-      recorder_{recorder},
-      listening_{places_.listen, net::Load::bulk},
-      local_{listening_.local()},
-      table_{setup_.clients_max, setup_.idle},
-      clients_(setup_.clients_max)
+namespace {
+
+/// Sockets at one place, one for each part. What came while not all of them were there may have
+/// come to the wrong one.
+std::vector<net::UdpSocket> sockets_at(const net::Endpoint& place, std::size_t count)
 {
-    own_.add(local_);
+    std::vector<net::UdpSocket> sockets;
+    sockets.emplace_back(place, net::Load::bulk);
+    while (sockets.size() < count) {
+        sockets.push_back(net::UdpSocket::beside(sockets.front(), net::Load::bulk));
+    }
+    if (count == 1) return sockets;
+    constexpr int batches_max = 1000;
+    for (net::UdpSocket& socket : sockets) {
+        for (int i = 0; i < batches_max && !socket.receive().empty(); ++i) continue;
+    }
+    return sockets;
 }
 
+} // namespace
+
+Upstream::Upstream(ServerAndClients places, Setup setup,
+                   const std::vector<std::unique_ptr<Paths>>& paths, Recorder& recorder)
+    : common_{.places = std::move(places), .setup = setup, .recorder = recorder}
+{
+    auto sockets = sockets_at(common_.places.listen, paths.size());
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        parts_.push_back(
+            std::make_unique<Part>(common_, std::move(sockets[i]), *paths[i], recorder.lane(i)));
+    }
+    common_.own.add(local());
+}
+
+const net::Endpoint& Upstream::local() const { return parts_.front()->local_; }
+
+std::vector<const Upstream::Client*> Upstream::clients() const
+{
+    std::vector<const Client*> all;
+    for (const auto& part : parts_) {
+        for (const auto& client : part->clients_) {
+            if (client) all.push_back(client.get());
+        }
+    }
+    std::ranges::sort(all, {}, &Client::number);
+    return all;
+}
+
+Upstream::Departed Upstream::departed() const
+{
+    Departed sum;
+    for (const auto& part : parts_) {
+        const Departed& own = part->departed_;
+        sum.up.add(own.up);
+        sum.down.add(own.down);
+        sum.strangers_down += own.strangers_down;
+        sum.overflowed_down += own.overflowed_down;
+        sum.count += own.count;
+    }
+    return sum;
+}
+
+std::uint64_t Upstream::strangers() const
+{
+    std::uint64_t sum = 0;
+    for (const auto& part : parts_) sum += part->strangers_;
+    return sum;
+}
+
+std::uint64_t Upstream::refused() const
+{
+    std::uint64_t sum = 0;
+    for (const auto& part : parts_) sum += part->refused_;
+    return sum;
+}
+
+std::uint64_t Upstream::overflowed() const
+{
+    std::uint64_t sum = 0;
+    for (const auto& part : parts_) sum += part->listening_.overflowed();
+    return sum;
+}
+
+Upstream::Part::Part(Common& common, net::UdpSocket listening, Paths& paths,
+                     Recorder::Lane& recorder)
+    : common_{common},
+      paths_{paths},
+      recorder_{recorder},
+      listening_{std::move(listening)},
+      local_{listening_.local()},
+      table_{common.setup.clients_max, common.setup.idle},
+      clients_(common.setup.clients_max)
+{}
+
 /// By address, a client that comes again is another one: "client.10.0.0.1:5000#2".
-std::string Upstream::name_of(const Client& client)
+std::string Upstream::Part::name_of(const Client& client)
 {
     constexpr std::size_t remembered_max = 65'536;
     const auto number = fmt::format("{}", client.number);
-    if (!setup_.named_by_address) return client_path(number);
+    if (!common_.setup.named_by_address) return client_path(number);
     const auto address = client.address->to_text();
     if (visits_.size() >= remembered_max && !visits_.contains(address)) {
         return client_path(fmt::format("{}#{}", address, number));
@@ -58,60 +140,71 @@ std::string Upstream::name_of(const Client& client)
     return client_path(visit == 1 ? address : fmt::format("{}#{}", address, visit));
 }
 
-void Upstream::give_path(Client& client)
-{
-    client.name = name_of(client);
-    client.path = &paths_.add(client.name);
-    client.recorded_as = recorder_.add_path(client.name);
-    own_.add(client.local);
-}
-
-void Upstream::turn_away(const net::Received& datagram, const std::string& why)
+void Upstream::Part::turn_away(const net::Received& datagram, const std::string& why)
 {
     if (!notice_.permits(datagram.at)) return;
     untold_ = fmt::format("{} sends to --listen {}: dropped, {}", datagram.from.to_text(),
                           local_.to_text(), why);
 }
 
+/// Of one that may be a client and cannot.
+void Upstream::Part::refuse(const net::Received& datagram, const std::string& why)
+{
+    ++refused_;
+    turn_away(datagram, why);
+}
+
 /// The client that sent it, which may be a new one; null: it is to be dropped.
-Upstream::Client* Upstream::client_of(const net::Received& datagram)
+Upstream::Client* Upstream::Part::client_of(const net::Received& datagram)
 {
     if (const auto known = table_.find(datagram.from, datagram.at)) return clients_[*known].get();
-    if (own_.contains(datagram.from)) {
+    if (common_.own.contains(datagram.from)) {
         ++strangers_;
         turn_away(datagram, "as it names the emulator's own address as its sender");
         return nullptr;
     }
-    if (!places_.allowed.contains(datagram.from)) {
+    if (!common_.places.allowed.contains(datagram.from)) {
         ++strangers_;
         turn_away(datagram, "as --allow does not name it");
         return nullptr;
     }
+    // Each part has a place for all of them.
+    const std::scoped_lock guard{common_.lock};
+    if (common_.present >= common_.setup.clients_max) {
+        refuse(datagram, fmt::format("as there are {} clients already: raise --clients, or lower "
+                                     "--idle",
+                                     common_.setup.clients_max));
+        return nullptr;
+    }
     const auto place = table_.add(datagram.from, datagram.at);
-    if (!place) {
-        ++refused_;
-        turn_away(datagram, fmt::format("as there are {} clients already: raise --clients, or "
-                                        "lower --idle",
-                                        table_.size_max()));
-        return nullptr;
-    }
-    const auto number = table_.number(*place);
-    auto& client = clients_[*place];
-    try {
-        client = std::make_unique<Client>(number, datagram.from, places_);
-        answers_.add(client->socket.descriptor(), *place, {.to_read = true});
-    } catch (const std::system_error& error) { // no descriptors, no ports
-        client.reset();
-        table_.forget(*place);
-        ++refused_;
-        turn_away(datagram, fmt::format("as the system has no socket for it: {}", error.what()));
-        return nullptr;
-    }
-    give_path(*client);
-    return client.get();
+    base::ensure(place.has_value());
+    clients_[*place] = admit(datagram, *place);
+    if (!clients_[*place]) table_.forget(*place);
+    return clients_[*place].get();
 }
 
-void Upstream::take_from_clients()
+/// A new client; null: the system refuses.
+std::unique_ptr<Upstream::Client> Upstream::Part::admit(const net::Received& datagram,
+                                                        std::size_t place)
+{
+    std::unique_ptr<Client> client;
+    try {
+        client = std::make_unique<Client>(++common_.numbered, datagram.from, common_.places);
+        answers_.add(client->socket.descriptor(), place, {.to_read = true});
+    } catch (const std::system_error& error) { // no descriptors, no ports
+        refuse(datagram, fmt::format("as the system has no socket for it: {}", error.what()));
+        return nullptr;
+    }
+    ++common_.present;
+    next_look_ = base::earlier(next_look_, table_.idle_at(place));
+    client->name = name_of(*client);
+    client->path = &paths_.add(client->name);
+    client->recorded_as = common_.recorder.add_path(client->name);
+    common_.own.add(client->local);
+    return client;
+}
+
+void Upstream::Part::take_from_clients()
 {
     const auto arrived = listening_.receive();
     std::optional<Batch> undelayed; // of one client after the other
@@ -130,11 +223,11 @@ void Upstream::take_from_clients()
     if (undelayed) undelayed->flush();
 }
 
-void Upstream::take_from_server(Client& client)
+void Upstream::Part::take_from_server(Client& client)
 {
     Batch undelayed{way(client, Direction::down), to_client(client)};
     for (const net::Received& datagram : client.socket.receive()) {
-        if (datagram.from != places_.server) {
+        if (datagram.from != common_.places.server) {
             ++client.strangers;
             continue;
         }
@@ -144,7 +237,7 @@ void Upstream::take_from_server(Client& client)
     undelayed.flush();
 }
 
-void Upstream::receive()
+void Upstream::Part::receive()
 {
     take_from_clients();
     for (const net::Ready& ready : answers_.ready()) {
@@ -152,7 +245,7 @@ void Upstream::receive()
     }
 }
 
-void Upstream::release(base::TimePoint now)
+void Upstream::Part::release(base::TimePoint now)
 {
     for (const auto& client : clients_) {
         if (!client) continue;
@@ -173,38 +266,44 @@ bool has_nothing_in_flight(const EmulatedPath& path)
 
 } // namespace
 
-/// What is in flight is still delivered.
-void Upstream::forget_idle(base::TimePoint now)
+/// What is in flight is still delivered. All are looked at when the first of them may be idle, not
+/// in each round: of those that have been heard since, it is not true any more.
+void Upstream::Part::forget_idle(base::TimePoint now)
 {
-    for (std::size_t place = 0; place < clients_.size(); ++place) {
-        auto& client = clients_[place];
-        if (!client || now < table_.idle_at(place) || !has_nothing_in_flight(*client->path))
-            continue;
-        departed_.up.add(client->path->link(Direction::up).statistics());
-        departed_.down.add(client->path->link(Direction::down).statistics());
-        departed_.strangers_down += client->strangers;
-        departed_.overflowed_down += client->socket.overflowed();
-        ++forgotten_;
-        own_.remove(client->local);
-        paths_.remove(client->name);
-        client.reset();
-        table_.forget(place);
-    }
-}
-
-std::optional<base::TimePoint> Upstream::next_deadline() const
-{
-    std::optional<base::TimePoint> next;
+    if (!base::is_due(next_look_, now)) return;
+    constexpr base::Duration until_delivered = std::chrono::milliseconds{10};
+    next_look_.reset();
     for (std::size_t place = 0; place < clients_.size(); ++place) {
         const auto& client = clients_[place];
         if (!client) continue;
-        if (has_nothing_in_flight(*client->path)) {
-            next = base::earlier(next, table_.idle_at(place));
+        const auto idle_at = table_.idle_at(place);
+        if (now >= idle_at && has_nothing_in_flight(*client->path)) {
+            forget(place);
+        } else {
+            next_look_ = base::earlier(next_look_, std::max(idle_at, now + until_delivered));
         }
     }
-    return next;
 }
 
-std::optional<std::string> Upstream::next_notice() { return std::exchange(untold_, std::nullopt); }
+void Upstream::Part::forget(std::size_t place)
+{
+    auto& client = clients_[place];
+    departed_.up.add(client->path->link(Direction::up).statistics());
+    departed_.down.add(client->path->link(Direction::down).statistics());
+    departed_.strangers_down += client->strangers;
+    departed_.overflowed_down += client->socket.overflowed();
+    ++departed_.count;
+    common_.own.remove(client->local);
+    paths_.remove(client->name);
+    client.reset();
+    table_.forget(place);
+    const std::scoped_lock guard{common_.lock};
+    --common_.present;
+}
+
+std::optional<std::string> Upstream::Part::next_notice()
+{
+    return std::exchange(untold_, std::nullopt);
+}
 
 } // namespace hapnet::emulator::ports

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,9 @@ namespace hapnet::emulator::ports {
 /// A server and its clients: each address that sends gets a socket of its own to the server, and
 /// an emulated path of its own. Like a NAT for UDP, and for no address that it is not told to let
 /// in. Moves datagrams; EmulatedPath, ClientTable and AddressSet take every decision.
+///
+/// The clients are in parts, which may be at work side by side, each on a thread of its own. Where
+/// there are several, the kernel deals out the clients by their addresses.
 class Upstream {
 public:
     struct Setup {
@@ -57,11 +61,53 @@ public:
         Statistics down;
         std::uint64_t strangers_down = 0;
         std::uint64_t overflowed_down = 0;
+        std::uint64_t count = 0;
     };
 
-    /// Binds the socket. Throws std::system_error when it cannot. The paths and the recorder
-    /// outlive it.
-    Upstream(ServerAndClients places, Setup setup, Paths& paths, Recorder& recorder);
+    class Part;
+
+    /// Binds the sockets. A part for each of the paths. Throws std::system_error when it cannot.
+    /// The paths and the recorder, with as many lanes, outlive it.
+    Upstream(ServerAndClients places, Setup setup, const std::vector<std::unique_ptr<Paths>>& paths,
+             Recorder& recorder);
+
+    [[nodiscard]] std::vector<std::unique_ptr<Part>>& parts() { return parts_; }
+
+    // Of all parts, while none is at work.
+
+    [[nodiscard]] const net::Endpoint& local() const;
+    [[nodiscard]] const net::Endpoint& server() const { return common_.places.server; }
+    /// By their numbers.
+    [[nodiscard]] std::vector<const Client*> clients() const;
+    [[nodiscard]] std::uint64_t clients_seen() const { return common_.numbered; }
+    [[nodiscard]] Departed departed() const;
+    /// Datagrams from addresses that may not be clients, and from those for which there was no
+    /// place.
+    [[nodiscard]] std::uint64_t strangers() const;
+    [[nodiscard]] std::uint64_t refused() const;
+    [[nodiscard]] std::uint64_t overflowed() const;
+
+private:
+    /// What the parts have in common.
+    struct Common {
+        ServerAndClients places;
+        Setup setup;
+        Recorder& recorder;
+        OwnSockets own{};
+        std::mutex lock{}; // of what follows: where a client comes or goes
+        std::uint64_t numbered = 0;
+        std::size_t present = 0;
+    };
+
+    Common common_;
+    std::vector<std::unique_ptr<Part>> parts_;
+};
+
+/// Some of the clients: those whose datagrams come to its socket.
+class Upstream::Part {
+public:
+    /// What it shares, the paths and the lane outlive it.
+    Part(Common& common, net::UdpSocket listening, Paths& paths, Recorder::Lane& recorder);
 
     /// Takes what has arrived, at most one batch of each socket, and sends on at once what is not
     /// delayed.
@@ -70,8 +116,8 @@ public:
     /// Sends what is due at `now`, and forgets who has been silent.
     void release(base::TimePoint now);
 
-    /// When a client may be forgotten.
-    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
+    /// When a client may have to be forgotten.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_look_; }
 
     /// To wait for.
     [[nodiscard]] std::vector<int> descriptors() const
@@ -82,26 +128,17 @@ public:
     /// A sentence about a client that was turned away, or that came; each once.
     [[nodiscard]] std::optional<std::string> next_notice();
 
-    [[nodiscard]] const net::Endpoint& local() const { return local_; }
-    [[nodiscard]] const net::Endpoint& server() const { return places_.server; }
-    /// By their places; null where there is none.
-    [[nodiscard]] const std::vector<std::unique_ptr<Client>>& clients() const { return clients_; }
-    [[nodiscard]] std::uint64_t clients_seen() const { return table_.numbered(); }
-    [[nodiscard]] std::uint64_t clients_forgotten() const { return forgotten_; }
-    [[nodiscard]] const Departed& departed() const { return departed_; }
-    /// Datagrams from addresses that may not be clients, and from those for which there was no
-    /// place.
-    [[nodiscard]] std::uint64_t strangers() const { return strangers_; }
-    [[nodiscard]] std::uint64_t refused() const { return refused_; }
-    [[nodiscard]] std::uint64_t overflowed() const { return listening_.overflowed(); }
-
 private:
+    friend class Upstream;
+
     [[nodiscard]] Client* client_of(const net::Received& datagram);
+    [[nodiscard]] std::unique_ptr<Client> admit(const net::Received& datagram, std::size_t place);
     [[nodiscard]] std::string name_of(const Client& client);
-    void give_path(Client& client);
+    void refuse(const net::Received& datagram, const std::string& why);
     void take_from_clients();
     void take_from_server(Client& client);
     void forget_idle(base::TimePoint now);
+    void forget(std::size_t place);
     void turn_away(const net::Received& datagram, const std::string& why);
     [[nodiscard]] Way way(Client& client, Direction direction)
     {
@@ -116,19 +153,17 @@ private:
         return {CaptureSide::a, listening_, local_, client.address};
     }
 
-    ServerAndClients places_;
-    Setup setup_;
+    Common& common_;
     Paths& paths_;
-    Recorder& recorder_;
+    Recorder::Lane& recorder_;
     net::UdpSocket listening_;
     net::Endpoint local_;
-    OwnSockets own_;
     net::WaitSet answers_;
     ClientTable<net::Endpoint> table_;
-    std::vector<std::unique_ptr<Client>> clients_;
-    std::map<std::string, std::uint64_t> visits_; // by addresses, where they are names
+    std::vector<std::unique_ptr<Client>> clients_; // by their places
+    std::map<std::string, std::uint64_t> visits_;  // by addresses, where they are names
+    std::optional<base::TimePoint> next_look_;     // at who is idle
     Departed departed_;
-    std::uint64_t forgotten_ = 0;
     std::uint64_t strangers_ = 0;
     std::uint64_t refused_ = 0;
     RateLimit notice_;

@@ -195,7 +195,16 @@ struct UdpSocket::Inbox {
     std::uint64_t overflowed = 0;
 };
 
-UdpSocket::UdpSocket(const Endpoint& local, Load load)
+UdpSocket::UdpSocket(const Endpoint& local, Load load) : UdpSocket{local, load, Place::alone} {}
+
+UdpSocket UdpSocket::beside(UdpSocket& first, Load load)
+{
+    // After the first was bound: whoever else holds the place, or wants it, is refused.
+    set_option(first.descriptor_, SOL_SOCKET, SO_REUSEPORT, 1);
+    return UdpSocket{first.local(), load, Place::shared};
+}
+
+UdpSocket::UdpSocket(const Endpoint& local, Load load, Place place)
     : descriptor_{socket(local.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)},
       inbox_{std::make_unique<Inbox>(load)}
 {
@@ -215,6 +224,7 @@ UdpSocket::UdpSocket(const Endpoint& local, Load load)
         usual = ask_for_marks(descriptor_, local.family());
     }
     sender_ = std::make_unique<BatchSender>(usual);
+    if (place == Place::shared) set_option(descriptor_, SOL_SOCKET, SO_REUSEPORT, 1);
     if (bind(descriptor_, local.address(), local.length()) != 0) {
         const int error = errno;
         close(descriptor_);

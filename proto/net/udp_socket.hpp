@@ -41,6 +41,9 @@ public:
 
     /// Binds to `local` (port 0: any free port). Throws std::system_error naming the address.
     explicit UdpSocket(const Endpoint& local, Load load = Load::stream);
+    /// Another one at the place of `first`: all datagrams of one sender come to the same of them.
+    /// Nobody else has it, as the first was bound alone.
+    [[nodiscard]] static UdpSocket beside(UdpSocket& first, Load load);
     ~UdpSocket();
     UdpSocket(UdpSocket&& other) noexcept;
     UdpSocket& operator=(UdpSocket&&) = delete;
@@ -72,6 +75,8 @@ public:
 
 private:
     struct Inbox;
+    enum class Place : std::uint8_t { alone, shared };
+    UdpSocket(const Endpoint& local, Load load, Place place);
 
     int descriptor_ = -1;
     std::unique_ptr<Inbox> inbox_;

@@ -176,6 +176,64 @@ TEST(EmulatorLinks, HaveFatesThatAreDrawnByTheirNamesAndThatCanBeReplayed)
         {"fates of several paths"});
 }
 
+TEST(EmulatorLinks, HaveTheSameFatesInTheSameOrderHoweverManyThreadsRelayThem)
+{
+    TemporaryFolder folder;
+    const auto fates_with = [&](const char* threads) {
+        const auto file = folder.file(std::string{threads} + ".csv");
+        LinksRunning emulator{{"1-2", "1-3", "2-3", "wan"},
+                              {"--loss", "20%", "--jitter", "1ms", "--duplicate", "5%", "--threads",
+                               threads, "--pcap", folder.file("run.pcapng"), "--fates", file}};
+        emulator.introduce();
+        stream_through(emulator, 200);
+        EXPECT_TRUE(comes_true([&] {
+            const auto statistics = emulator.ctl({"stats"});
+            return statistics["up"]["received"] == 4 * 201 &&
+                   statistics["down"]["received"] == 4 * 201;
+        }));
+        const auto statistics = emulator.stop();
+        EXPECT_EQ(statistics["fates_lost"], 0);
+        EXPECT_EQ(statistics["capture_lost"], 0);
+        EXPECT_EQ(statistics["links"].size(), 4U);
+        return text_of(file);
+    };
+    const auto alone = fates_with("1");
+    EXPECT_EQ(fates_with("2"), alone);
+    EXPECT_EQ(fates_with("4"), alone);
+    EXPECT_EQ(fates_with("16"), alone); // of which four have a link
+}
+
+TEST(EmulatorLinks, OnSeveralThreadsChangeAsOne)
+{
+    LinksRunning emulator{{"1-2", "2-3", "wan"}, {"--delay", "5ms", "--threads", "3"}};
+    emulator.introduce();
+    EXPECT_EQ(emulator.ctl({"set", "3-2.delay", "50ms"})["generation"], 2);
+    const auto changed = emulator.ctl({"set", "wan.up.delay", "60ms", "all.mtu", "1500B"});
+    EXPECT_EQ(changed["generation"], 3) << changed;
+    EXPECT_EQ(changed["effective_at"].size(), 3U);
+    EXPECT_EQ(changed["effective_at"]["2-3"]["down"], 1);
+    EXPECT_EQ(emulator.ctl({"set", "wan.up.delay", "60ms"})["changed"], false);
+    auto& pair = emulator.pairs.at("2-3");
+    pair.second.send(pair.listen_2, 1);
+    EXPECT_GE(pair.first.receive(1, 5s).back().delay, 50ms - 4us);
+    auto& wan = emulator.pairs.at("wan");
+    wan.first.send(wan.listen_1, 2);
+    EXPECT_GE(wan.second.receive(2, 5s).back().delay, 60ms - 4us);
+    const auto shown = run("hapnet-ctl", {emulator.folder.file("s"), "show"});
+    EXPECT_NE(shown.out.find("[link.\"3-2\"]"), std::string::npos) << shown.out;
+    EXPECT_NE(shown.out.find("[link.\"wan\".up]"), std::string::npos) << shown.out;
+    stream_through(emulator, 300); // while the statistics are asked for again and again
+    const auto watched = run("hapnet-ctl", {emulator.folder.file("s"), "wait", "--until",
+                                            "up.delivered>=900", "--timeout", "10s"});
+    EXPECT_EQ(watched.exit, 0) << watched.err;
+    EXPECT_EQ(emulator.ctl({"reset"})["generation"], 4);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["generation"], 4);
+    for (const char* link : {"1-2", "2-3", "wan"}) {
+        EXPECT_EQ(statistics["links"][link]["configuration_at_end"]["up"]["delay"], "5ms") << link;
+    }
+}
+
 TEST(EmulatorLinks, ChangeTogetherOrOneByOneOverTheControlSocketAndAreWatchedThere)
 {
     LinksRunning emulator{{"1-2", "2-3"}, {"--delay", "5ms"}};

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <list>
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
 #include <string>
 #include <vector>
 
@@ -197,6 +198,62 @@ TEST(EmulatorUpstream, RecordsTheFatesOfEachClientAndReplaysThem)
     EXPECT_NE(fates->at("client.1").up, fates->at("client.3").up);
     EXPECT_EQ(fates_of({"--replay", folder.file("first.csv")}, "again.csv"), first);
     EXPECT_GT(text_of(folder.file("run.pcapng")).size(), 60U * 100U);
+}
+
+TEST(EmulatorUpstream, GivesClientsTheSameFatesHoweverManyThreadsRelayThem)
+{
+    TemporaryFolder folder;
+    constexpr std::size_t count = 12;
+    const auto fates_with = [&](const char* threads) {
+        EchoServer server;
+        const auto file = folder.file(std::string{threads} + ".csv");
+        UpstreamRunning emulator{server,
+                                 {"--loss", "30%", "--delay", "1ms", "--clients", "12", "--seed",
+                                  "3", "--set", "client.4.loss=100%", "--threads", threads,
+                                  "--control", folder.file("s"), "--fates", file}};
+        const auto wait_for = [&](const std::string& condition) {
+            const auto waited = run(
+                "hapnet-ctl", {folder.file("s"), "wait", "--until", condition, "--timeout", "10s"});
+            EXPECT_EQ(waited.exit, 0) << waited.err;
+        };
+        std::list<Host> clients(count);
+        std::size_t come = 0;
+        for (Host& client : clients) {
+            client.send(*emulator.listen, 0);
+            wait_for(fmt::format("clients_seen>={}", ++come)); // that is their number
+        }
+        for (std::uint64_t n = 1; n < 50; ++n) {
+            for (Host& client : clients) client.send(*emulator.listen, n);
+        }
+        wait_for("up.received>=600");
+        Host late;
+        late.send(*emulator.listen, 1);
+        EXPECT_TRUE(emulator.process->wait_for_err("as there are 12 clients already", 5s));
+        const auto statistics = emulator.stop();
+        EXPECT_EQ(statistics["clients_seen"], count);
+        EXPECT_EQ(statistics["refused"], 1);
+        EXPECT_EQ(statistics["clients"].size(), count);
+        EXPECT_EQ(statistics["clients"][3]["client"], 4);
+        EXPECT_EQ(statistics["clients"][3]["up"]["dropped"]["random_loss"], 50);
+        return text_of(file);
+    };
+    const auto alone = fates_with("1");
+    EXPECT_EQ(fates_with("2"), alone);
+    EXPECT_EQ(fates_with("4"), alone);
+}
+
+TEST(EmulatorUpstream, OnSeveralThreadsHasItsPlaceAlone)
+{
+    EchoServer server;
+    UpstreamRunning emulator{server, {"--threads", "2"}};
+    for (const char* threads : {"1", "2"}) {
+        const auto second =
+            run("hapnet-emulator", {"--listen", emulator.listen->to_text(), "--upstream",
+                                    server.address(), "--threads", threads});
+        EXPECT_EQ(second.exit, 3) << second.err;
+        EXPECT_NE(second.err.find("cannot bind to"), std::string::npos) << second.err;
+    }
+    std::ignore = emulator.stop();
 }
 
 TEST(EmulatorUpstream, IsNeverAnOpenRelayAndNeverItsOwnServer)

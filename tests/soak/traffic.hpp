@@ -9,8 +9,11 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <sys/types.h>
 #include <thread>
+#include <vector>
 
 namespace hapnet::soak {
 
@@ -26,25 +29,37 @@ struct Memory {
 /// Throws std::runtime_error when there is no such program.
 [[nodiscard]] Memory memory_of(pid_t pid);
 
+/// A line of what a soak prints.
+[[nodiscard]] std::string line(std::int64_t seconds, const Memory& memory);
+
+/// Expects that nothing grows after the first minute, or fifth when that is shorter: by then each
+/// change was made and the queues have been as long as they become. `memory`: at the end of each
+/// second.
+void expect_flat(const std::vector<Memory>& memory, std::int64_t growth_max_kib = 1024);
+
 /// Both ends of an emulator, on a thread of its own: every millisecond each end sends a share of
 /// the rate to the emulator, A one by one and B merged where the kernel can (UDP_SEGMENT), and
-/// reads away what has come. Of 100 datagrams 90 hold 100 bytes, 9 hold 1000, and one 1500.
+/// reads away what has come. A may be many senders. Of 100 datagrams 90 hold 100 bytes, 9 hold
+/// 1000, and one 1500.
 ///
 /// The first second is four times as fast: the emulator takes all memory at its start, but the
 /// system gives it only when it is used, and what a later pause of the sender leaves behind (made
 /// up for at twice the rate) shall not use more of it than was used then.
 class Traffic {
 public:
-    Traffic();
+    explicit Traffic(std::size_t senders = 1);
     ~Traffic();
     Traffic(const Traffic&) = delete;
     Traffic& operator=(const Traffic&) = delete;
 
-    [[nodiscard]] net::Endpoint a() const { return a_.local(); }
+    /// The first sender's.
+    [[nodiscard]] net::Endpoint a() const { return a_.front()->local(); }
     [[nodiscard]] net::Endpoint b() const { return b_.local(); }
 
-    /// Begins to send so many datagrams a second each way, to where the emulator listens.
-    void start(std::int64_t per_second, const net::Endpoint& for_a, const net::Endpoint& for_b);
+    /// Begins to send so many datagrams a second each way, to where the emulator listens, to one
+    /// place after the other. B sends to all that it hears from if there are no places for it.
+    void start(std::int64_t per_second, std::vector<net::Endpoint> for_a,
+               std::vector<net::Endpoint> for_b);
     /// Ends when what is in the emulator has had the time to leave it.
     void stop();
 
@@ -54,19 +69,21 @@ public:
 private:
     struct Target {
         std::int64_t per_second = 0;
-        net::Endpoint for_a;
-        net::Endpoint for_b;
+        std::vector<net::Endpoint> for_a;
+        std::vector<net::Endpoint> for_b;
+        bool answers = false;
     };
 
-    void run(const Target& target);
+    void run(Target target);
     void send(const Target& target, std::uint64_t count);
-    void drain();
+    void drain(Target& target);
 
-    net::UdpSocket a_;
+    std::vector<std::unique_ptr<net::UdpSocket>> a_;
     net::UdpSocket b_;
     std::atomic<std::uint64_t> sent_{0};
     std::atomic<bool> stop_{false};
-    std::uint64_t number_ = 0; // of the next datagram of each end
+    std::uint64_t number_ = 0;  // of the next datagram of each end
+    std::uint64_t batches_ = 0; // of B
     std::thread thread_;
 };
 

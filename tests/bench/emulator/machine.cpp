@@ -98,8 +98,13 @@ RelayProcess::Started RelayProcess::start(const std::vector<std::string>& words,
     close(ends[1]);
     const std::string line = first_line(ends[0]);
     close(ends[0]);
-    return {pid, endpoint_in(line)};
+    if (!line.starts_with("ready ")) {
+        throw std::runtime_error{"a relay did not become ready: '" + line + "'"};
+    }
+    return {pid, line};
 }
+
+net::Endpoint RelayProcess::a() const { return endpoint_in(ready_); }
 
 RelayProcess::~RelayProcess()
 {

@@ -7,6 +7,7 @@
 
 #include <string>
 #include <sys/types.h>
+#include <utility>
 #include <vector>
 
 namespace hapnet::bench {
@@ -21,8 +22,8 @@ void pin_prober();
 /// Lets this thread have, or not have, SCHED_FIFO; nothing when the machine does not allow it.
 void set_real_time(bool on);
 
-/// A relay that runs as a child: it prints "ready a=HOST:PORT b=HOST:PORT" when its sockets are
-/// bound. Stopped when it goes out of scope.
+/// A relay that runs as a child: it prints "ready a=HOST:PORT b=HOST:PORT", or what else it listens
+/// to, when its sockets are bound. Stopped when it goes out of scope.
 class RelayProcess {
 public:
     /// Throws std::runtime_error when it does not become ready.
@@ -31,8 +32,10 @@ public:
     RelayProcess(const RelayProcess&) = delete;
     RelayProcess& operator=(const RelayProcess&) = delete;
 
-    /// Where datagrams for B are to be sent.
-    [[nodiscard]] const net::Endpoint& a() const { return a_; }
+    /// Its ready line.
+    [[nodiscard]] const std::string& ready() const { return ready_; }
+    /// Where datagrams for B are to be sent, of one pair.
+    [[nodiscard]] net::Endpoint a() const;
 
     /// The processor time that it has used so far, to the nanosecond.
     [[nodiscard]] base::Duration used() const;
@@ -40,13 +43,13 @@ public:
 private:
     struct Started {
         pid_t pid = -1;
-        net::Endpoint a;
+        std::string ready;
     };
     static Started start(const std::vector<std::string>& words, Standing standing);
-    explicit RelayProcess(const Started& started) : pid_{started.pid}, a_{started.a} {}
+    explicit RelayProcess(Started started) : pid_{started.pid}, ready_{std::move(started.ready)} {}
 
     pid_t pid_;
-    net::Endpoint a_;
+    std::string ready_;
 };
 
 } // namespace hapnet::bench

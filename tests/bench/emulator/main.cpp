@@ -10,6 +10,7 @@
 #include "tests/bench/emulator/baseline_relay.hpp"
 #include "tests/bench/emulator/capacity.hpp"
 #include "tests/bench/emulator/machine.hpp"
+#include "tests/bench/emulator/scale.hpp"
 
 #include <algorithm>
 #include <array>
@@ -128,7 +129,8 @@ base::Result<int> run(const Options& options)
     Accuracy accuracy = measure_accuracy(options.plan, machine.fifo);
     auto rows = std::move(accuracy.rows);
     const auto capacity = measure_capacity(options.plan, machine.fifo);
-    rows.insert(rows.end(), capacity.begin(), capacity.end());
+    append(rows, capacity);
+    append(rows, measure_scale(options.plan, machine.fifo));
     fmt::print("{}", rows_table(rows));
     if (json) json->commit(rows_json(machine, rows));
     if (plot) plot->commit(plot_of(accuracy));

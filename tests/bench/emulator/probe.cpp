@@ -66,7 +66,9 @@ void Prober::begin()
     overflowed_ = b_.overflowed();
     sunk_ = drops(b_.descriptor());
     tally_ = {};
+    sent_at_.clear();
     errors_.clear();
+    due_.clear();
 }
 
 TimingTrial Prober::measure_timing(const Load& load)
@@ -74,6 +76,8 @@ TimingTrial Prober::measure_timing(const Load& load)
     begin();
     const auto count = static_cast<std::uint64_t>(base::to_seconds(load.duration) * load.rate);
     errors_.reserve(count);
+    due_.reserve(count);
+    sent_at_.reserve(count);
     const auto phase = base::Seed{1}.stream("bench/phase");
     std::array<std::byte, payload_bytes> payload{};
     auto when = net::monotonic_now() + 1ms;
@@ -82,12 +86,25 @@ TimingTrial Prober::measure_timing(const Load& load)
         net::sleep_until(when);
         const Note note{next_number_++, net::monotonic_now()};
         std::memcpy(payload.data(), &note, sizeof note);
+        sent_at_.push_back(note.sent_at);
         if (a_.send(load.to, payload) == net::SendOutcome::sent) ++tally_.sent;
         receive(load);
     }
     receive_rest(load);
+    std::vector<base::Duration> beside;
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+        if (has_sent_shortly_before(due_[i])) beside.push_back(errors_[i]);
+    }
+    std::sort(beside.begin(), beside.end());
     std::sort(errors_.begin(), errors_.end());
-    return {errors_, tally_};
+    return {errors_, beside, tally_};
+}
+
+/// Another than the one that is due, which was sent a delay before.
+bool Prober::has_sent_shortly_before(base::TimePoint due) const
+{
+    const auto next = std::lower_bound(sent_at_.begin(), sent_at_.end(), due);
+    return next != sent_at_.begin() && due - *(next - 1) <= TimingTrial::shortly;
 }
 
 RateTrial Prober::measure_rate(const Load& load)
@@ -164,6 +181,7 @@ void Prober::receive(const Load& load)
         highest_ = std::max(highest_, note.number);
         if (errors_.size() < errors_.capacity()) {
             errors_.push_back(datagram.at - note.sent_at - load.delay);
+            due_.push_back(note.sent_at + load.delay);
         }
     }
     tally_.received += b_.overflowed() - overflowed_;

@@ -6,6 +6,7 @@
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,7 +32,11 @@ struct Tally {
 struct TimingTrial {
     /// Of each datagram: kernel receive stamp - time before its send call - the delay. Sorted.
     std::vector<base::Duration> errors;
+    /// Of those for which the relay had another one to receive in the last `shortly` before they
+    /// were due. Sorted.
+    std::vector<base::Duration> errors_beside_arrival;
     Tally tally;
+    static constexpr base::Duration shortly = std::chrono::microseconds{200};
 };
 
 struct RateTrial {
@@ -74,6 +79,7 @@ private:
         base::TimePoint sent_at{};
     };
 
+    [[nodiscard]] bool has_sent_shortly_before(base::TimePoint due) const;
     void send_burst(const net::Endpoint& to);
     void receive(const Load& load);
     void make_sink();
@@ -92,7 +98,9 @@ private:
     bool is_sink_ = false;
     std::uint32_t sunk_ = 0; // as the kernel counts them: 32 bits, wrapping
     Tally tally_;
+    std::vector<base::TimePoint> sent_at_; // of the trial's datagrams
     std::vector<base::Duration> errors_;
+    std::vector<base::TimePoint> due_; // of those in errors_
 };
 
 } // namespace hapnet::bench

@@ -256,6 +256,10 @@ TEST(EmulatorOptions, OfLinksNameTheirSidesAndTheirEnds)
                 "--link 1-3: 127.0.0.1:2 is the address of another side");
     expect_said(refusal_alone({"--link", "1-2=:1,:2", "--listen-a", ":3"}),
                 "--listen-a and --link exclude each other");
+    EXPECT_EQ(options.run.threads, 1U);
+    EXPECT_EQ(options_of<LinkOptions>({"--link", "1-2=:1,:2", "--threads", "4"}).run.threads, 4U);
+    expect_said(refusal_alone({"--link", "1-2=:1,:2", "--threads", "17"}), "from 1 to 16");
+    expect_said(refusal({"--threads", "2"}), "--threads goes with --link or --upstream");
     expect_said(refusal_alone({"--link", "1-2=:1,:2", "--upstream", "a:1"}),
                 "--upstream and --link exclude each other");
     std::vector<std::string> many;

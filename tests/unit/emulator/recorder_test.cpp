@@ -13,6 +13,8 @@
 #include <iterator>
 #include <sys/resource.h>
 #include <system_error>
+#include <thread>
+#include <tuple>
 #include <unistd.h>
 
 namespace hapnet::emulator {
@@ -57,8 +59,8 @@ TEST_F(RecorderFiles, OfFatesHoldAllOfUpAndThenAllOfDownHoweverTheyCame)
     Fates expected;
     Recorder recorder{{path("fates.csv"), {}}};
     for (std::uint64_t n = 0; n < 20'000; ++n) {
-        recorder.on_fate(0, Direction::down, n, fate_of(n));
-        recorder.on_fate(0, Direction::up, n, fate_of(n + 1));
+        recorder.lane().on_fate(0, Direction::down, n, fate_of(n));
+        recorder.lane().on_fate(0, Direction::up, n, fate_of(n + 1));
         expected.down.push_back(fate_of(n));
         expected.up.push_back(fate_of(n + 1));
     }
@@ -79,8 +81,8 @@ TEST_F(RecorderFiles, OfFatesOfSeveralPathsHoldOneWayAfterTheOther)
     for (std::uint64_t n = 0; n < 10'000; ++n) { // more than are kept in memory
         for (std::uint32_t i = 0; i < paths.size(); ++i) {
             Fates& own = expected[paths[i]];
-            recorder.on_fate(i, Direction::down, n, fate_of(n + i));
-            recorder.on_fate(i, Direction::up, n, fate_of(n + i + 1));
+            recorder.lane().on_fate(i, Direction::down, n, fate_of(n + i));
+            recorder.lane().on_fate(i, Direction::up, n, fate_of(n + i + 1));
             own.down.push_back(fate_of(n + i));
             own.up.push_back(fate_of(n + i + 1));
         }
@@ -89,6 +91,32 @@ TEST_F(RecorderFiles, OfFatesOfSeveralPathsHoldOneWayAfterTheOther)
     recorder.finish();
     EXPECT_EQ(text("fates.csv"), to_text(expected));
     EXPECT_EQ(parse_fates_of_paths(text("fates.csv")).value(), expected);
+}
+
+TEST_F(RecorderFiles, OfFatesAreTheSameThroughHoweverManyLanesTheyCome)
+{
+    const auto file_with = [&](std::uint32_t lanes) {
+        Recorder recorder{{.fates = path("fates.csv"), .has_several_paths = true, .lanes = lanes}};
+        for (const char* name : {"1-2", "1-3", "2-3"}) std::ignore = recorder.add_path(name);
+        std::vector<std::thread> threads;
+        for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+            threads.emplace_back([&, lane] {
+                for (std::uint64_t n = 0; n < 5000; ++n) {
+                    for (std::uint32_t i = lane; i < 3; i += lanes) {
+                        recorder.lane(lane).on_fate(i, Direction::down, n, fate_of(n + i));
+                        recorder.lane(lane).on_fate(i, Direction::up, n, fate_of(n + i + 1));
+                    }
+                }
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+        recorder.finish();
+        EXPECT_EQ(recorder.fates_lost(), 0U);
+        return text("fates.csv");
+    };
+    const auto alone = file_with(1);
+    EXPECT_EQ(file_with(2), alone);
+    EXPECT_EQ(file_with(3), alone);
 }
 
 struct Blocks {
@@ -126,8 +154,8 @@ TEST_F(RecorderFiles, OfACaptureHoldEveryPacketWholeWithItsComment)
         const std::vector<std::byte> payload(size, std::byte{0x5a});
         const CapturedPacket came{CaptureSide::a, false, base::TimePoint{1s}, from, to, payload};
         const CapturedPacket left{CaptureSide::b, true, base::TimePoint{2s}, to, from, payload};
-        recorder.on_arrival(came, fate_of(4));
-        recorder.on_departure(left, 7us, true);
+        recorder.lane().on_arrival(came, fate_of(4));
+        recorder.lane().on_departure(left, 7us, true);
         append_packet(expected, came, 0s, "delayed 4 us");
         append_packet(expected, left, 0s, "late 7 us, copy");
     }
@@ -144,7 +172,7 @@ TEST_F(RecorderFiles, LackExactlyWhatWasCountedAsLost)
     // Each needs a 480th of the queue, and copying is faster than writing with checksums.
     std::uint64_t handed_over = 0;
     for (; handed_over < 20'000 && recorder.capture_lost() == 0; ++handed_over) {
-        recorder.on_departure(left, 0us, false);
+        recorder.lane().on_departure(left, 0us, false);
     }
     EXPECT_GT(recorder.capture_lost(), 0U);
     recorder.finish();
@@ -155,7 +183,7 @@ TEST_F(RecorderFiles, ThatWereNotFinishedLeaveNothingBehind)
 {
     {
         Recorder recorder{{path("fates.csv"), path("capture.pcapng")}};
-        recorder.on_fate(0, Direction::up, 0, fate_of(0));
+        recorder.lane().on_fate(0, Direction::up, 0, fate_of(0));
     }
     EXPECT_EQ(names(), std::vector<std::string>{});
 }
@@ -185,7 +213,7 @@ TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
     {
         Recorder recorder{{path("fates.csv"), {}}};
         for (std::uint64_t number = 0; number < 20'000; ++number) { // 600 KB, in several writes
-            recorder.on_fate(0, Direction::up, number, fate_of(number));
+            recorder.lane().on_fate(0, Direction::up, number, fate_of(number));
         }
         EXPECT_THROW(recorder.finish(), std::system_error);
         EXPECT_TRUE(recorder.has_failed());
@@ -201,9 +229,9 @@ TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
 TEST(Recorder, WithoutAFileDoesNothing)
 {
     Recorder recorder{{}};
-    EXPECT_FALSE(recorder.captures());
-    recorder.on_fate(0, Direction::up, 0, fate_of(0));
-    recorder.on_departure({}, 0us, false);
+    EXPECT_FALSE(recorder.lane().captures());
+    recorder.lane().on_fate(0, Direction::up, 0, fate_of(0));
+    recorder.lane().on_departure({}, 0us, false);
     recorder.finish();
 }
 

@@ -11,15 +11,13 @@ using namespace std::chrono_literals;
 
 constexpr base::TimePoint start{1h};
 
-TEST(ClientTable, NumbersClientsInTheOrderOfTheirFirstDatagrams)
+TEST(ClientTable, FindsClientsByTheirAddresses)
 {
     ClientTable<int> table{3, 60s};
     EXPECT_EQ(table.find(70, start), std::nullopt);
     const auto first = table.add(70, start);
     const auto second = table.add(50, start);
     ASSERT_TRUE(first && second);
-    EXPECT_EQ(table.number(*first), 1U);
-    EXPECT_EQ(table.number(*second), 2U);
     EXPECT_EQ(table.find(50, start), second);
     EXPECT_EQ(table.find(70, start), first);
     EXPECT_EQ(table.address(*second), 50);
@@ -31,12 +29,11 @@ TEST(ClientTable, HasNoMorePlacesThanItIsGivenAndFreesThoseThatAreForgotten)
     const auto first = table.add(1, start);
     ASSERT_TRUE(table.add(2, start));
     EXPECT_EQ(table.add(3, start), std::nullopt);
-    EXPECT_EQ(table.numbered(), 2U);
     table.forget(*first);
     EXPECT_EQ(table.find(1, start), std::nullopt);
     const auto third = table.add(3, start);
-    ASSERT_TRUE(third);
-    EXPECT_EQ(table.number(*third), 3U); // numbers are not used again
+    EXPECT_EQ(third, first);
+    EXPECT_EQ(table.find(3, start), third);
 }
 
 TEST(ClientTable, CallsAClientIdleWhenItHasBeenSilentForSoLong)

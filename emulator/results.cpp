@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/results.hpp"
+
+#include "emulator/checks.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/real_time.hpp"
+
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <system_error>
+
+namespace hapnet::emulator {
+
+Results::Results(const Options& options)
+{
+    if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
+}
+
+bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
+{
+    net::leave_real_time();
+    std::exception_ptr failure;
+    try {
+        recorder.finish();
+    } catch (const std::system_error&) {
+        failure = std::current_exception();
+    }
+    run.is_over = true;
+    const auto statistics = reports.statistics();
+    const std::string text = statistics.dump(2) + "\n";
+    if (stats_) {
+        try {
+            stats_->commit(text);
+        } catch (const std::system_error&) { // they are worth more than their place
+            failure = std::current_exception();
+            fmt::print("{}", text);
+        }
+    } else if (run.options.stats) {
+        fmt::print("{}", text);
+    }
+    const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
+    net::tell(reports.summary() + failed);
+    if (failure) std::rethrow_exception(failure);
+    return recorder.fates_lost() == 0 && recorder.capture_lost() == 0 && failed.empty();
+}
+
+} // namespace hapnet::emulator

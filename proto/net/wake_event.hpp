@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cerrno>
+#include <cstdint>
+#include <sys/eventfd.h>
+#include <system_error>
+#include <tuple>
+#include <unistd.h>
+
+namespace hapnet::net {
+
+/// Wakes a thread that waits for descriptors, from any other, without a lock.
+class WakeEvent {
+public:
+    /// Throws std::system_error.
+    WakeEvent() : descriptor_{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)}
+    {
+        if (descriptor_ < 0) throw std::system_error{errno, std::generic_category(), "eventfd"};
+    }
+    ~WakeEvent() { close(descriptor_); }
+    WakeEvent(const WakeEvent&) = delete;
+    WakeEvent& operator=(const WakeEvent&) = delete;
+
+    /// Readable from signal() to clear().
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+
+    void signal() const noexcept
+    {
+        const std::uint64_t one = 1;
+        // It fails only after 2^64 signals that were not cleared.
+        std::ignore = ::write(descriptor_, &one, sizeof one);
+    }
+    void clear() const noexcept
+    {
+        std::uint64_t signals = 0;
+        std::ignore = ::read(descriptor_, &signals, sizeof signals);
+    }
+
+private:
+    int descriptor_;
+};
+
+} // namespace hapnet::net
