@@ -83,7 +83,7 @@ public:
         rig_.show(row);
         side_.step(row.at(), rig_);
         while (side_.poll()) {}
-        while (side_.event()) {}
+        while (side_.notice()) {}
         return {row.tick, row.at(), row.contact, side_.tick().force, row.device, side_.told()};
     }
 

@@ -17,6 +17,7 @@ namespace hapnet::peer::loop {
 struct TimedEvent {
     Event event = Event::met;
     base::TimePoint at;
+    std::uint16_t about = 0; // the id of another peer; 0: it is about all, or not known
 };
 
 /// Likewise for the device.
@@ -25,10 +26,11 @@ struct TimedDeviceNews {
     base::TimePoint at;
 };
 
-/// Likewise for the line to the other peer.
+/// Likewise for the line to another peer.
 struct TimedLineNews {
     line::News news = line::News::sealed;
     base::TimePoint at;
+    std::uint16_t about = 0;
 };
 
 /// A message of the servo thread for the record, the status line and the log.

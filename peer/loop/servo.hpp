@@ -4,7 +4,7 @@
 
 #include "device/rig.hpp"
 #include "peer/core/side.hpp"
-#include "peer/line/line.hpp"
+#include "peer/line/lines.hpp"
 #include "peer/loop/force_gate.hpp"
 #include "peer/loop/journal.hpp"
 #include "peer/loop/servo_status.hpp"
@@ -16,6 +16,7 @@
 #include "proto/net/udp_socket.hpp"
 
 #include <atomic>
+#include <vector>
 
 namespace hapnet::peer::loop {
 
@@ -33,8 +34,8 @@ public:
         Side& side;
         device::Rig& rig;
         net::UdpSocket& socket;
-        net::Endpoint remote; // where the line begins
-        line::Line& line;
+        std::vector<net::Endpoint> remotes; // where the lines begin
+        line::Lines& lines;
         Journal& journal;
         Watchdog& watchdog;
         ForceGate& gate;
@@ -76,15 +77,16 @@ private:
     void play(base::TimePoint now);
     void report_device(base::TimePoint now);
     void receive(base::TimePoint now);
-    void hear(std::span<const std::byte> message, base::TimePoint at);
-    [[nodiscard]] bool is_worth_a_row(std::span<const std::byte> message, base::TimePoint at);
-    void tend_line(base::TimePoint now);
+    void hear(const line::Lines::Opened& opened, base::TimePoint at);
+    [[nodiscard]] bool is_worth_a_row(const line::Lines::Opened& opened, base::TimePoint at);
+    void tend_lines(base::TimePoint now);
     void send(base::TimePoint now);
+    void send_to(std::size_t other, std::span<const std::byte> bytes, const secure::Place& to);
     void note_session(base::TimePoint now);
     void describe(ServoStatus& status) const;
 
     Parts parts_;
-    secure::Place remote_place_; // of parts_.remote
+    std::vector<secure::Place> places_; // of parts_.remotes
     monitor::DeviceReporter reporter_;
     LoopCounters counters_;
     std::optional<base::TimePoint> first_tick_;
