@@ -194,6 +194,25 @@ device::GovernorLimits limits_of(const Options& options, const device::Capabilit
     return limits;
 }
 
+/// The longest message of a session in this scene: a state with all its shared bodies, or a hello.
+std::size_t message_bytes_max(const scene::Description& scene)
+{
+    wire::State state;
+    state.sequence = 1;
+    for (const scene::BodyDescription& body : scene.bodies) {
+        if (!body.movable || state.bodies.size() == wire::bodies_max) continue;
+        wire::BodyState shared;
+        shared.body = static_cast<std::uint16_t>(state.bodies.size());
+        if (body.turning != scene::Turning::locked) shared.turning.emplace();
+        state.bodies.add(shared);
+    }
+    wire::Hello hello;
+    hello.nonce = 1;
+    hello.peer_id = 1;
+    hello.task = wire::TaskName::from_text("T7").value();
+    return std::max(wire::encode(state).bytes().size(), wire::encode(hello).bytes().size());
+}
+
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
                                          const device::Rig& rig, const Settings& settings)
 {
@@ -207,7 +226,8 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     const glm::dvec3& offset = mount.offset.value;
     configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
     configuration["governor_toml"] = device::print_limits(rig.governor().limits());
-    return record::Writer{*options.record, configuration};
+    return record::Writer{*options.record, configuration,
+                          record::Layout::for_messages_of(message_bytes_max(options.scene))};
 }
 
 /// Introduces a real device to its holder, and says what of the forces asked for it cannot render.
@@ -273,7 +293,8 @@ int conclude(const monitor::Run& run, const device::Governor& governor, Screen& 
 {
     screen.err.put(summary(run));
     if (const auto reason = run.status.refusal) {
-        screen.say(fmt::format("refused: the peers do not match: {}", monitor::describe(*reason)));
+        screen.say(
+            fmt::format("refused: the two peers do not match: {}", monitor::describe(*reason)));
         return net::exit_failed;
     }
     if (const std::string fault = monitor::fault_at_the_end(governor); !fault.empty()) {
@@ -332,7 +353,8 @@ base::Result<int> run(const Options& options)
     Side side{settings};
     loop::Watchdog watchdog{rig.device(), &crash};
     line::Lines lines = lines_of(options, endpoints->remotes, settings.introduction.nonce);
-    loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate}};
+    loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate,
+                       std::chrono::milliseconds{1}, message_bytes_max(options.scene)}};
     // Last of all that may fail: the file is emptied.
     monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
                              options.id, settings.roster.others};

@@ -250,7 +250,8 @@ void add_force_options(cli::Command& program, Options& options)
                    cli::into(options.dead_man, parse_dead_man));
 }
 
-void add_session_options(cli::Command& program, Options& options, Asked& asked)
+/// Who plays, and where they are.
+void add_peer_options(cli::Command& program, Options& options, Asked& asked)
 {
     constexpr std::uint64_t id_max = 65535;
     program.option("--id", "1..65535",
@@ -278,6 +279,11 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
                    "Start when all peers named here hear each other (default), or N of them, this "
                    "one counted; the lowest id's counts, and the others join late",
                    cli::into(options.wait_for, parse_wait_for));
+}
+
+void add_session_options(cli::Command& program, Options& options, Asked& asked)
+{
+    add_peer_options(program, options, asked);
     program.option("--scene", "FILE|NAME",
                    "A scene in TOML, or a built-in one by name; it has one movable body that does "
                    "not turn (default: the task's; lift for T4, wall for T5, carry "

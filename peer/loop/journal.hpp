@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/peer.hpp"
+#include "peer/line/datagram.hpp"
 #include "peer/line/news.hpp"
 #include "peer/monitor/device_news.hpp"
 #include "proto/record/rows.hpp"
@@ -33,8 +34,23 @@ struct TimedLineNews {
     std::uint16_t about = 0;
 };
 
-/// A message of the servo thread for the record, the status line and the log.
-using Entry = std::variant<record::Row, TimedEvent, TimedDeviceNews, TimedLineNews>;
+/// A message from another peer, which becomes a record::MessageRow. Never allocates.
+struct HeardMessage {
+    std::uint64_t tick = 0;
+    base::TimePoint received_at;
+    std::uint16_t from = 0;
+    line::Datagram message;
+
+    [[nodiscard]] record::MessageRow row() const
+    {
+        const auto bytes = message.bytes();
+        return {tick, received_at, from, {bytes.begin(), bytes.end()}};
+    }
+};
+
+/// What the servo thread says for the record, the status line and the log. A row is of a tick or a
+/// session.
+using Entry = std::variant<record::Row, HeardMessage, TimedEvent, TimedDeviceNews, TimedLineNews>;
 
 /// The one way out of the servo thread: a bounded queue that never makes that thread wait. Entries
 /// that do not fit are dropped and counted.
@@ -57,7 +73,7 @@ public:
     [[nodiscard]] std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
-    // 8 s of ticks and messages: longer than any stall of a disk that we want to survive.
+    // 8 s of ticks and messages of two peers, 2 s of eight: the recorder has as many.
     static constexpr std::size_t capacity = 16384;
 
     // The package has two queues. ThreadSanitizer can follow this one: it synchronises by atomics

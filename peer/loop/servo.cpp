@@ -39,6 +39,7 @@ Servo::Servo(const Parts& parts)
     base::ensure(parts.lines.size() == parts.side.peer().others().size() &&
                  parts.remotes.size() == parts.lines.size());
     for (const net::Endpoint& remote : parts.remotes) places_.push_back(remote.packed());
+    noted_.resize(parts.remotes.size());
 }
 
 void Servo::run()
@@ -128,7 +129,7 @@ void Servo::play(base::TimePoint now)
     while (const auto notice = parts_.side.notice())
         parts_.journal.put(TimedEvent{notice->event, now, notice->about});
     report_device(now);
-    note_session(now);
+    for (std::size_t other = 0; other < noted_.size(); ++other) note_session(other, now);
 }
 
 ServoStatus Servo::status() const
@@ -198,12 +199,14 @@ void Servo::hear(const line::Lines::Opened& opened, base::TimePoint at)
         return;
     }
     const std::span<const std::byte> message = opened.message;
-    if (message.size() > record::MessageRow::bytes_max) return;
-    record::MessageRow row{.tick = counters_.ticks,
-                           .received_at = at,
-                           .size = static_cast<std::uint16_t>(message.size())};
-    std::copy(message.begin(), message.end(), row.bytes.begin());
-    parts_.journal.put(row);
+    if (message.size() > parts_.recorded_bytes_max) {
+        ++counters_.too_long;
+        return;
+    }
+    parts_.journal.put(HeardMessage{.tick = counters_.ticks,
+                                    .received_at = at,
+                                    .from = parts_.side.peer().others()[opened.from].id(),
+                                    .message = line::Datagram{message}});
 }
 
 /// Lets the session hear a message, and says whether the record is to have it: one that changed
@@ -250,25 +253,29 @@ void Servo::send_to(std::size_t other, std::span<const std::byte> bytes, const s
     sending_.store(outcome, std::memory_order_relaxed);
 }
 
-void Servo::note_session(base::TimePoint now)
+void Servo::note_session(std::size_t other, base::TimePoint now)
 {
     const Peer& peer = parts_.side.peer();
-    const auto& session = peer.session();
+    const Member& member = peer.others()[other];
+    const auto& session = member.session();
     if (!session) return;
     // A side that was restarted has a clock unknown to us until it has answered.
-    const auto clock = peer.clock();
+    const auto clock = peer.clock(other);
     if (!clock) return;
+    auto& noted = noted_[other];
     const bool is_new =
-        !noted_ || noted_->session != session->number || noted_->start != session->start;
-    if (!is_new && now - *noted_at_ < session_noted_every) return;
-    noted_ = record::SessionRow{.start = session->start,
-                                .length = peer.length(),
-                                .remote_offset = clock->offset,
-                                .offset_uncertainty = clock->uncertainty,
-                                .session = session->number,
-                                .seed = session->seed};
-    noted_at_ = now;
-    parts_.journal.put(*noted_);
+        !noted || noted->session != session->number || noted->start != session->start;
+    if (!is_new && now - noted->noted_at < session_noted_every) return;
+    noted = record::SessionRow{.start = session->start,
+                               .length = peer.length(),
+                               .remote_offset = clock->offset,
+                               .offset_uncertainty = clock->uncertainty,
+                               .session = session->number,
+                               .seed = session->seed,
+                               .other = member.id(),
+                               .noted_at = now,
+                               .remote_skew_ppm = clock->skew_ppm};
+    parts_.journal.put(*noted);
 }
 
 } // namespace hapnet::peer::loop

@@ -40,6 +40,8 @@ public:
         Watchdog& watchdog;
         ForceGate& gate;
         base::Duration tick{std::chrono::milliseconds{1}};
+        /// What rows of the record have room for.
+        std::size_t recorded_bytes_max = record::MessageRow::bytes_max;
     };
 
     explicit Servo(const Parts& parts);
@@ -82,7 +84,7 @@ private:
     void tend_lines(base::TimePoint now);
     void send(base::TimePoint now);
     void send_to(std::size_t other, std::span<const std::byte> bytes, const secure::Place& to);
-    void note_session(base::TimePoint now);
+    void note_session(std::size_t other, base::TimePoint now);
     void describe(ServoStatus& status) const;
 
     Parts parts_;
@@ -95,9 +97,8 @@ private:
     net::RealTime real_time_;
     /// 2000 a second, and a second of them at once: a true path duplicates no more than all.
     monitor::RateLimit without_effect_{2000, std::chrono::microseconds{500}};
-    std::optional<record::SessionRow> noted_;
-    std::optional<base::TimePoint> noted_at_;
-    Withheld withheld_ = Withheld::no; // in the last tick
+    std::vector<std::optional<record::SessionRow>> noted_; // the newest with each of the others
+    Withheld withheld_ = Withheld::no;                     // in the last tick
     std::atomic<net::SendOutcome> sending_{net::SendOutcome::sent};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};

@@ -27,6 +27,7 @@ struct LoopCounters {
     net::SendOutcome last_send = net::SendOutcome::sent;
     std::uint64_t withheld = 0;   // ticks in which a person or a signal had stopped the force
     std::uint64_t unrecorded = 0; // datagrams of a flood that the record leaves out
+    std::uint64_t too_long = 0;   // messages for which its rows have no room
 };
 
 /// One of the others: its clock, the path to it and back, and the line.

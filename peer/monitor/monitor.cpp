@@ -37,6 +37,13 @@ std::string with_name(std::string_view words, std::uint16_t about)
     return text;
 }
 
+double longest_ms(const std::map<std::uint16_t, base::Duration>& round_trips)
+{
+    base::Duration longest{0};
+    for (const auto& [id, round_trip] : round_trips) longest = std::max(longest, round_trip);
+    return base::to_seconds(longest) * 1e3;
+}
+
 std::string line_of(const StatusLine& status, const StatusLine& before, bool is_pair)
 {
     const record::TickRow& tick = *status.tick;
@@ -61,8 +68,8 @@ std::string line_of(const StatusLine& status, const StatusLine& before, bool is_
     return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube x {:+6.1f} mm  force {:4.2f} N  "
                        "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
                        at, base::to_seconds(status.session->length), phase, tick.cube.x() * 1e3,
-                       base::norm(tick.device), rate,
-                       base::to_seconds(status.session->offset_uncertainty) * 2e3, status.missed);
+                       base::norm(tick.device), rate, longest_ms(status.round_trips),
+                       status.missed);
 }
 
 } // namespace
@@ -167,6 +174,9 @@ void Monitor::drain()
     while (const auto entry = journal_.take()) {
         if (const auto* row = std::get_if<record::Row>(&*entry)) {
             take(*row);
+        } else if (const auto* message = std::get_if<loop::HeardMessage>(&*entry)) {
+            ++status_.messages;
+            if (recorder_) recorder_->put(message->row());
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
             on_event(*event);
         } else if (const auto* line = std::get_if<loop::TimedLineNews>(&*entry)) {
@@ -199,8 +209,7 @@ void Monitor::take(const record::Row& row)
         status_.missed += tick->missed_before;
     } else if (const auto* session = std::get_if<record::SessionRow>(&row)) {
         status_.session = *session;
-    } else {
-        ++status_.messages;
+        status_.round_trips[session->other] = 2 * session->offset_uncertainty;
     }
 }
 

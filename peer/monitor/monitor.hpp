@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct StatusLine {
     std::vector<std::uint16_t> awaited; // the others that have not answered; 0: whoever does
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
+    std::map<std::uint16_t, base::Duration> round_trips; // the shortest, to each of the others
     std::uint64_t messages = 0;
     std::uint64_t ticks_in_session = 0;
     std::uint64_t missed = 0;

@@ -420,7 +420,7 @@ json statistics_json(const Run& run)
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);
     out["energy"] = energy_json(run.status);
-    out["record_rows_lost"] = run.rows_lost + run.status.loop.unrecorded;
+    out["record_rows_lost"] = run.rows_lost + run.status.loop.unrecorded + run.status.loop.too_long;
     out["texts_lost"] = run.texts_lost;
     out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
     out["real_time"] = {{"fifo", run.status.real_time.fifo},
@@ -489,6 +489,11 @@ std::string summary(const Run& run)
         text += fmt::format("hapnet-peer {}: a flood of {} datagrams that had no effect was left "
                             "out of the record\n",
                             run.options.id, left_out);
+    }
+    if (loop.too_long > 0 && run.options.record) {
+        text += fmt::format("hapnet-peer {}: {} messages were longer than any of this scene, and "
+                            "were left out of the record\n",
+                            run.options.id, loop.too_long);
     }
     if (run.texts_lost > 0) {
         text += fmt::format("hapnet-peer {}: {} messages were lost, as they were not read\n",

@@ -115,7 +115,8 @@ TEST(LabReport, RefusesOneRecordAloneAndTwoThatDoNotBelongTogether)
     fs::copy_file(a, folder / "one" / "a.rec");
     const auto one = run("hapnet-lab", {"report", (folder / "one").string()});
     EXPECT_EQ(one.exit, 2);
-    EXPECT_NE(one.err.find("one has 1 record (a.rec): a session has two"), std::string::npos)
+    EXPECT_NE(one.err.find("one has 1 record (a.rec): name those of one session"),
+              std::string::npos)
         << one.err;
     const auto twice = run("hapnet-lab", {"report", a, again});
     EXPECT_EQ(twice.exit, 2);
