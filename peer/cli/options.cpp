@@ -4,6 +4,7 @@
 
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/parsers.hpp"
@@ -340,6 +341,7 @@ Roster Options::roster() const
     Roster roster{.others = {}, .wait_for = wait_for};
     for (const NamedPeer& other : others)
         roster.others.push_back(is_pair() ? std::uint16_t{0} : std::uint16_t{other.id});
+    base::ensure(std::ranges::is_sorted(roster.others)); // as the circle takes them to be
     return roster;
 }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 namespace hapnet::e2e {
 
@@ -99,6 +100,28 @@ TEST(LabReport, SaysThatItReplacesAPageAboutSomethingElse)
     const auto outcome = run("hapnet-lab", {"report", a, b});
     EXPECT_NE(outcome.err.find("it was a page about experiments, not session"), std::string::npos)
         << outcome.err;
+}
+
+TEST(LabReport, ShowsEveryTwoOfThreePeersNamedOrInAFolder)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("three");
+    std::vector<std::string> words{"report"};
+    for (const int id : {1, 2, 3}) {
+        const fs::path path = folder / (std::to_string(id) + ".rec");
+        write_record(path, id, 0.001 * id);
+        words.push_back(path.string());
+    }
+    const auto named = run("hapnet-lab", words);
+    EXPECT_EQ(named.exit, 0) << named.err;
+    const auto page = text_of((folder / "report.html").string());
+    for (const char* pair :
+         {"A is peer 1, B is peer 2", "A is peer 1, B is peer 3", "A is peer 2, B is peer 3"})
+        EXPECT_NE(page.find(pair), std::string::npos) << pair;
+    const auto found = run("hapnet-lab", {"report", folder.string()});
+    EXPECT_EQ(found.exit, 0) << found.err;
+    EXPECT_NE(text_of((folder / "report.html").string()).find("A is peer 2, B is peer 3"),
+              std::string::npos);
 }
 
 TEST(LabReport, RefusesOneRecordAloneAndTwoThatDoNotBelongTogether)
