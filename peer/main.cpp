@@ -22,10 +22,13 @@
 #include "proto/net/text_queue.hpp"
 #include "proto/secure/keys/draw.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace hapnet::peer {
 
@@ -46,7 +49,7 @@ struct Screen {
 
 struct Endpoints {
     net::Endpoint listen;
-    net::Endpoint remote;
+    std::vector<net::Endpoint> remotes; // as the others of the options
 };
 
 /// The remote, preferably in the family of `listen`: a name may have addresses of both.
@@ -59,42 +62,74 @@ net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& l
     }
 }
 
+/// How the command line may have said where another peer is.
+std::string option_of(const Options& options, const NamedPeer& other)
+{
+    return options.is_pair() ? "--remote" : fmt::format("--peer {}:", other.id);
+}
+
+/// Whether `listen` and another peer's place can hear each other.
+base::Result<void> check_remote(const net::Endpoint& listen, const net::Endpoint& remote,
+                                const std::string& option)
+{
+    if (listen.family() != remote.family()) {
+        return base::fail(fmt::format(
+            "--listen {} and {} {} are of different families: give both as IPv4 or as IPv6",
+            listen.to_text(), option, remote.to_text()));
+    }
+    if (remote.reaches(listen)) {
+        return base::fail(fmt::format("{} {} is where this peer itself listens: name the "
+                                      "other peer's address, or the emulator's",
+                                      option, remote.to_text()));
+    }
+    if (listen.is_loopback() && !remote.is_loopback()) {
+        const std::uint16_t given = listen.port();
+        return base::fail(fmt::format(
+            "{} {} cannot be reached from --listen {}: use --listen {}:{}, or an address of "
+            "this machine that the other side can reach",
+            option, remote.to_text(), listen.to_text(),
+            listen.family() == AF_INET6 ? "[::]" : "0.0.0.0", given != 0 ? given : remote.port()));
+    }
+    if (!remote.is_one_host()) {
+        return base::fail(fmt::format("{} {} is not the address of one host, and no answer "
+                                      "can come from it: name the other peer's own address",
+                                      option, remote.to_text()));
+    }
+    return {};
+}
+
+base::Result<void> check_key_is_there(const Options& options, const Endpoints& endpoints)
+{
+    const bool is_local = endpoints.listen.is_loopback() &&
+                          std::ranges::all_of(endpoints.remotes, &net::Endpoint::is_loopback);
+    if (is_local || options.key.is_given() || options.insecure) return {};
+    return base::fail(fmt::format(
+        "a session over a network needs a key: make one for each host with 'hapnet-peer keygen "
+        "--peers {} --out keys' and give each its own file with --key FILE; or use --insecure "
+        "on a network where you trust every host",
+        options.others.size() + 1));
+}
+
 base::Result<Endpoints> look_up(const Options& options)
 {
-    const net::Endpoint listen = net::resolve(options.listen);
-    const Endpoints endpoints{listen, resolve_remote(options.remote, listen)};
-    if (endpoints.listen.family() != endpoints.remote.family()) {
-        return base::fail(fmt::format(
-            "--listen {} and --remote {} are of different families: give both as IPv4 or as IPv6",
-            endpoints.listen.to_text(), endpoints.remote.to_text()));
+    Endpoints endpoints{net::resolve(options.listen), {}};
+    for (const NamedPeer& other : options.others) {
+        const net::Endpoint remote = resolve_remote(other.place, endpoints.listen);
+        if (std::ranges::find(endpoints.remotes, remote) != endpoints.remotes.end()) {
+            return base::fail(fmt::format("--peer {}: another peer is said to be at {}, too: each "
+                                          "has an address of its own, also at the emulator",
+                                          other.id, remote.to_text()));
+        }
+        endpoints.remotes.push_back(remote);
     }
-    if (endpoints.remote.reaches(endpoints.listen)) {
-        return base::fail(fmt::format("--remote {} is where this peer itself listens: name the "
-                                      "other peer's address, or the emulator's",
-                                      endpoints.remote.to_text()));
+    if (auto fine = check_key_is_there(options, endpoints); !fine)
+        return tl::unexpected{fine.error()};
+    for (std::size_t i = 0; i < endpoints.remotes.size(); ++i) {
+        const auto& remote = endpoints.remotes[i];
+        auto fine = check_remote(endpoints.listen, remote, option_of(options, options.others[i]));
+        if (!fine) return tl::unexpected{fine.error()};
+        net::require_route(endpoints.listen, remote);
     }
-    const bool is_local = endpoints.remote.is_loopback() && endpoints.listen.is_loopback();
-    if (!is_local && !options.key.is_given() && !options.insecure) {
-        return base::fail(
-            "a session over a network needs a key: make one for each host with 'hapnet-peer keygen "
-            "--peers 2 --out keys' and give each its own file with --key FILE; or use --insecure "
-            "on a network where you trust every host");
-    }
-    if (endpoints.listen.is_loopback() && !endpoints.remote.is_loopback()) {
-        const std::uint16_t given = endpoints.listen.port();
-        return base::fail(fmt::format(
-            "--remote {} cannot be reached from --listen {}: use --listen {}:{}, or an address of "
-            "this machine that the other side can reach",
-            endpoints.remote.to_text(), endpoints.listen.to_text(),
-            endpoints.listen.family() == AF_INET6 ? "[::]" : "0.0.0.0",
-            given != 0 ? given : endpoints.remote.port()));
-    }
-    if (!endpoints.remote.is_one_host()) {
-        return base::fail(fmt::format("--remote {} is not the address of one host, and no answer "
-                                      "can come from it: name the other peer's own address",
-                                      endpoints.remote.to_text()));
-    }
-    net::require_route(endpoints.listen, endpoints.remote);
     return endpoints;
 }
 
@@ -103,6 +138,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     const device::Mount& mount = rig.mount();
     Settings settings;
     settings.introduction.id = options.id;
+    settings.roster = options.roster();
     settings.introduction.nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U);
     settings.introduction.scene_hash = scene::hash(options.scene);
     settings.introduction.seed = options.seed.value();
@@ -123,20 +159,28 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     return settings;
 }
 
-/// The line to the other peer: sealed with the key that the options name.
-line::Line line_of(const Options& options, const net::Endpoint& remote, std::uint32_t run)
+/// The lines to the other peers: sealed with the key that the options name.
+line::Lines lines_of(const Options& options, const std::vector<net::Endpoint>& remotes,
+                     std::uint32_t run)
 {
-    if (!options.key.is_given()) return line::Line{remote.packed()};
-    const secure::KeyFile& file = *options.key.file;
-    secure::Association::Config config;
-    config.own_id = file.id;
-    config.other_id = options.key.other;
-    config.circle = file.circle();
-    config.run = run;
-    config.place = remote.packed();
-    config.may_roam = !options.key.stays;
-    return line::Line{std::make_unique<line::Sealed>(
-        config, file.keys_with(*file.find(options.key.other)), secure::keys::draw())};
+    std::vector<line::Line> lines;
+    for (std::size_t i = 0; i < remotes.size(); ++i) {
+        if (!options.key.is_given()) {
+            lines.emplace_back(remotes[i].packed());
+            continue;
+        }
+        const secure::KeyFile& file = *options.key.file;
+        secure::Association::Config config;
+        config.own_id = file.id;
+        config.other_id = options.others[i].id;
+        config.circle = file.circle();
+        config.run = run;
+        config.place = remotes[i].packed();
+        config.may_roam = !options.key.stays;
+        lines.emplace_back(std::make_unique<line::Sealed>(
+            config, file.keys_with(*file.find(config.other_id)), secure::keys::draw()));
+    }
+    return line::Lines{std::move(lines)};
 }
 
 /// The limits of a session, before those of the device itself.
@@ -148,6 +192,25 @@ device::GovernorLimits limits_of(const Options& options, const device::Capabilit
                                   .energy = energy_budget(capabilities, options.algorithm)};
     if (kept) limits.heat_start = kept->heat_at_start(limits.heat_time);
     return limits;
+}
+
+/// The longest message of a session in this scene: a state with all its shared bodies, or a hello.
+std::size_t message_bytes_max(const scene::Description& scene)
+{
+    wire::State state;
+    state.sequence = 1;
+    for (const scene::BodyDescription& body : scene.bodies) {
+        if (!body.movable || state.bodies.size() == wire::bodies_max) continue;
+        wire::BodyState shared;
+        shared.body = static_cast<std::uint16_t>(state.bodies.size());
+        if (body.turning != scene::Turning::locked) shared.turning.emplace();
+        state.bodies.add(shared);
+    }
+    wire::Hello hello;
+    hello.nonce = 1;
+    hello.peer_id = 1;
+    hello.task = wire::TaskName::from_text("T7").value();
+    return std::max(wire::encode(state).bytes().size(), wire::encode(hello).bytes().size());
 }
 
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
@@ -163,7 +226,8 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     const glm::dvec3& offset = mount.offset.value;
     configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
     configuration["governor_toml"] = device::print_limits(rig.governor().limits());
-    return record::Writer{*options.record, configuration};
+    return record::Writer{*options.record, configuration,
+                          record::Layout::for_messages_of(message_bytes_max(options.scene))};
 }
 
 /// Introduces a real device to its holder, and says what of the forces asked for it cannot render.
@@ -199,10 +263,18 @@ loop::DeadMan dead_man_of(const Options& options)
 }
 
 std::string ready_line(const Options& options, const net::UdpSocket& socket,
-                       const net::Endpoint& remote)
+                       const std::vector<net::Endpoint>& remotes)
 {
-    return fmt::format("ready id={} listen={} remote={} task={} algorithm={} seed={}\n", options.id,
-                       socket.local().to_text(), remote.to_text(), device::name_of(options.task),
+    std::string others = "remote=" + remotes.front().to_text();
+    if (!options.is_pair()) {
+        others = "peers";
+        for (std::size_t i = 0; i < remotes.size(); ++i) {
+            others += fmt::format("{}{}={}", i == 0 ? "=" : ",", options.others[i].id,
+                                  remotes[i].to_text());
+        }
+    }
+    return fmt::format("ready id={} listen={} {} task={} algorithm={} seed={}\n", options.id,
+                       socket.local().to_text(), others, device::name_of(options.task),
                        name_of(options.algorithm), options.seed.value());
 }
 
@@ -280,11 +352,12 @@ base::Result<int> run(const Options& options)
     loop::Journal journal;
     Side side{settings};
     loop::Watchdog watchdog{rig.device(), &crash};
-    line::Line line = line_of(options, endpoints->remote, settings.introduction.nonce);
-    loop::Servo servo{{side, rig, socket, endpoints->remote, line, journal, watchdog, gate}};
+    line::Lines lines = lines_of(options, endpoints->remotes, settings.introduction.nonce);
+    loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate,
+                       std::chrono::milliseconds{1}, message_bytes_max(options.scene)}};
     // Last of all that may fail: the file is emptied.
     monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
-                             options.id};
+                             options.id, settings.roster.others};
 
     std::optional<monitor::ControlSession> control_session;
     if (server) {
@@ -295,7 +368,7 @@ base::Result<int> run(const Options& options)
 
     loop::supervise({servo, monitor, stop, gate, screen.out, screen.err,
                      control_session ? &*control_session : nullptr},
-                    ready_line(options, socket, endpoints->remote));
+                    ready_line(options, socket, endpoints->remotes));
 
     if (kept) kept->on_rest(rig.governor().heat());
     const loop::ServoStatus status = servo.status();

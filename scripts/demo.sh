@@ -6,21 +6,26 @@
 # emulator, over real UDP, under the 160 ms of the paper.
 set -euo pipefail
 
-usage="usage: scripts/demo.sh [--out DIR]
+usage="usage: scripts/demo.sh [--peers 3..8] [--out DIR]
 Installs what is missing, builds, runs task P1 for 30 s and T3 for 20 s with a delay of 160 ms
 each way, and prints what was measured beside the paper's Table 1. Writes everything to DIR
-(results/demo-<time> when not given). Exits 0 when it went well, 1 when a program failed or the
+(results/demo-<time> when not given). With --peers so many hands carry the cube together instead
+(T7), for 20 s through an emulator with a link for every two, 40 ms each way; their analysis is
+printed. Exits 0 when it went well, 1 when a program failed or the
 measurement misses, 3 when something that it needs cannot be installed."
 
 command_line="scripts/demo.sh${*:+ $*}"
 out=
+peers=2
 while (($# > 0)); do
     case $1 in
     --out) out=${2:?"--out: which directory?"} && shift 2 ;;
+    --peers) peers=${2:?"--peers: how many?"} && shift 2 ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) echo "demo: unknown argument '$1'"$'\n'"$usage" >&2 && exit 2 ;;
     esac
 done
+[[ $peers =~ ^[2-8]$ ]] || { echo "demo: --peers $peers: from 2 to 8 can play" >&2 && exit 2; }
 [[ -z $out ]] || out=$(realpath -m "$out")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out=${out:-$PWD/results/demo-$(date -u +%Y%m%dT%H%M%SZ)}
@@ -45,6 +50,30 @@ conclude() {
     done
 }
 
+# So many hands at one cube, and how far apart their copies of it were.
+run_circle() {
+    local folder=$out/t7 records=() id
+    mkdir -p "$folder"
+    printf '\ndemo: task T7 with %s hands for 20 s, 40 ms each way; what peer 1 says:\n' "$peers"
+    start_links "$folder" "$peers" --delay 40ms --seed 42
+    play_circle "$folder" 20 "$peers" --task T7
+    for ((id = 1; id <= peers; id++)); do
+        records+=("$folder/peer-$id.rec")
+        "$bin/hapnet-lab" export "$folder/peer-$id.rec" --csv >"$folder/peer-$id.csv"
+    done
+    "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
+    echo
+    "$bin/hapnet-lab" analyse "${records[@]}" | tee "$folder/table.txt"
+    "$bin/hapnet-lab" report "${records[@]}" >/dev/null
+    printf '\ndemo: the report with plots, a page to open: %s\n' "$folder/report.html"
+    printf 'demo: records, rows (CSV) and statistics are beside it\n'
+}
+
+if ((peers > 2)); then
+    build_programs hapnet-emulator hapnet-peer hapnet-lab
+    run_circle
+    exit
+fi
 build_programs hapnet-emulator hapnet-peer
 mkdir -p "$out"
 echo "demo: hapnet-lab, which the results need, is built beside the sessions"

@@ -22,6 +22,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace hapnet::lab {
 
@@ -36,8 +38,26 @@ void print(const std::string& text)
     }
 }
 
+/// Of more than two.
+base::Result<int> run_circle(const AnalyseCommand& command)
+{
+    std::vector<std::string> paths{command.record_a, command.record_b};
+    paths.insert(paths.end(), command.more.begin(), command.more.end());
+    std::vector<record::Record> all;
+    for (const std::string& path : paths) {
+        auto record = read_record(path);
+        if (!record) return tl::unexpected{record.error()};
+        all.push_back(*std::move(record));
+    }
+    const auto analysis = records::analyse_circle(all);
+    if (!analysis) return base::fail("cannot compare " + analysis.error().message);
+    print(command.json ? to_json(*analysis).dump(2) + '\n' : to_table(*analysis));
+    return 0;
+}
+
 base::Result<int> run(const AnalyseCommand& command)
 {
+    if (!command.more.empty()) return run_circle(command);
     const auto a = read_record(command.record_a);
     if (!a) return tl::unexpected{a.error()};
     const auto b = read_record(command.record_b);
@@ -76,10 +96,10 @@ base::Result<int> run(const ExportCommand& command)
     if (!record) return tl::unexpected{record.error()};
     const auto zero = records::csv_zero(*record);
     if (command.rows == ExportRows::messages) {
-        const auto remote_zero = records::remote_csv_zero(*record);
+        const auto sessions = records::newest_sessions(*record);
         print(records::message_csv_header() + '\n');
         for (const auto& row : record->messages)
-            print(records::csv_line(row, zero, remote_zero) + '\n');
+            print(records::csv_line(row, zero, sessions) + '\n');
     } else {
         print(records::tick_csv_header() + '\n');
         for (const auto& row : record->ticks) print(records::csv_line(row, zero) + '\n');

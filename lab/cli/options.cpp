@@ -31,6 +31,7 @@ constexpr const char* footer =
   hapnet-lab report results
   hapnet-lab report a.rec b.rec
   hapnet-lab analyse a.rec b.rec --json
+  hapnet-lab analyse 1.rec 2.rec 3.rec
   hapnet-lab export a.rec > a.csv
   hapnet-lab export a.rec b.rec > both.csv
   hapnet-lab replay a.rec --algorithm dead-reckoning
@@ -68,14 +69,16 @@ std::string names_of(std::span<const BuiltIn> all)
 void add_analyse(cli::Command& command, AnalyseCommand& analyse)
 {
     command.add_alias("analyze");
-    command.describe("Compares the records of both peers of one session: how far apart their cubes "
-                     "and forces were, what the network did, and whether the run is valid. An "
-                     "invalid run is reported; the exit code stays 0.");
+    command.describe(
+        "Compares the records of the peers of one session, two to eight: how far apart "
+        "their cubes and forces were, what the network did, and whether the run is "
+        "valid. An invalid run is reported; the exit code stays 0.");
     command.add_exit_codes(exit_codes_without_run);
     command.positional("RECORD_A", "The record of one peer", cli::into(analyse.record_a))
         .required("a.rec b.rec");
-    command.positional("RECORD_B", "The record of the other", cli::into(analyse.record_b))
+    command.positional("RECORD_B", "The record of another", cli::into(analyse.record_b))
         .required("a.rec b.rec");
+    command.positional("MORE", "The records of all others", cli::onto(analyse.more)).repeated();
     command.flag("--json", "Print one JSON object instead of a table", analyse.json);
 }
 
@@ -131,15 +134,16 @@ void add_report(cli::Command& command, ReportCommand& report)
     command.describe(
         "Writes report.html, one self-contained page; also figures/*.svg. Of a folder: "
         "the results of its experiments beside the paper, of the demo, or of a "
-        "recorded session. Of two records: their session; the page is written beside "
-        "the first.");
+        "recorded session. Of two records or more: their session; the page is written "
+        "beside the first.");
     command.add_exit_codes(exit_codes_without_run);
     command
         .positional("DIR|RECORD_A",
                     "A folder of results or of such folders; or the record of one peer",
                     cli::into(report.path))
         .required("results");
-    command.positional("RECORD_B", "The record of the other peer", cli::into(report.record_b));
+    command.positional("RECORD_B", "The record of another peer", cli::into(report.record_b));
+    command.positional("MORE", "The records of all others", cli::onto(report.more)).repeated();
 }
 
 void add_replay(cli::Command& command, ReplayCommand& replay)
@@ -256,7 +260,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     add_report(report_command, report);
     AnalyseCommand analyse;
     auto& analyse_command =
-        program.command("analyse", "Compares the records of both peers of a session");
+        program.command("analyse", "Compares the records of the peers of a session");
     add_analyse(analyse_command, analyse);
     ExportCommand exported;
     bool as_csv = true;

@@ -19,6 +19,7 @@ namespace hapnet::lab {
 struct AnalyseCommand {
     std::string record_a;
     std::string record_b;
+    std::vector<std::string> more; // of more than two peers
     bool json = false;
 };
 
@@ -65,8 +66,9 @@ struct ReplayCommand {
 
 /// `hapnet-lab report DIR`, `hapnet-lab report RECORD_A RECORD_B`
 struct ReportCommand {
-    std::string path;     // a folder, or the record of one peer
-    std::string record_b; // of the other; empty: path is a folder
+    std::string path;                // a folder, or the record of one peer
+    std::string record_b;            // of another; empty: path is a folder
+    std::vector<std::string> more{}; // of more than two peers
 };
 
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`

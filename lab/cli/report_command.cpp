@@ -3,6 +3,7 @@
 #include "lab/cli/report_command.hpp"
 
 #include "lab/cli/files.hpp"
+#include "lab/records/analysis.hpp"
 #include "lab/report/report.hpp"
 #include "lab/results/results.hpp"
 #include "proto/net/program.hpp"
@@ -79,18 +80,37 @@ std::vector<std::string> names_of_files(const std::vector<std::string>& paths)
     return names;
 }
 
-/// `name` tells the session from others; empty: that of its task.
+/// Every two of the records: a session of more than two is shown in pairs. `name` tells the session
+/// from others; empty: that of its task.
 base::Result<void> add_records(results::Results& results, const std::string& name,
-                               const std::string& path_a, const std::string& path_b)
+                               const std::vector<std::string>& paths)
 {
-    auto a = read_record(path_a);
-    if (!a) return tl::unexpected{a.error()};
-    auto b = read_record(path_b);
-    if (!b) return tl::unexpected{b.error()};
-    const auto added = add_session(results, name, *a, *b);
-    if (added) return {};
-    return base::fail("cannot compare " + path_a + " (A) with " + path_b +
-                      " (B): " + added.error().message);
+    std::vector<record::Record> all;
+    for (const std::string& path : paths) {
+        auto record = read_record(path);
+        if (!record) return tl::unexpected{record.error()};
+        all.push_back(*std::move(record));
+    }
+    for (std::size_t a = 0; a < all.size(); ++a) {
+        for (std::size_t b = a + 1; b < all.size(); ++b) {
+            const auto added = add_session(results, name, all[a], all[b]);
+            if (added) continue;
+            return base::fail("cannot compare " + paths[a] + " (A) with " + paths[b] +
+                              " (B): " + added.error().message);
+        }
+    }
+    return {};
+}
+
+bool are_of_one_session(const std::vector<std::string>& paths)
+{
+    std::vector<record::Record> all;
+    for (const std::string& path : paths) {
+        auto record = read_record(path);
+        if (!record) return false;
+        all.push_back(*std::move(record));
+    }
+    return records::analyse_circle(all).has_value();
 }
 
 /// The demo is known by the files of its two tasks.
@@ -115,9 +135,10 @@ base::Result<results::Results> results_in(const fs::path& root)
     if (!results) return results;
     for (const fs::path& place : places) {
         const auto records = records_in(place);
-        if (records.size() != 2) continue; // which two of more belong together is not known
+        if (records.size() < 2) continue;
+        if (records.size() > 2 && !are_of_one_session(records)) continue; // which belong together?
         const auto name = place == root ? "" : place.filename().string();
-        const auto added = add_records(*results, name, records[0], records[1]);
+        const auto added = add_records(*results, name, records);
         if (!added) return tl::unexpected{added.error()};
     }
     const auto added = add_demo(*results, root);
@@ -125,8 +146,8 @@ base::Result<results::Results> results_in(const fs::path& root)
     if (files->empty() && results->sessions.empty()) {
         if (const auto records = records_in(root); !records.empty()) {
             return base::fail(fmt::format(
-                "{} has {} record{} ({}): a session has two; name them: hapnet-lab report a.rec "
-                "b.rec",
+                "{} has {} record{} ({}): name those of one session, two or more: hapnet-lab "
+                "report a.rec b.rec",
                 root.generic_string(), records.size(), records.size() == 1 ? "" : "s",
                 fmt::join(names_of_files(records), ", ")));
         }
@@ -161,13 +182,15 @@ base::Result<Source> read_source(const ReportCommand& command)
             return Source{std::move(results), first};
         });
     }
-    for (const std::string& path : {command.path, command.record_b}) {
+    std::vector<std::string> paths{command.path, command.record_b};
+    paths.insert(paths.end(), command.more.begin(), command.more.end());
+    for (const std::string& path : paths) {
         if (!fs::is_directory(path)) continue;
         return base::fail(path +
                           " is a folder: report one folder, or the two records of a session");
     }
     Source source{{}, first.has_parent_path() ? first.parent_path() : fs::path{"."}};
-    const auto added = add_records(source.results, "", command.path, command.record_b);
+    const auto added = add_records(source.results, "", paths);
     if (!added) return tl::unexpected{added.error()};
     return source;
 }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/analysis.hpp"
 
+#include "scene/text/text.hpp"
+
+#include <algorithm>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
@@ -42,7 +45,81 @@ void judge(const Agreement& agreement, std::vector<std::string>& objections)
     if (!finite) objections.emplace_back("positions or forces were not finite");
 }
 
+std::int64_t id_of(const record::Record& record)
+{
+    const auto id = record.config.value("peer_id", nlohmann::json{});
+    return id.is_number_integer() ? id.get<std::int64_t>() : 0;
+}
+
+std::optional<std::size_t> shared_body_in(const record::Record& record)
+{
+    const auto text = record.config.value("scene_toml", nlohmann::json{});
+    if (!text.is_string()) return std::nullopt;
+    const auto scene = scene::parse_scene(text.get<std::string>(), "scene_toml");
+    if (!scene) return std::nullopt;
+    const auto body = std::ranges::find_if(scene->bodies, &scene::BodyDescription::movable);
+    if (body == scene->bodies.end()) return std::nullopt;
+    return static_cast<std::size_t>(body - scene->bodies.begin());
+}
+
 } // namespace
+
+std::string PairAnalysis::name() const { return fmt::format("{}-{}", id_a, id_b); }
+
+const PairAnalysis* CircleAnalysis::worst() const
+{
+    const PairAnalysis* worst = nullptr;
+    const auto mean_of = [](const PairAnalysis& pair) {
+        return pair.analysis.agreement.discrepancy_x->mean;
+    };
+    for (const PairAnalysis& pair : pairs) {
+        if (!pair.analysis.agreement.discrepancy_x) continue;
+        if (worst == nullptr || mean_of(pair) > mean_of(*worst)) worst = &pair;
+    }
+    return worst;
+}
+
+std::optional<double> CircleAnalysis::settled_discrepancy() const
+{
+    std::optional<double> largest;
+    for (const PairAnalysis& pair : pairs) {
+        if (const auto settled = pair.analysis.agreement.settled_discrepancy)
+            largest = std::max(largest.value_or(*settled), *settled);
+    }
+    return largest;
+}
+
+base::Result<CircleAnalysis> analyse_circle(std::span<const record::Record> records)
+{
+    std::vector<const record::Record*> by_id;
+    for (const record::Record& record : records) by_id.push_back(&record);
+    std::ranges::stable_sort(by_id, {}, [](const auto* record) { return id_of(*record); });
+    CircleAnalysis circle;
+    for (std::size_t i = 0; i < by_id.size(); ++i) {
+        for (std::size_t j = i + 1; j < by_id.size(); ++j) {
+            PairAnalysis pair{id_of(*by_id[i]), id_of(*by_id[j]), {}};
+            auto analysis = analyse(*by_id[i], *by_id[j]);
+            if (!analysis) {
+                return base::fail(fmt::format("peers {} (A) and {} (B): {}", pair.id_a, pair.id_b,
+                                              analysis.error().message));
+            }
+            pair.analysis = *std::move(analysis);
+            circle.loops.try_emplace(pair.id_a, pair.analysis.a);
+            circle.loops.try_emplace(pair.id_b, pair.analysis.b);
+            circle.pairs.push_back(std::move(pair));
+        }
+    }
+    for (const auto& [id, loop] : circle.loops)
+        judge(fmt::format("peer {}", id), loop, circle.invalid_because);
+    for (const PairAnalysis& pair : circle.pairs) {
+        std::vector<std::string> objections;
+        judge(pair.analysis.agreement, objections);
+        for (const std::string& objection : objections)
+            circle.invalid_because.push_back(fmt::format("{}: {}", pair.name(), objection));
+    }
+    if (!by_id.empty()) circle.body = shared_body_in(*by_id.front());
+    return circle;
+}
 
 base::Result<Analysis> analyse(const record::Record& a, const record::Record& b)
 {

@@ -9,6 +9,10 @@
 #include "proto/base/result.hpp"
 #include "proto/record/reader.hpp"
 
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,5 +35,34 @@ struct Analysis {
 
 /// Refuses records that cannot be compared; a run that went badly is analysed and not valid.
 [[nodiscard]] base::Result<Analysis> analyse(const record::Record& a, const record::Record& b);
+
+/// Two of a session, the lower id as A.
+struct PairAnalysis {
+    std::int64_t id_a = 0;
+    std::int64_t id_b = 0;
+    Analysis analysis;
+
+    [[nodiscard]] std::string name() const; // "1-2"
+};
+
+/// What the records of three to eight peers say of one session: every two of them compared.
+struct CircleAnalysis {
+    /// In the order of their ids: 1-2, 1-3, 2-3.
+    std::vector<PairAnalysis> pairs;
+    /// The loop of each peer, by its id.
+    std::map<std::int64_t, Loop> loops;
+    /// The number of the shared body in the scene; nullopt: the records do not say it.
+    std::optional<std::size_t> body;
+    std::vector<std::string> invalid_because;
+
+    [[nodiscard]] bool valid() const { return invalid_because.empty(); }
+    /// Of the two whose copies were farthest apart on average; nullptr: none was ever compared.
+    [[nodiscard]] const PairAnalysis* worst() const;
+    /// The largest of all; nullopt: none came so far.
+    [[nodiscard]] std::optional<double> settled_discrepancy() const;
+};
+
+/// Refuses what analyse() refuses of any two, naming them by their place.
+[[nodiscard]] base::Result<CircleAnalysis> analyse_circle(std::span<const record::Record> records);
 
 } // namespace hapnet::lab::records

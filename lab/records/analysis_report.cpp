@@ -149,20 +149,82 @@ TextTable network_table(const Path& up, const Path& down)
     return table;
 }
 
-TextTable loops_table(const Loop& a, const Loop& b)
+TextTable loops_table(const std::vector<std::pair<std::string, Loop>>& loops)
 {
-    const auto late = [](const Loop& loop, base::Duration metrics::Quantiles::*member) {
-        return number_text(loop.late ? std::optional{us((*loop.late).*member)} : std::nullopt, 3);
+    TextTable table{"How well each haptic loop kept its time", "", {}, {}, {}, 12};
+    for (const auto& [name, loop] : loops) table.heads.push_back(name);
+    const auto add = [&](std::string name, const auto& cell) {
+        TextTable::Row row{std::move(name), {}};
+        for (const auto& [who, loop] : loops) row.cells.push_back(cell(loop));
+        table.rows.push_back(std::move(row));
     };
-    TextTable table{"How well each haptic loop kept its time", "", {"A", "B"}, {}, {}, 12};
-    table.rows = {{"ticks per second", {number_text(a.rate_hz, 2), number_text(b.rate_hz, 2)}},
-                  {"ticks missed", {std::to_string(a.missed), std::to_string(b.missed)}}};
+    add("ticks per second", [](const Loop& loop) { return number_text(loop.rate_hz, 2); });
+    add("ticks missed", [](const Loop& loop) { return std::to_string(loop.missed); });
     for (const auto& [name, member] : {std::pair{"late p50, us", &metrics::Quantiles::p50},
                                        {"late p99, us", &metrics::Quantiles::p99},
                                        {"late max, us", &metrics::Quantiles::max}}) {
-        table.rows.push_back({name, {late(a, member), late(b, member)}});
+        add(name, [member = member](const Loop& loop) {
+            return number_text(loop.late ? std::optional{us((*loop.late).*member)} : std::nullopt,
+                               3);
+        });
     }
     return table;
+}
+
+TextTable pairs_table(const std::vector<PairAnalysis>& pairs)
+{
+    TextTable table{"How far every two were apart at equal times",
+                    "cubes",
+                    {"mean, mm", "max, mm", "std, mm", "settled, mm", "overlap, %"},
+                    {},
+                    {},
+                    12};
+    for (const PairAnalysis& pair : pairs) {
+        const Agreement& agreement = pair.analysis.agreement;
+        const auto x = [&](double metrics::Spread::*member) {
+            return number_text(part(agreement.discrepancy_x, member, mm), 3);
+        };
+        table.rows.push_back(
+            {fmt::format("|x_{} - x_{}|", pair.id_a, pair.id_b),
+             {x(&metrics::Spread::mean), x(&metrics::Spread::max), x(&metrics::Spread::std),
+              number_text(scaled(agreement.settled_discrepancy, mm), 4),
+              number_text(1e2 * agreement.overlap, 2)}});
+    }
+    return table;
+}
+
+TextTable ways_table(const std::vector<PairAnalysis>& pairs)
+{
+    TextTable table{"What the network did",
+                    "",
+                    {"received", "loss, %", "delay p50, ms", "delay p99, ms", "jitter p99, ms"},
+                    {},
+                    {},
+                    15};
+    const auto add = [&](std::int64_t from, std::int64_t to, const Path& path) {
+        const auto time = [](const std::optional<metrics::Quantiles>& times,
+                             base::Duration metrics::Quantiles::*member) {
+            return number_text(times ? std::optional{ms((*times).*member)} : std::nullopt, 3);
+        };
+        table.rows.push_back(
+            {fmt::format("{} to {}", from, to),
+             {std::to_string(path.received), number_text(scaled(path.loss, 1e2), 3),
+              time(path.delay, &metrics::Quantiles::p50),
+              time(path.delay, &metrics::Quantiles::p99),
+              time(path.jitter, &metrics::Quantiles::p99)}});
+    };
+    for (const PairAnalysis& pair : pairs) {
+        add(pair.id_a, pair.id_b, pair.analysis.a_to_b);
+        add(pair.id_b, pair.id_a, pair.analysis.b_to_a);
+    }
+    return table;
+}
+
+std::string verdict_text(const std::vector<std::string>& invalid_because)
+{
+    std::string text = invalid_because.empty() ? "valid\n" : "NOT VALID\n";
+    for (const std::string& reason : invalid_because) text += "  " + reason + '\n';
+    return text;
 }
 
 } // namespace
@@ -196,7 +258,8 @@ Json to_json(const Analysis& analysis)
 std::vector<TextTable> tables_of(const Analysis& analysis)
 {
     return {distances_table(analysis.agreement), touching_table(analysis.agreement),
-            network_table(analysis.a_to_b, analysis.b_to_a), loops_table(analysis.a, analysis.b)};
+            network_table(analysis.a_to_b, analysis.b_to_a),
+            loops_table({{"A", analysis.a}, {"B", analysis.b}})};
 }
 
 std::string clock_text(const Clock& clock)
@@ -211,9 +274,56 @@ std::string to_table(const Analysis& analysis)
     std::string text;
     for (const TextTable& table : tables_of(analysis)) text += to_text(table) + '\n';
     if (const auto clock = clock_text(analysis.clock); !clock.empty()) text += clock + "\n\n";
-    text += analysis.valid() ? "valid\n" : "NOT VALID\n";
-    for (const std::string& reason : analysis.invalid_because) text += "  " + reason + '\n';
-    return text;
+    return text + verdict_text(analysis.invalid_because);
+}
+
+Json to_json(const CircleAnalysis& circle)
+{
+    if (circle.pairs.empty()) return Json::object();
+    Json out = to_json(circle.pairs.front().analysis);
+    const PairAnalysis* worst = circle.worst();
+    const auto settled = circle.settled_discrepancy();
+    const Json discrepancy =
+        worst == nullptr ? Json(nullptr) : json_of(worst->analysis.agreement.discrepancy_x);
+    const Json settled_mm = settled ? number(mm * *settled) : Json(nullptr);
+    out["discrepancy_x_mm"] = discrepancy;
+    out["settled_discrepancy_mm"] = settled_mm;
+    out["valid"] = circle.valid();
+    out["invalid_because"] = circle.invalid_because;
+    out["worst_pair"] = worst == nullptr ? Json(nullptr) : Json(worst->name());
+    out["pairs"] = Json::object();
+    for (const PairAnalysis& pair : circle.pairs) {
+        Json of_pair = to_json(pair.analysis);
+        for (const char* loop : {"a", "b"}) of_pair.erase(loop); // in `peers`
+        out["pairs"][pair.name()] = std::move(of_pair);
+    }
+    out["peers"] = Json::object();
+    for (const auto& [id, loop] : circle.loops) out["peers"][std::to_string(id)] = json_of(loop);
+    out["bodies"] = Json::object();
+    if (circle.body) {
+        out["bodies"][std::to_string(*circle.body)] = {{"discrepancy_x_mm", discrepancy},
+                                                       {"settled_discrepancy_mm", settled_mm}};
+    }
+    return out;
+}
+
+std::vector<TextTable> tables_of(const CircleAnalysis& circle)
+{
+    std::vector<std::pair<std::string, Loop>> loops;
+    for (const auto& [id, loop] : circle.loops)
+        loops.emplace_back(fmt::format("peer {}", id), loop);
+    return {pairs_table(circle.pairs), ways_table(circle.pairs), loops_table(loops)};
+}
+
+std::string to_table(const CircleAnalysis& circle)
+{
+    std::string text;
+    for (const TextTable& table : tables_of(circle)) text += to_text(table) + '\n';
+    for (const PairAnalysis& pair : circle.pairs) {
+        if (const auto clock = clock_text(pair.analysis.clock); !clock.empty())
+            text += fmt::format("{} (A-B): {}\n\n", pair.name(), clock);
+    }
+    return text + verdict_text(circle.invalid_because);
 }
 
 } // namespace hapnet::lab::records

@@ -98,10 +98,11 @@ base::TimePoint csv_zero(const record::Record& record)
     return record.ticks.empty() ? base::TimePoint{} : record.ticks.front().at();
 }
 
-std::optional<base::TimePoint> remote_csv_zero(const record::Record& record)
+NewestSessions newest_sessions(const record::Record& record)
 {
-    if (record.sessions.empty()) return std::nullopt;
-    return record.sessions.back().start + record.sessions.back().remote_offset;
+    NewestSessions newest;
+    for (const record::SessionRow& row : record.sessions) newest[row.other] = row;
+    return newest;
 }
 
 std::string tick_csv_header() { return "time_s" + column_names(""); }
@@ -139,18 +140,23 @@ void for_each_joined_csv_line(const Session& session,
 
 std::string message_csv_header()
 {
-    return "time_s,tick,size_bytes,session,sequence,sent_s,sent_time_s";
+    return "time_s,tick,size_bytes,session,sequence,sent_s,sent_time_s,from";
 }
 
 std::string csv_line(const record::MessageRow& row, base::TimePoint zero,
-                     std::optional<base::TimePoint> remote_zero)
+                     const NewestSessions& sessions)
 {
-    std::string line = fmt::format("{},{},{}", seconds(row.received_at - zero), row.tick, row.size);
+    const std::string from = row.from == 0 ? "" : std::to_string(row.from);
+    std::string line =
+        fmt::format("{},{},{}", seconds(row.received_at - zero), row.tick, row.bytes.size());
     const auto message = view_of(row);
-    if (!message) return line + ",,,,";
-    return line + fmt::format(",{},{},{},{}", message->session, message->sequence,
-                              seconds(message->sent.time_since_epoch()),
-                              remote_zero ? seconds(message->sent - *remote_zero) : "");
+    if (!message) return line + ",,,,," + from;
+    const auto session = sessions.find(row.from);
+    const std::string sent = session == sessions.end()
+                                 ? ""
+                                 : seconds(clock_of(session->second).to_a(message->sent) - zero);
+    return line + fmt::format(",{},{},{},{},{}", message->session, message->sequence,
+                              seconds(message->sent.time_since_epoch()), sent, from);
 }
 
 } // namespace hapnet::lab::records

@@ -6,8 +6,9 @@
 #include "proto/base/time.hpp"
 #include "proto/record/reader.hpp"
 
+#include <cstdint>
 #include <functional>
-#include <optional>
+#include <map>
 #include <string>
 
 namespace hapnet::lab::records {
@@ -21,14 +22,15 @@ namespace hapnet::lab::records {
 [[nodiscard]] std::string tick_csv_header();
 [[nodiscard]] std::string csv_line(const record::TickRow& row, base::TimePoint zero);
 
-/// The same moment on the remote's clock; without a session nullopt.
-[[nodiscard]] std::optional<base::TimePoint> remote_csv_zero(const record::Record& record);
+/// The newest row of the session with each of the others, by its id; 0 in older records.
+using NewestSessions = std::map<std::uint16_t, record::SessionRow>;
+[[nodiscard]] NewestSessions newest_sessions(const record::Record& record);
 
-/// `sent_s` is the sender's own clock, as it stands in the message; `sent_time_s` counts from
-/// `remote_zero`, and is empty without one.
+/// `sent_s` is the sender's own clock, as it stands in the message; `sent_time_s` the same moment
+/// since `zero`, by the newest session with that peer, and empty without one.
 [[nodiscard]] std::string message_csv_header();
 [[nodiscard]] std::string csv_line(const record::MessageRow& row, base::TimePoint zero,
-                                   std::optional<base::TimePoint> remote_zero);
+                                   const NewestSessions& sessions);
 
 /// Both peers of a session on one time axis: an as-of join. One line for each tick of A, with the
 /// last tick of B that is not later, and its own time; cells of B are empty before its first.

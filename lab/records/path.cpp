@@ -26,7 +26,7 @@ Sent sent_by(const Side& sender)
     base::TimePoint last{};
     for (const record::TickRow& row : sender.ticks) {
         if (row.sent_sequence == 0) continue;
-        sent.highest = std::max(sent.highest, row.sent_sequence);
+        if (sender.numbers_sent) sent.highest = std::max(sent.highest, row.sent_sequence);
         last = row.due + row.late;
         if (count++ == 0) first = last;
     }
@@ -36,8 +36,8 @@ Sent sent_by(const Side& sender)
     return sent;
 }
 
-/// `receiver_ahead`: the receiver's clock minus the sender's.
-Path path_between(const Side& sender, const Side& receiver, base::Duration receiver_ahead)
+/// `delay(received, sent)`: between two times on the two clocks.
+Path path_between(const Side& sender, const Side& receiver, const auto& delay)
 {
     Path path;
     std::uint32_t highest = 0;
@@ -52,7 +52,7 @@ Path path_between(const Side& sender, const Side& receiver, base::Duration recei
         }
         if (message->sequence < highest) ++path.reordered;
         highest = std::max(highest, message->sequence);
-        delays.push_back(row.received_at - receiver_ahead - message->sent);
+        delays.push_back(delay(row.received_at, message->sent));
     }
     std::vector<base::Duration> variations;
     for (std::size_t i = 1; i < delays.size(); ++i) {
@@ -75,12 +75,16 @@ Path path_between(const Side& sender, const Side& receiver, base::Duration recei
 
 Path path_a_to_b(const Session& session)
 {
-    return path_between(session.a, session.b, session.clock.offset);
+    return path_between(session.a, session.b, [&](base::TimePoint received, base::TimePoint sent) {
+        return session.clock.to_a(received) - sent;
+    });
 }
 
 Path path_b_to_a(const Session& session)
 {
-    return path_between(session.b, session.a, -session.clock.offset);
+    return path_between(session.b, session.a, [&](base::TimePoint received, base::TimePoint sent) {
+        return received - session.clock.to_a(sent);
+    });
 }
 
 } // namespace hapnet::lab::records

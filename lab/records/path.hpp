@@ -12,6 +12,8 @@ namespace hapnet::lab::records {
 
 /// What became of the state messages of one session on one way.
 struct Path {
+    /// By the sender's record; in a circle that knows it only of messages to the first other. To
+    /// the rest: up to the highest that came.
     std::uint64_t sent = 0;
     /// Different messages; a second copy counts under `duplicates`, and nowhere else.
     std::uint64_t received = 0;

@@ -9,14 +9,17 @@
 #include "proto/base/fields_json.hpp"
 #include "scene/text/text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -33,6 +36,16 @@ constexpr auto fields_of(base::Tag<WrittenMount>)
                         base::member("offset_m", &WrittenMount::offset_m));
 }
 
+/// A list of ids.
+struct WrittenIds {
+    std::vector<std::uint16_t> all;
+};
+
+bool read_json(const nlohmann::json& json, WrittenIds& ids)
+{
+    return base::read_json(json, ids.all);
+}
+
 /// What of the configuration in a record's header the forces of the session depend on.
 struct WrittenConfig {
     std::uint16_t peer_id = 0;
@@ -44,6 +57,8 @@ struct WrittenConfig {
     double duration_s = 0.0;
     std::string task;
     std::optional<std::string> boot_id{};
+    std::optional<WrittenIds> peers{}; // the others; older ones have one
+    std::optional<std::uint16_t> wait_for{};
     std::string scene_toml;
     std::string algorithm_toml;
     std::string governor_toml;
@@ -59,9 +74,18 @@ constexpr auto fields_of(base::Tag<WrittenConfig>)
         base::member("grip_damping_ns_per_m", &Own::grip_damping_ns_per_m),
         base::member("stiffness_max_n_per_m", &Own::stiffness_max_n_per_m),
         base::member("duration_s", &Own::duration_s), base::member("task", &Own::task),
-        base::member("boot_id", &Own::boot_id), base::member("scene_toml", &Own::scene_toml),
+        base::member("boot_id", &Own::boot_id), base::member("peers", &Own::peers),
+        base::member("wait_for", &Own::wait_for), base::member("scene_toml", &Own::scene_toml),
         base::member("algorithm_toml", &Own::algorithm_toml),
         base::member("governor_toml", &Own::governor_toml), base::member("mount", &Own::mount));
+}
+
+bool can_play(const std::vector<std::uint16_t>& others, std::uint16_t self)
+{
+    if (others.size() == 1) return others.front() != self;
+    return !others.empty() && others.size() < peer::circle_max && others.front() != 0 &&
+           std::ranges::adjacent_find(others, std::greater_equal{}) == others.end() &&
+           std::ranges::find(others, self) == others.end();
 }
 
 /// Why the session cannot be played again with these numbers; "" for nothing.
@@ -78,6 +102,9 @@ std::string_view validate(const WrittenConfig& config)
     if (!(config.grip_damping_ns_per_m >= 0.0)) return "'grip_damping_ns_per_m' is negative";
     if (!(config.stiffness_max_n_per_m.value_or(0.0) >= 0.0)) {
         return "'stiffness_max_n_per_m' is negative";
+    }
+    if (config.peers && !can_play(config.peers->all, config.peer_id)) {
+        return "'peers' are not up to seven others by their ids, ascending";
     }
     return config.mount.scale > 0.0 ? "" : "'mount': the scale is not positive";
 }
@@ -105,6 +132,8 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     settings.mount_scale = written->mount.scale;
     settings.introduction.id = written->peer_id;
     settings.introduction.nonce = written->nonce;
+    if (written->peers) settings.roster.others = written->peers->all;
+    settings.roster.wait_for = written->wait_for.value_or(0);
     settings.introduction.seed = written->seed;
     settings.introduction.task = *name;
     settings.introduction.boot = wire::boot_of(written->boot_id.value_or(""));
@@ -121,6 +150,10 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     auto algorithm = peer::parse_algorithm(written->algorithm_toml, "algorithm_toml");
     if (!algorithm) return tl::unexpected{algorithm.error()};
     settings.algorithm = *std::move(algorithm);
+    if (settings.roster.others.size() > 1 &&
+        !std::holds_alternative<peer::BaseAlgorithm>(settings.algorithm)) {
+        return base::fail("its config: more than two peers play with base alone");
+    }
     const auto limits =
         device::parse_limits(written->governor_toml, "governor_toml", device::known_mechanisms);
     if (!limits) return tl::unexpected{limits.error()};

@@ -30,7 +30,8 @@ virtual_time::Sample sample_of(const record::TickRow& row)
 /// The rows of a side while it was running, on A's clock, asked in the order of time.
 class RunningRows {
 public:
-    RunningRows(const Side& side, base::Duration ahead) : ahead_{ahead}
+    /// `clock`: of these rows as B's against A's; none where they are A's.
+    RunningRows(const Side& side, const Clock& clock) : clock_{clock}
     {
         const auto runs = [](const record::TickRow& row) {
             return row.phase == record::Phase::running;
@@ -41,8 +42,8 @@ public:
     }
 
     [[nodiscard]] bool empty() const { return rows_.empty(); }
-    [[nodiscard]] base::TimePoint begin() const { return rows_.front().at() - ahead_; }
-    [[nodiscard]] base::TimePoint end() const { return rows_.back().at() - ahead_; }
+    [[nodiscard]] base::TimePoint begin() const { return clock_.to_a(rows_.front().at()); }
+    [[nodiscard]] base::TimePoint end() const { return clock_.to_a(rows_.back().at()); }
 
     struct Reading {
         virtual_time::Sample sample;
@@ -51,7 +52,7 @@ public:
     /// At a time from begin() to end(), not before the last one asked for.
     [[nodiscard]] Reading at(base::TimePoint time)
     {
-        const base::TimePoint here = time + ahead_;
+        const base::TimePoint here = clock_.to_b(time);
         while (at_ + 1 < rows_.size() && rows_[at_ + 1].at() <= here) ++at_;
         const record::TickRow& row = rows_[at_];
         if (at_ + 1 == rows_.size()) return {sample_of(row)};
@@ -63,7 +64,7 @@ public:
 
 private:
     std::span<const record::TickRow> rows_;
-    base::Duration ahead_;
+    Clock clock_;
     std::size_t at_ = 0;
 };
 
@@ -79,9 +80,8 @@ virtual_time::Trace trace_of(const Session& session)
     virtual_time::Trace trace{.tick = session.tick};
     if (const auto task = device::task_named(session.task)) trace.task = *task;
     const bool a_is_left = session.a.peer_id < session.b.peer_id;
-    const base::Duration b_ahead = session.clock.offset;
-    RunningRows a{session.a, base::Duration{0}};
-    RunningRows b{session.b, b_ahead};
+    RunningRows a{session.a, Clock{}};
+    RunningRows b{session.b, session.clock};
     if (a.empty() || b.empty()) return trace;
 
     const base::TimePoint begin = std::max(a.begin(), b.begin());

@@ -13,6 +13,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -65,25 +66,38 @@ private:
     bool was_withheld_ = false;
 };
 
+/// Which of the others has this id; of a pair the only one, and the number of them for nobody.
+std::size_t index_of(const std::vector<std::uint16_t>& others, std::uint16_t id)
+{
+    if (others.size() == 1) return 0;
+    return static_cast<std::size_t>(std::ranges::find(others, id) - others.begin());
+}
+
 /// One peer as it was.
 class Replayer {
 public:
     Replayer(const record::Record& record, const RecordedSettings& settings)
-        : record_{record}, rig_{settings}, side_{settings.peer}
+        : record_{record},
+          others_{settings.peer.roster.others},
+          rig_{settings},
+          side_{settings.peer}
     {}
 
     ReplayedTick step(const record::TickRow& row)
     {
         const auto& messages = record_.messages;
         for (; message_ < messages.size() && messages[message_].tick <= row.tick; ++message_) {
-            side_.on_datagram(messages[message_].datagram(), messages[message_].received_at);
+            const record::MessageRow& message = messages[message_];
+            side_.on_datagram(message.bytes, message.received_at, index_of(others_, message.from));
         }
         // A session's own end comes by the clock; any other one was a person's decision.
         if (row.phase == record::Phase::ended) side_.peer().leave(wire::ByeReason::interrupted);
         rig_.show(row);
         side_.step(row.at(), rig_);
-        while (side_.poll()) {}
-        while (side_.event()) {}
+        for (std::size_t other = 0; other < others_.size(); ++other) {
+            while (side_.poll(other)) {}
+        }
+        while (side_.notice()) {}
         return {row.tick, row.at(), row.contact, side_.tick().force, row.device, side_.told()};
     }
 
@@ -91,6 +105,7 @@ public:
 
 private:
     const record::Record& record_;
+    std::vector<std::uint16_t> others_; // by their ids
     RecordedRig rig_;
     peer::Side side_;
     std::size_t message_ = 0;
@@ -143,7 +158,16 @@ base::Result<Replayed> replay(const record::Record& record,
     auto settings = settings_of(record.config);
     if (!settings) return tl::unexpected{settings.error()};
     if (const auto gap = gap_in(record)) return base::fail(*gap);
+    const auto& others = settings->peer.roster.others;
+    for (const record::MessageRow& message : record.messages) {
+        if (index_of(others, message.from) < others.size()) continue;
+        return base::fail(fmt::format("a message of peer {}, which is not of the session: the file "
+                                      "is damaged",
+                                      message.from));
+    }
     if (instead) settings->peer.algorithm = *instead;
+    if (others.size() > 1 && !std::holds_alternative<peer::BaseAlgorithm>(settings->peer.algorithm))
+        return base::fail("more than two peers play with base alone: leave out --algorithm");
 
     Replayed replayed;
     replayed.algorithm = peer::name_of(settings->peer.algorithm);

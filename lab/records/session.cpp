@@ -3,11 +3,14 @@
 #include "lab/records/session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <ranges>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -52,30 +55,59 @@ std::optional<std::uint32_t> last_common_session(const record::Record& a, const 
     return std::nullopt;
 }
 
-/// The part of a record that belongs to a session which it knows. The newest terms count: the
-/// clock offset gets better with time.
+/// The others of a peer by their ids, in the order of its roster; empty in older records.
+std::vector<std::int64_t> others_of(const record::Record& record)
+{
+    const auto ids = record.config.value("peers", nlohmann::json{});
+    std::vector<std::int64_t> others;
+    for (const auto& id : ids) {
+        if (id.is_number_integer()) others.push_back(id.get<std::int64_t>());
+    }
+    return others;
+}
+
+/// The part of a record that belongs to a session which it knows, with one of the others. The
+/// newest terms count: the clock offset gets better with time.
 Side side_of(const record::Record& record, std::uint32_t session, std::int64_t peer_id)
 {
     const auto& rows = record.sessions;
-    std::size_t first = 0;
-    while (rows[first].session != session) ++first;
-    std::size_t end = first;
-    while (end < rows.size() && rows[end].session == session) ++end;
-
-    const std::size_t from = record.ticks_before_session[first];
-    const std::size_t to =
-        end < rows.size() ? record.ticks_before_session[end] : record.ticks.size();
-    return {rows[end - 1], std::span{record.ticks}.subspan(from, to - from), record.messages,
-            peer_id};
+    const auto is_of_it = [&](const record::SessionRow& row) { return row.session == session; };
+    const auto first = std::ranges::find_if(rows, is_of_it);
+    const auto next = std::find_if(first, rows.end(), [&](const record::SessionRow& row) {
+        return row.other == first->other && !is_of_it(row);
+    });
+    const auto newest = std::find_if(std::make_reverse_iterator(next), rows.rend(), is_of_it);
+    const auto ticks_before = [&](auto row) {
+        return row == rows.end()
+                   ? record.ticks.size()
+                   : record.ticks_before_session[static_cast<std::size_t>(row - rows.begin())];
+    };
+    const std::size_t from = ticks_before(first);
+    const auto others = others_of(record);
+    return {*newest, std::span{record.ticks}.subspan(from, ticks_before(next) - from),
+            record.messages, peer_id,
+            others.size() <= 1 || others.front() == std::int64_t{first->other}};
 }
 
 Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& terms_of_a)
 {
     if (!a.boot_id.empty() && a.boot_id == b.boot_id) return {};
-    return {ClockMethod::echo, terms_of_a.remote_offset, terms_of_a.offset_uncertainty};
+    return clock_of(terms_of_a);
 }
 
 } // namespace
+
+Clock clock_of(const record::SessionRow& row)
+{
+    // Crystals are a tenth of that apart: more is a damaged row.
+    constexpr double skew_max_ppm = 1000.0;
+    const bool is_possible = std::abs(row.remote_skew_ppm) <= skew_max_ppm;
+    return {.method = ClockMethod::echo,
+            .offset = row.remote_offset,
+            .uncertainty = row.offset_uncertainty,
+            .when = row.noted_at,
+            .skew = is_possible ? 1e-6 * row.remote_skew_ppm : 0.0};
+}
 
 base::Result<Session> common_session(const record::Record& a, const record::Record& b)
 {

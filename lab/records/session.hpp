@@ -13,18 +13,35 @@
 namespace hapnet::lab::records {
 
 enum class ClockMethod : std::uint8_t {
-    same_boot, ///< one machine, one CLOCK_MONOTONIC: nothing to convert
+    same_boot, ///< one machine, one clock: nothing to convert
     echo,      ///< two clocks, compared by the echoes in the messages
 };
 
 /// How B's clock stands to A's.
 struct Clock {
     ClockMethod method = ClockMethod::same_boot;
-    /// B's clock minus A's.
+    /// B's clock minus A's, at the time `when` of A's.
     base::Duration offset{};
     base::Duration uncertainty{};
+    base::TimePoint when{};
+    double skew = 0.0; // by what share B's runs faster; small
 
-    [[nodiscard]] base::TimePoint to_a(base::TimePoint on_b) const { return on_b - offset; }
+    [[nodiscard]] base::TimePoint to_a(base::TimePoint on_b) const
+    {
+        const base::TimePoint roughly = on_b - offset;
+        return roughly - drift(skew / (1.0 + skew), roughly);
+    }
+    [[nodiscard]] base::TimePoint to_b(base::TimePoint on_a) const
+    {
+        return on_a + offset + drift(skew, on_a);
+    }
+
+    /// What the difference has grown by since `when`.
+    [[nodiscard]] base::Duration drift(double share, base::TimePoint at) const
+    {
+        if (share == 0.0) return {};
+        return std::chrono::duration_cast<base::Duration>(share * (at - when));
+    }
 };
 
 /// One peer's part of a session. Refers into its record.
@@ -35,7 +52,12 @@ struct Side {
     /// All that the record holds: what belongs to the session says its messages themselves.
     std::span<const record::MessageRow> messages;
     std::int64_t peer_id = 0;
+    /// Whether `sent_sequence` of its ticks counts the messages to the other side of this session.
+    bool numbers_sent = true;
 };
+
+/// The clock of the other peer against that of the record which holds this row.
+[[nodiscard]] Clock clock_of(const record::SessionRow& row);
 
 /// What two records tell of the same session.
 struct Session {

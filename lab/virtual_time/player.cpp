@@ -109,7 +109,7 @@ void VirtualPlayer::step(base::TimePoint now)
 {
     stepped_at = now;
     side->step(now + clock_ahead, rig);
-    while (const auto event = side->event()) events.push_back(*event);
+    while (const auto notice = side->notice()) events.push_back(notice->event);
     const base::TimePoint here = now + clock_ahead;
     line.tick({here, (here + date_ahead).time_since_epoch().count()});
 }

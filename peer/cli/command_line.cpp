@@ -13,9 +13,9 @@ namespace hapnet::peer {
 namespace {
 
 constexpr const char* description =
-    "One of two peers that push the same virtual cube and feel each other through it: a 1 kHz "
-    "haptic loop with its own copy of the scene, a device, and 1000 messages a second to the other "
-    "peer, directly or through hapnet-emulator.";
+    "One of two to eight peers that push the same virtual cube and feel each other through it: a "
+    "1 kHz haptic loop with its own copy of the scene, a device, and 1000 messages a second to "
+    "each other peer, directly or through hapnet-emulator.";
 
 constexpr const char* footer =
     R"(Tasks of the hands (docs/design/tasks.md; the lower --id is L and pushes from the left):
@@ -26,12 +26,13 @@ constexpr const char* footer =
   T4  both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down
   T5  both press the cube against the static one; in turn one lets go suddenly
   T6  L taps the cube at 3 Hz while R rests on its far side
-  T7  T3 in the scene carry, which has room for eight hands; a session has two so far
-Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). Both peers
-need the same task, and should be given the same --duration. A peer waits for the other one without
-a limit; --duration counts from their common start.
+  T7  T3 with two to eight hands: in the order of their ids the 1st, 3rd, ... acts as L, the others
+      as R, and those on one side share its force
+Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). All peers
+need the same task and scene; the shortest --duration counts, from their common start. A peer waits
+for the others without a limit.
 
-Algorithms (docs/design/algorithms.md; the two peers may use different ones):
+Algorithms (docs/design/algorithms.md; two peers may use different ones, more play with base):
   base            the paper's: forces add up where both push; where one pushes, its report holds
   dead-reckoning  the same, with the other peer's cube extrapolated to now
   sep             the same, with the other hand's force and position predicted
@@ -45,10 +46,12 @@ Examples:
   hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --record b.rec
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --device falcon --force-limit 500mN
   hapnet-peer --key peer-1.key --listen 0.0.0.0:7000 --remote 203.0.113.2:7000
+  hapnet-peer --id 1 --peer 2=127.0.0.1:7012 --peer 3=127.0.0.1:7013 --task T7
 Each pair runs in two terminals. The second pair needs hapnet-emulator with --listen-a :7001
---listen-b :7002 between them. The last but one is for a device in your hand: read
-docs/use/hardware.md, and run doctor and self-test first. The last is for two buildings: the other
-host uses its own file of 'hapnet-peer keygen --peers 2 --out keys'.
+--listen-b :7002 between them. The falcon is for a device in your hand: read
+docs/use/hardware.md, and run doctor and self-test first. The key is for two buildings: the other
+host uses its own file of 'hapnet-peer keygen --peers 2 --out keys'. The last is one of three, with
+hapnet-emulator --link 1-2=:7012,:7021 --link 1-3=:7013,:7031 --link 2-3=:7023,:7032 between them.
 
 The peer prints one line "ready ..." on stdout when its loop runs, and events on stderr. SIGINT,
 SIGTERM, SIGHUP, a terminal that goes away or hapnet-ctl SOCKET stop ends it within a second, with

@@ -6,6 +6,7 @@
 #include "proto/secure/keys/files.hpp"
 #include "proto/secure/keys/process.hpp"
 
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -29,20 +30,57 @@ base::Result<void> take_key(const std::string& path, KeyChoice& choice)
     return {};
 }
 
-/// Who the other peer is; an error when the key file leaves that open.
-base::Result<std::uint8_t> other_of(const KeyChoice& choice, const std::optional<NamedPeer>& named)
+base::Result<void> check_named(const KeyChoice& choice, const std::vector<NamedPeer>& named)
 {
-    const secure::KeyFile& file = *choice.file;
-    if (!named) {
-        if (file.others.size() == 1) return file.others.front().id;
-        return base::fail(fmt::format("{} knows {} other peers: say which one plays, with --peer "
-                                      "ID=HOST:PORT instead of --remote",
-                                      choice.path, file.others.size()));
+    for (const NamedPeer& peer : named) {
+        if (std::ranges::count(named, peer.id, &NamedPeer::id) > 1)
+            return base::fail(fmt::format("--peer {}: this peer is named twice", peer.id));
+        if (!choice.is_given() || choice.file->find(peer.id) != nullptr) continue;
+        return base::fail(
+            fmt::format("--peer: {} knows no peer {}: 'hapnet-peer key show {}' lists them",
+                        choice.path, peer.id, choice.path));
     }
-    if (file.find(named->id) != nullptr) return named->id;
-    return base::fail(
-        fmt::format("--peer: {} knows no peer {}: 'hapnet-peer key show {}' lists them",
-                    choice.path, named->id, choice.path));
+    return {};
+}
+
+/// The one at --remote.
+base::Result<std::vector<NamedPeer>> other_at(const net::HostPort& place, const KeyChoice& choice)
+{
+    if (!choice.is_given()) return std::vector{NamedPeer{0, place}};
+    const auto& others = choice.file->others;
+    if (others.size() == 1) return std::vector{NamedPeer{others.front().id, place}};
+    return base::fail(fmt::format("{} knows {} other peers: say which one plays, with --peer "
+                                  "ID=HOST:PORT instead of --remote, once for each that does",
+                                  choice.path, others.size()));
+}
+
+base::Result<net::HostPort> place_of(const secure::KeyFile::Member& member, const std::string& path)
+{
+    auto place = net::parse_host_port(member.endpoint);
+    if (place && place->port != 0) return place;
+    return base::fail(fmt::format("{}: endpoint '{}' of peer {}: write HOST:PORT, such as "
+                                  "10.0.0.2:7000",
+                                  path, member.endpoint, member.id));
+}
+
+/// All of the circle, as the key file says where they are.
+base::Result<std::vector<NamedPeer>> others_in(const KeyChoice& choice)
+{
+    const auto& members = choice.file->others;
+    std::vector<NamedPeer> others;
+    for (const secure::KeyFile::Member& member : members) {
+        if (member.endpoint.empty() && members.size() == 1)
+            return base::fail("--remote is required: --remote 127.0.0.1:7001");
+        if (member.endpoint.empty()) {
+            return base::fail(fmt::format("{} does not say where peer {} is: name those that play, "
+                                          "with --peer ID=HOST:PORT once for each",
+                                          choice.path, member.id));
+        }
+        auto place = place_of(member, choice.path);
+        if (!place) return tl::unexpected{place.error()};
+        others.push_back({member.id, *std::move(place)});
+    }
+    return others;
 }
 
 } // namespace
@@ -66,38 +104,35 @@ base::Result<NamedPeer> parse_named_peer(const std::string& text)
 
 void add_key_options(cli::Command& program, KeyChoice& choice)
 {
-    program.option("--key", "FILE",
-                   "Play with the other peer of this key file alone, and seal all messages; needed "
-                   "where --listen or --remote is not loopback. hapnet-peer keygen makes one for "
-                   "each host",
-                   [&choice](const std::string& path) { return take_key(path, choice); });
+    program.option(
+        "--key", "FILE",
+        "Play with the other peers of this key file alone, and seal all messages; needed "
+        "where --listen or --remote is not loopback. hapnet-peer keygen makes one for "
+        "each host",
+        [&choice](const std::string& path) { return take_key(path, choice); });
     program.flag("--no-roam",
-                 "With --key: stay with the address of --remote. Otherwise messages go to where "
-                 "the other peer was heard last",
+                 "With --key: stay with the address of --remote or --peer. Otherwise messages go "
+                 "to where another peer was heard last",
                  choice.stays);
 }
 
-base::Result<net::HostPort> check_key_options(KeyChoice& choice, const KeyedPlaces& places)
+base::Result<std::vector<NamedPeer>> find_others(const KeyChoice& choice, const KeyedPlaces& places)
 {
-    if (places.named && places.place)
+    if (!places.named.empty() && places.place)
         return base::fail("--peer and --remote both say where the other peer is: use one of them");
-    if (choice.is_given()) {
-        const auto other = other_of(choice, places.named);
-        if (!other) return tl::unexpected{other.error()};
-        choice.other = *other;
-    } else if (choice.stays) {
+    if (!choice.is_given() && choice.stays)
         return base::fail("--no-roam needs --key: without a key a peer never roams");
+    if (auto fine = check_named(choice, places.named); !fine) return tl::unexpected{fine.error()};
+    if (places.place) return other_at(*places.place, choice);
+    std::vector<NamedPeer> others = places.named;
+    if (others.empty()) {
+        if (!choice.is_given()) return base::fail("--remote is required: --remote 127.0.0.1:7001");
+        auto all = others_in(choice);
+        if (!all) return all;
+        others = *std::move(all);
     }
-    if (places.place) return *places.place;
-    if (places.named) return places.named->place;
-    const auto* member = choice.is_given() ? choice.file->find(choice.other) : nullptr;
-    if (member == nullptr || member->endpoint.empty())
-        return base::fail("--remote is required: --remote 127.0.0.1:7001");
-    auto place = net::parse_host_port(member->endpoint);
-    if (place && place->port != 0) return place;
-    return base::fail(fmt::format("{}: endpoint '{}' of peer {}: write HOST:PORT, such as "
-                                  "10.0.0.2:7000",
-                                  choice.path, member->endpoint, member->id));
+    std::ranges::sort(others, {}, &NamedPeer::id);
+    return others;
 }
 
 } // namespace hapnet::peer

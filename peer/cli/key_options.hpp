@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hapnet::peer {
 
@@ -18,15 +19,14 @@ namespace hapnet::peer {
 struct KeyChoice {
     std::shared_ptr<const secure::KeyFile> file; // null: none
     std::string path;
-    std::uint8_t other = 0; // the id of the other peer, once check_key_options() has found it
-    bool stays = false;     // the other peer is heard from --remote alone
+    bool stays = false; // the others are heard from where they were said to be alone
 
     [[nodiscard]] bool is_given() const { return file != nullptr; }
 };
 
-/// `--peer ID=HOST:PORT`
+/// Another peer, and where it is, as `--peer ID=HOST:PORT` says it.
 struct NamedPeer {
-    std::uint8_t id = 0;
+    std::uint8_t id = 0; // 0: whoever answers there
     net::HostPort place;
 };
 [[nodiscard]] base::Result<NamedPeer> parse_named_peer(const std::string& text);
@@ -35,13 +35,15 @@ struct NamedPeer {
 /// leaves no core dump.
 void add_key_options(cli::Command& program, KeyChoice& choice);
 
-/// After the command line was read: finds the other peer in the key file, and where it is, if the
-/// file says so and the command line does not. Says what is missing or does not fit.
+/// What the command line says of the others.
 struct KeyedPlaces {
-    std::optional<NamedPeer> named;     // --peer
+    std::vector<NamedPeer> named;       // --peer
     std::optional<net::HostPort> place; // --remote
 };
-[[nodiscard]] base::Result<net::HostPort> check_key_options(KeyChoice& choice,
-                                                            const KeyedPlaces& places);
+/// After the command line was read: the others by their ids, ascending. Those that are named play,
+/// and nobody else; where none is, all of the key file, which then has to say where they are. Says
+/// what is missing or does not fit.
+[[nodiscard]] base::Result<std::vector<NamedPeer>> find_others(const KeyChoice& choice,
+                                                               const KeyedPlaces& places);
 
 } // namespace hapnet::peer

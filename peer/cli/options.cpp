@@ -4,12 +4,15 @@
 
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/base/quantity.hpp"
+#include "proto/base/text.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
 #include "proto/net/text_file.hpp"
 #include "scene/text/text.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
@@ -139,14 +142,14 @@ base::Result<void> check_results(const Options& options)
                                   *options.record));
 }
 
-/// Who the two peers are, and where the other one is.
+/// Who the peers are, and where the others are.
 base::Result<void> complete_peers(Options& options, const Asked& asked, const cli::Command& program)
 {
     KeyedPlaces places{.named = asked.named, .place = {}};
-    if (program.is_given("--remote")) places.place = options.remote;
-    auto remote = check_key_options(options.key, places);
-    if (!remote) return tl::unexpected{remote.error()};
-    options.remote = *std::move(remote);
+    if (program.is_given("--remote")) places.place = asked.remote;
+    auto others = find_others(options.key, places);
+    if (!others) return tl::unexpected{others.error()};
+    options.others = *std::move(others);
     if (!options.key.is_given()) return {};
     if (options.insecure) {
         return base::fail("--key and --insecure contradict each other: with a key nothing that is "
@@ -160,6 +163,59 @@ base::Result<void> complete_peers(Options& options, const Asked& asked, const cl
     }
     options.id = id;
     return {};
+}
+
+/// Whether so many can play, and can play so.
+base::Result<void> check_circle(const Options& options)
+{
+    const std::size_t all = options.others.size() + 1;
+    if (options.wait_for > all) {
+        return base::fail(fmt::format("--wait-for {}: there are {} peers, this one counted; name "
+                                      "the others with --peer",
+                                      options.wait_for, all));
+    }
+    if (options.is_pair()) return {};
+    constexpr std::uint16_t id_max = secure::KeyFile::id_max;
+    if (all > circle_max) {
+        return base::fail(fmt::format("{} peers are named, this one counted: a session has {} at "
+                                      "most; name those that play with --peer",
+                                      all, circle_max));
+    }
+    if (options.id > id_max) {
+        return base::fail(fmt::format("--id {}: among more than two peers ids are from 1 to {}",
+                                      options.id, id_max));
+    }
+    if (std::ranges::find(options.others, options.id, &NamedPeer::id) != options.others.end()) {
+        return base::fail(fmt::format("--peer {}: this is the id of this peer itself; --id says "
+                                      "another one",
+                                      options.id));
+    }
+    if (!std::holds_alternative<BaseAlgorithm>(options.algorithm)) {
+        return base::fail(fmt::format("--algorithm {} is for two peers: more than two play with "
+                                      "base alone",
+                                      name_of(options.algorithm)));
+    }
+    if (options.scene.hands.count >= all) return {};
+    return base::fail(fmt::format("--scene {} has room for {} hands ([hips] count), and {} peers "
+                                  "are to play: use --task T7, or --scene carry",
+                                  options.scene_name, options.scene.hands.count, all));
+}
+
+/// That of the task; what two carry in the paper's scene, more carry in one with room for them.
+std::string_view scene_for(const Options& options)
+{
+    using device::Task;
+    const bool is_carried =
+        options.task == Task::t1 || options.task == Task::t2 || options.task == Task::t3;
+    return device::scene_of(is_carried && !options.is_pair() ? Task::t7 : options.task);
+}
+
+base::Result<std::size_t> parse_wait_for(const std::string& text)
+{
+    if (text == "all") return std::size_t{0};
+    const auto count = base::parse_count(text, circle_max);
+    if (count && *count >= 2) return static_cast<std::size_t>(*count);
+    return base::fail(fmt::format("'{}': write all, or a number from 2 to {}", text, circle_max));
 }
 
 void add_results(cli::Command& program, Options& options)
@@ -195,12 +251,13 @@ void add_force_options(cli::Command& program, Options& options)
                    cli::into(options.dead_man, parse_dead_man));
 }
 
-void add_session_options(cli::Command& program, Options& options, Asked& asked)
+/// Who plays, and where they are.
+void add_peer_options(cli::Command& program, Options& options, Asked& asked)
 {
     constexpr std::uint64_t id_max = 65535;
     program.option("--id", "1..65535",
-                   "Number of this peer, different for the two; the lower one is L (default 1, or "
-                   "the one in the key file)",
+                   "Number of this peer, different for all; the lower one of two is L (default 1, "
+                   "or the one in the key file)",
                    cli::into(options.id, base::Count{1, id_max}));
     program.option("--listen", "ADDRESS",
                    "Where to receive: HOST:PORT; :PORT listens on loopback (default 127.0.0.1:0, "
@@ -209,10 +266,25 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
     program.option("--remote", "HOST:PORT",
                    "The other peer, or the emulator's address for this side; needed unless --peer "
                    "or the key file says it",
-                   cli::into(options.remote, parse_remote));
-    program.option("--peer", "ID=HOST:PORT",
-                   "The same with the other peer's id, where the key file knows several",
-                   cli::into(asked.named, parse_named_peer));
+                   cli::into(asked.remote, parse_remote));
+    program
+        .option("--peer", "ID=HOST:PORT",
+                "Another peer with its id, in place of --remote; once for each of up to seven "
+                "others",
+                [&asked](const std::string& text) {
+                    return parse_named_peer(text).map(
+                        [&asked](NamedPeer peer) { asked.named.push_back(std::move(peer)); });
+                })
+        .repeated();
+    program.option("--wait-for", "all|N",
+                   "Start when all peers named here hear each other (default), or N of them, this "
+                   "one counted; the lowest id's counts, and the others join late",
+                   cli::into(options.wait_for, parse_wait_for));
+}
+
+void add_session_options(cli::Command& program, Options& options, Asked& asked)
+{
+    add_peer_options(program, options, asked);
     program.option("--scene", "FILE|NAME",
                    "A scene in TOML, or a built-in one by name; it has one movable body that does "
                    "not turn (default: the task's; lift for T4, wall for T5, carry "
@@ -257,10 +329,20 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
     if (auto fine = complete_peers(options, asked, program); !fine) return fine;
     if (auto fine = check_device_options(program, options.device); !fine) return fine;
     if (auto fine = check_results(options); !fine) return fine;
-    if (program.is_given("--scene")) return {};
-    const std::string scene{device::scene_of(options.task)};
-    const auto taken = take_scene(scene, options);
-    return taken ? taken : base::fail(fmt::format("--scene: {}", taken.error().message));
+    if (!program.is_given("--scene")) {
+        const auto taken = take_scene(std::string{scene_for(options)}, options);
+        if (!taken) return base::fail(fmt::format("--scene: {}", taken.error().message));
+    }
+    return check_circle(options);
+}
+
+Roster Options::roster() const
+{
+    Roster roster{.others = {}, .wait_for = wait_for};
+    for (const NamedPeer& other : others)
+        roster.others.push_back(is_pair() ? std::uint16_t{0} : std::uint16_t{other.id});
+    base::ensure(std::ranges::is_sorted(roster.others)); // as the circle takes them to be
+    return roster;
 }
 
 } // namespace hapnet::peer

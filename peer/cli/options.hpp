@@ -5,6 +5,7 @@
 #include "device/simulated/task.hpp"
 #include "peer/cli/device_options.hpp"
 #include "peer/cli/key_options.hpp"
+#include "peer/core/circle.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
@@ -15,6 +16,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hapnet::peer {
 
@@ -22,7 +24,8 @@ namespace hapnet::peer {
 struct Options {
     std::uint16_t id = 1;
     net::HostPort listen{"127.0.0.1", 0};
-    net::HostPort remote; // where to begin, with a key
+    std::vector<NamedPeer> others; // ascending; with a key where to begin
+    std::size_t wait_for = 0;      // so many, this one counted, begin; 0: all
     KeyChoice key;
     DeviceChoice device;
     std::string scene_name = "paper";
@@ -39,19 +42,24 @@ struct Options {
     std::optional<std::string> record;
     std::optional<std::string> stats;   // a file, or "-" for stdout
     std::optional<std::string> control; // where its socket is to be
+
+    [[nodiscard]] bool is_pair() const { return others.size() <= 1; }
+    /// Of a pair, whoever answers there.
+    [[nodiscard]] Roster roster() const;
 };
 
 /// What is read beside the options and not kept.
 struct Asked {
     std::string printed_algorithm; // what --print-algorithm prints
-    std::optional<NamedPeer> named;
+    net::HostPort remote;          // --remote
+    std::vector<NamedPeer> named;  // --peer
 };
 
 /// Adds the options of a session, bound to `options` and `asked`.
 void add_session_options(cli::Command& program, Options& options, Asked& asked);
 
-/// After the command line was read: the other peer, the scene of the task where none was named, and
-/// options that contradict each other.
+/// After the command line was read: the other peers, the scene of the task where none was named,
+/// and options that contradict each other.
 [[nodiscard]] base::Result<void> complete(Options& options, const Asked& asked,
                                           const cli::Command& program);
 

@@ -134,11 +134,6 @@ public:
         return circle_.members()[to].poll();
     }
     [[nodiscard]] std::optional<Notice> notice() { return notices_.take(); }
-    [[nodiscard]] std::optional<Event> event()
-    {
-        const auto next = notice();
-        return next ? std::optional{next->event} : std::nullopt;
-    }
 
     /// Ends the session: byes follow, then finished() holds.
     void leave(wire::ByeReason reason);

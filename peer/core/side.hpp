@@ -35,7 +35,7 @@ concept RigLike = requires(R rig, base::Force wanted, base::TimePoint now, devic
 /// One side of a session: its device, its copy of the scene and the session, without clock, socket
 /// or thread. The daemon's loop, the players in virtual time, the replay of records and the tests
 /// all play through it. Feed it with on_datagram(), call step() once per tick, then drain poll()
-/// and event().
+/// and notice().
 class Side {
 public:
     /// The scene must be one that shared_body() and World::freeze() accept.
@@ -67,7 +67,7 @@ public:
 
     /// The next datagram for one of the others.
     [[nodiscard]] std::optional<wire::Datagram> poll(std::size_t to = 0) { return peer_.poll(to); }
-    [[nodiscard]] std::optional<Event> event() { return peer_.event(); }
+    [[nodiscard]] std::optional<Notice> notice() { return peer_.notice(); }
 
     [[nodiscard]] Peer& peer() { return peer_; }
     [[nodiscard]] const Peer& peer() const { return peer_; }

@@ -59,6 +59,19 @@ public:
     explicit Line(const secure::Place& other) : kind_{Plain{other}} {}
     explicit Line(std::unique_ptr<Sealed> sealed) : kind_{std::move(sealed)} {}
 
+    /// Whether a datagram says that it is for this line and not for another one of the same peer:
+    /// by the key or the handshake that it names. A seal is not looked at.
+    [[nodiscard]] bool is_named_by(std::span<const std::byte> datagram) const
+    {
+        return is_sealed() && sealed()->is_named_by(datagram);
+    }
+    /// Whether the other side is at this place, as far as is known.
+    [[nodiscard]] bool leads_to(const secure::Place& place) const
+    {
+        const auto* plain = std::get_if<Plain>(&kind_);
+        return plain == nullptr ? sealed()->place() == place : plain->place() == place;
+    }
+
     /// The plain message in a datagram; nullopt: it has none for this side. Valid until the next
     /// call, and no longer than the datagram.
     [[nodiscard]] std::optional<std::span<const std::byte>>

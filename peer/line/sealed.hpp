@@ -29,6 +29,11 @@ public:
     /// The configuration but for session_of, which is that of the messages.
     Sealed(secure::Association::Config config, secure::StaticKeys keys, secure::Secret seed);
 
+    /// Whether a datagram says that it is for this line, by the key or the handshake that it names.
+    [[nodiscard]] bool is_named_by(std::span<const std::byte> datagram) const
+    {
+        return association_.is_named_by(datagram);
+    }
     [[nodiscard]] std::optional<std::span<const std::byte>>
     open(std::span<const std::byte> datagram, const secure::Place& from, base::TimePoint now);
     void tick(secure::Moment moment);

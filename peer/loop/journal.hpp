@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/peer.hpp"
+#include "peer/line/datagram.hpp"
 #include "peer/line/news.hpp"
 #include "peer/monitor/device_news.hpp"
 #include "proto/record/rows.hpp"
@@ -17,6 +18,7 @@ namespace hapnet::peer::loop {
 struct TimedEvent {
     Event event = Event::met;
     base::TimePoint at;
+    std::uint16_t about = 0; // the id of another peer; 0: it is about all, or not known
 };
 
 /// Likewise for the device.
@@ -25,14 +27,30 @@ struct TimedDeviceNews {
     base::TimePoint at;
 };
 
-/// Likewise for the line to the other peer.
+/// Likewise for the line to another peer.
 struct TimedLineNews {
     line::News news = line::News::sealed;
     base::TimePoint at;
+    std::uint16_t about = 0;
 };
 
-/// A message of the servo thread for the record, the status line and the log.
-using Entry = std::variant<record::Row, TimedEvent, TimedDeviceNews, TimedLineNews>;
+/// A message from another peer, which becomes a record::MessageRow. Never allocates.
+struct HeardMessage {
+    std::uint64_t tick = 0;
+    base::TimePoint received_at;
+    std::uint16_t from = 0;
+    line::Datagram message;
+
+    [[nodiscard]] record::MessageRow row() const
+    {
+        const auto bytes = message.bytes();
+        return {tick, received_at, from, {bytes.begin(), bytes.end()}};
+    }
+};
+
+/// What the servo thread says for the record, the status line and the log. A row is of a tick or a
+/// session.
+using Entry = std::variant<record::Row, HeardMessage, TimedEvent, TimedDeviceNews, TimedLineNews>;
 
 /// The one way out of the servo thread: a bounded queue that never makes that thread wait. Entries
 /// that do not fit are dropped and counted.
@@ -55,7 +73,7 @@ public:
     [[nodiscard]] std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
-    // 8 s of ticks and messages: longer than any stall of a disk that we want to survive.
+    // 8 s of ticks and messages of two peers, 2 s of eight: the recorder has as many.
     static constexpr std::size_t capacity = 16384;
 
     // The package has two queues. ThreadSanitizer can follow this one: it synchronises by atomics

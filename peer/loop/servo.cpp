@@ -4,6 +4,7 @@
 
 #include "peer/loop/watched_rig.hpp"
 #include "peer/loop/zero_force.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/net/clock.hpp"
 
 #include <algorithm>
@@ -16,23 +17,30 @@ constexpr int servo_priority = 45;    // above the emulator's, below the kernel'
 constexpr int receive_rounds_max = 8; // of up to 64 datagrams
 constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
-OtherStatus describe_other(const Member& other)
+OtherStatus describe_other(const Member& other, const line::Line& line, base::TimePoint now)
 {
     const ClockSync& clock = other.handshake().clock_sync();
     return {.id = other.id(),
             .clock = clock.estimate(),
             .is_clock_in_doubt = clock.is_in_doubt(),
             .clock_jumps = clock.jumps(),
-            .paths = other.paths()};
+            .paths = other.paths(),
+            .session = other.session() ? other.session()->number : 0,
+            .is_heard = other.freshness(now) > 0.0,
+            .is_gone = other.is_gone(),
+            .line = line::status_of(line, now)};
 }
 
 } // namespace
 
 Servo::Servo(const Parts& parts)
-    : parts_{parts},
-      remote_place_{parts.remote.packed()},
-      reporter_{monitor::recovery_of(parts.rig.device())}
-{}
+    : parts_{parts}, reporter_{monitor::recovery_of(parts.rig.device())}
+{
+    base::ensure(parts.lines.size() == parts.side.peer().others().size() &&
+                 parts.remotes.size() == parts.lines.size());
+    for (const net::Endpoint& remote : parts.remotes) places_.push_back(remote.packed());
+    noted_.resize(parts.remotes.size());
+}
 
 void Servo::run()
 {
@@ -116,11 +124,12 @@ void Servo::play(base::TimePoint now)
     parts_.side.step(now, rig);
     withheld_ = rig.withheld();
     if (withheld_ != Withheld::no) ++counters_.withheld;
-    tend_line(now);
+    tend_lines(now);
     send(now);
-    while (const auto event = parts_.side.event()) parts_.journal.put(TimedEvent{*event, now});
+    while (const auto notice = parts_.side.notice())
+        parts_.journal.put(TimedEvent{notice->event, now, notice->about});
     report_device(now);
-    note_session(now);
+    for (std::size_t other = 0; other < noted_.size(); ++other) note_session(other, now);
 }
 
 ServoStatus Servo::status() const
@@ -140,11 +149,12 @@ void Servo::describe(ServoStatus& status) const
     status.is_remote_heard = parts_.side.tick().freshness > 0.0;
     status.force = parts_.side.told();
     status.loop = counters_;
-    status.line = line::status_of(parts_.line, last_tick_);
     status.messages = peer.counters();
     status.session = peer.session();
+    status.is_left = peer.is_left();
     status.others_count = peer.others().size();
-    std::ranges::transform(peer.others(), status.others.begin(), describe_other);
+    for (std::size_t i = 0; i < status.others_count; ++i)
+        status.others.at(i) = describe_other(peer.others()[i], parts_.lines[i], last_tick_);
     status.refusal = peer.refusal();
     status.calibration = parts_.rig.calibration();
     status.governor_state = governor.state();
@@ -174,80 +184,98 @@ void Servo::receive(base::TimePoint now)
     for (int round = 0; round < receive_rounds_max; ++round) {
         const auto batch = parts_.socket.receive();
         for (const net::Received& received : batch) {
-            const auto message = parts_.line.open(received.bytes, received.from.packed(), now);
-            if (message) hear(*message, received.at);
+            const auto opened = parts_.lines.open(received.bytes, received.from.packed(), now);
+            if (opened) hear(*opened, received.at);
         }
         if (batch.size() < net::UdpSocket::batch_max) return;
     }
 }
 
 /// A message that came in by the line; the record has it as it was before it was sealed.
-void Servo::hear(std::span<const std::byte> message, base::TimePoint at)
+void Servo::hear(const line::Lines::Opened& opened, base::TimePoint at)
 {
-    if (!is_worth_a_row(message, at)) {
+    if (!is_worth_a_row(opened, at)) {
         ++counters_.unrecorded;
         return;
     }
-    if (message.size() > record::MessageRow::bytes_max) return;
-    record::MessageRow row{.tick = counters_.ticks,
-                           .received_at = at,
-                           .size = static_cast<std::uint16_t>(message.size())};
-    std::copy(message.begin(), message.end(), row.bytes.begin());
-    parts_.journal.put(row);
+    const std::span<const std::byte> message = opened.message;
+    if (message.size() > parts_.recorded_bytes_max) {
+        ++counters_.too_long;
+        return;
+    }
+    parts_.journal.put(HeardMessage{.tick = counters_.ticks,
+                                    .received_at = at,
+                                    .from = parts_.side.peer().others()[opened.from].id(),
+                                    .message = line::Datagram{message}});
 }
 
 /// Lets the session hear a message, and says whether the record is to have it: one that changed
 /// something always; others, such as duplicates, as long as they are no flood, which would fill the
 /// disk.
-bool Servo::is_worth_a_row(std::span<const std::byte> message, base::TimePoint at)
+bool Servo::is_worth_a_row(const line::Lines::Opened& opened, base::TimePoint at)
 {
     const std::uint64_t states_before = parts_.side.peer().counters().states;
-    parts_.side.on_datagram(message, at);
+    parts_.side.on_datagram(opened.message, at, opened.from);
     if (parts_.side.peer().counters().states != states_before) return true;
     return without_effect_.admits(at);
 }
 
 /// After the force: a handshake may take a multiplication on the curve.
-void Servo::tend_line(base::TimePoint now)
+void Servo::tend_lines(base::TimePoint now)
 {
-    if (parts_.line.is_sealed()) parts_.line.tick({now, net::wall_clock_nanoseconds()});
-    while (const auto news = parts_.line.news()) parts_.journal.put(TimedLineNews{*news, now});
+    if (parts_.lines.are_sealed()) parts_.lines.tick({now, net::wall_clock_nanoseconds()});
+    for (std::size_t i = 0; i < parts_.lines.size(); ++i) {
+        while (const auto news = parts_.lines[i].news())
+            parts_.journal.put(TimedLineNews{*news, now, parts_.side.peer().others()[i].id()});
+    }
 }
 
 void Servo::send(base::TimePoint now)
 {
-    const auto send_one = [this](std::span<const std::byte> bytes, const secure::Place& to) {
-        if (to != remote_place_) {
-            parts_.remote = parts_.remote.unpacked(to);
-            remote_place_ = to;
-        }
-        const auto outcome = parts_.socket.send(parts_.remote, bytes);
-        if (outcome != net::SendOutcome::sent) ++counters_.send_failures;
-        counters_.last_send = outcome;
-        sending_.store(outcome, std::memory_order_relaxed);
-    };
-    parts_.line.send_all([this] { return parts_.side.poll(); }, send_one, now);
+    for (std::size_t i = 0; i < parts_.lines.size(); ++i) {
+        parts_.lines[i].send_all([this, i] { return parts_.side.poll(i); },
+                                 [this, i](std::span<const std::byte> bytes,
+                                           const secure::Place& to) { send_to(i, bytes, to); },
+                                 now);
+    }
 }
 
-void Servo::note_session(base::TimePoint now)
+void Servo::send_to(std::size_t other, std::span<const std::byte> bytes, const secure::Place& to)
+{
+    net::Endpoint& remote = parts_.remotes[other];
+    if (to != places_[other]) {
+        remote = remote.unpacked(to);
+        places_[other] = to;
+    }
+    const auto outcome = parts_.socket.send(remote, bytes);
+    if (outcome != net::SendOutcome::sent) ++counters_.send_failures;
+    counters_.last_send = outcome;
+    sending_.store(outcome, std::memory_order_relaxed);
+}
+
+void Servo::note_session(std::size_t other, base::TimePoint now)
 {
     const Peer& peer = parts_.side.peer();
-    const auto& session = peer.session();
+    const Member& member = peer.others()[other];
+    const auto& session = member.session();
     if (!session) return;
     // A side that was restarted has a clock unknown to us until it has answered.
-    const auto clock = peer.clock();
+    const auto clock = peer.clock(other);
     if (!clock) return;
+    auto& noted = noted_[other];
     const bool is_new =
-        !noted_ || noted_->session != session->number || noted_->start != session->start;
-    if (!is_new && now - *noted_at_ < session_noted_every) return;
-    noted_ = record::SessionRow{.start = session->start,
-                                .length = peer.length(),
-                                .remote_offset = clock->offset,
-                                .offset_uncertainty = clock->uncertainty,
-                                .session = session->number,
-                                .seed = session->seed};
-    noted_at_ = now;
-    parts_.journal.put(*noted_);
+        !noted || noted->session != session->number || noted->start != session->start;
+    if (!is_new && now - noted->noted_at < session_noted_every) return;
+    noted = record::SessionRow{.start = session->start,
+                               .length = peer.length(),
+                               .remote_offset = clock->offset,
+                               .offset_uncertainty = clock->uncertainty,
+                               .session = session->number,
+                               .seed = session->seed,
+                               .other = member.id(),
+                               .noted_at = now,
+                               .remote_skew_ppm = clock->skew_ppm};
+    parts_.journal.put(*noted);
 }
 
 } // namespace hapnet::peer::loop

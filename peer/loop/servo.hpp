@@ -4,7 +4,7 @@
 
 #include "device/rig.hpp"
 #include "peer/core/side.hpp"
-#include "peer/line/line.hpp"
+#include "peer/line/lines.hpp"
 #include "peer/loop/force_gate.hpp"
 #include "peer/loop/journal.hpp"
 #include "peer/loop/servo_status.hpp"
@@ -16,6 +16,7 @@
 #include "proto/net/udp_socket.hpp"
 
 #include <atomic>
+#include <vector>
 
 namespace hapnet::peer::loop {
 
@@ -33,12 +34,14 @@ public:
         Side& side;
         device::Rig& rig;
         net::UdpSocket& socket;
-        net::Endpoint remote; // where the line begins
-        line::Line& line;
+        std::vector<net::Endpoint> remotes; // where the lines begin
+        line::Lines& lines;
         Journal& journal;
         Watchdog& watchdog;
         ForceGate& gate;
         base::Duration tick{std::chrono::milliseconds{1}};
+        /// What rows of the record have room for.
+        std::size_t recorded_bytes_max = record::MessageRow::bytes_max;
     };
 
     explicit Servo(const Parts& parts);
@@ -76,15 +79,16 @@ private:
     void play(base::TimePoint now);
     void report_device(base::TimePoint now);
     void receive(base::TimePoint now);
-    void hear(std::span<const std::byte> message, base::TimePoint at);
-    [[nodiscard]] bool is_worth_a_row(std::span<const std::byte> message, base::TimePoint at);
-    void tend_line(base::TimePoint now);
+    void hear(const line::Lines::Opened& opened, base::TimePoint at);
+    [[nodiscard]] bool is_worth_a_row(const line::Lines::Opened& opened, base::TimePoint at);
+    void tend_lines(base::TimePoint now);
     void send(base::TimePoint now);
-    void note_session(base::TimePoint now);
+    void send_to(std::size_t other, std::span<const std::byte> bytes, const secure::Place& to);
+    void note_session(std::size_t other, base::TimePoint now);
     void describe(ServoStatus& status) const;
 
     Parts parts_;
-    secure::Place remote_place_; // of parts_.remote
+    std::vector<secure::Place> places_; // of parts_.remotes
     monitor::DeviceReporter reporter_;
     LoopCounters counters_;
     std::optional<base::TimePoint> first_tick_;
@@ -93,9 +97,8 @@ private:
     net::RealTime real_time_;
     /// 2000 a second, and a second of them at once: a true path duplicates no more than all.
     monitor::RateLimit without_effect_{2000, std::chrono::microseconds{500}};
-    std::optional<record::SessionRow> noted_;
-    std::optional<base::TimePoint> noted_at_;
-    Withheld withheld_ = Withheld::no; // in the last tick
+    std::vector<std::optional<record::SessionRow>> noted_; // the newest with each of the others
+    Withheld withheld_ = Withheld::no;                     // in the last tick
     std::atomic<net::SendOutcome> sending_{net::SendOutcome::sent};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};

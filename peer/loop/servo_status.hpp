@@ -27,15 +27,20 @@ struct LoopCounters {
     net::SendOutcome last_send = net::SendOutcome::sent;
     std::uint64_t withheld = 0;   // ticks in which a person or a signal had stopped the force
     std::uint64_t unrecorded = 0; // datagrams of a flood that the record leaves out
+    std::uint64_t too_long = 0;   // messages for which its rows have no room
 };
 
-/// One of the others: its clock, and the path to it and back.
+/// One of the others: its clock, the path to it and back, and the line.
 struct OtherStatus {
     std::uint16_t id = 0;               // 0: not known yet
     std::optional<ClockEstimate> clock; // also while it is in doubt
     bool is_clock_in_doubt = false;
     std::uint32_t clock_jumps = 0;
     PathsReport paths;
+    std::uint32_t session = 0; // the number of the session with it; 0: none
+    bool is_heard = false;     // recently
+    bool is_gone = false;      // it said goodbye
+    line::Status line;
 };
 
 /// The status of a peer after one of its ticks; statistics are made from it. 20 KiB.
@@ -46,11 +51,12 @@ struct ServoStatus {
     bool is_remote_heard = false; // recently
     base::Force force;            // that the device was told, at the hand
     LoopCounters loop;
-    line::Status line;
     Counters messages;
     std::optional<Session> session;
+    bool is_left = false; // acts as L
     std::array<OtherStatus, circle_max - 1> others{};
     std::size_t others_count = 0;
+    [[nodiscard]] bool is_pair() const { return others_count <= 1; }
     std::optional<wire::ByeReason> refusal;
     device::CalibrationStep calibration = device::CalibrationStep::done;
     device::GovernorState governor_state = device::GovernorState::off;

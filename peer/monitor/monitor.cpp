@@ -15,16 +15,42 @@ namespace {
 constexpr base::Duration on_terminal_every{std::chrono::milliseconds{200}};
 constexpr base::Duration elsewhere_every{std::chrono::seconds{5}};
 
-std::string line_of(const StatusLine& status, const StatusLine& before)
+std::string words_on_waiting(const std::vector<std::uint16_t>& awaited, bool is_pair)
+{
+    if (awaited.empty()) {
+        return fmt::format("agreeing on the start with the other peer{}", is_pair ? "" : "s");
+    }
+    if (is_pair)
+        return "waiting for the other peer; is it running, and is the emulator between the two?";
+    return fmt::format("waiting for peer{} {}; running, and is the emulator between you?",
+                       awaited.size() == 1 ? "" : "s", fmt::join(awaited, ", "));
+}
+
+/// Words on the other one of two, as words on one of several.
+std::string with_name(std::string_view words, std::uint16_t about)
+{
+    std::string text{words};
+    for (const std::string_view other : {"the other peer", "the other side"}) {
+        for (auto at = text.find(other); at != std::string::npos; at = text.find(other, at))
+            text.replace(at, other.size(), fmt::format("peer {}", about));
+    }
+    return text;
+}
+
+double longest_ms(const std::map<std::uint16_t, base::Duration>& round_trips)
+{
+    base::Duration longest{0};
+    for (const auto& [id, round_trip] : round_trips) longest = std::max(longest, round_trip);
+    return base::to_seconds(longest) * 1e3;
+}
+
+std::string line_of(const StatusLine& status, const StatusLine& before, bool is_pair)
 {
     const record::TickRow& tick = *status.tick;
     if (const auto trouble = describe(status.sending); !trouble.empty()) {
         return fmt::format("nothing can be sent to the other peer: {}", trouble);
     }
-    if (!status.session) {
-        if (status.is_met) return "agreeing on the start with the other peer";
-        return "waiting for the other peer; is it running, and is the emulator between the two?";
-    }
+    if (!status.session) return words_on_waiting(status.awaited, is_pair);
     const double at = base::to_seconds(tick.due - status.session->start);
     if (at < 0.0) return fmt::format("starts in {:.1f} s", -at);
     // Per 1000 ticks of the session, which are a second of it.
@@ -42,8 +68,8 @@ std::string line_of(const StatusLine& status, const StatusLine& before)
     return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube x {:+6.1f} mm  force {:4.2f} N  "
                        "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
                        at, base::to_seconds(status.session->length), phase, tick.cube.x() * 1e3,
-                       base::norm(tick.device), rate,
-                       base::to_seconds(status.session->offset_uncertainty) * 2e3, status.missed);
+                       base::norm(tick.device), rate, longest_ms(status.round_trips),
+                       status.missed);
 }
 
 } // namespace
@@ -110,10 +136,36 @@ std::string_view describe(line::News news)
     return "";
 }
 
-Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
-                 std::optional<record::Writer> writer, std::uint16_t peer_id)
-    : journal_{journal}, screen_{screen}, peer_id_{peer_id}, line_{STDERR_FILENO}
+std::string describe_in_circle(line::News news, std::uint16_t about)
 {
+    return with_name(describe(news), about);
+}
+
+std::string describe_in_circle(Event event, std::uint16_t about)
+{
+    switch (event) {
+    case Event::joined: return "joined the session under way; the cube is where the others have it";
+    case Event::lost:
+        return fmt::format("peer {} has been silent for 300 ms: zero force if its hand was on the "
+                           "cube, until it is back or has been silent for 1 s",
+                           about);
+    case Event::back: return fmt::format("peer {} is heard again", about);
+    case Event::left: return fmt::format("peer {} said goodbye: its hand is gone", about);
+    case Event::refused: return "the peers do not match: no session";
+    default: return with_name(describe(event), about);
+    }
+}
+
+Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
+                 std::optional<record::Writer> writer, std::uint16_t peer_id,
+                 std::vector<std::uint16_t> others)
+    : journal_{journal},
+      screen_{screen},
+      peer_id_{peer_id},
+      others_{std::move(others)},
+      line_{STDERR_FILENO}
+{
+    status_.awaited = others_;
     if (writer) recorder_.emplace(*std::move(writer));
 }
 
@@ -122,17 +174,30 @@ void Monitor::drain()
     while (const auto entry = journal_.take()) {
         if (const auto* row = std::get_if<record::Row>(&*entry)) {
             take(*row);
+        } else if (const auto* message = std::get_if<loop::HeardMessage>(&*entry)) {
+            ++status_.messages;
+            if (recorder_) recorder_->put(message->row());
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
-            if (event->event == Event::met) status_.is_met = true;
-            tell(event->at, describe(event->event));
+            on_event(*event);
         } else if (const auto* line = std::get_if<loop::TimedLineNews>(&*entry)) {
-            tell(line->at, describe(line->news));
+            tell(line->at, is_pair() ? std::string{describe(line->news)}
+                                     : describe_in_circle(line->news, line->about));
         } else {
             const auto& [news, at] = std::get<loop::TimedDeviceNews>(*entry);
             tell(at, describe(news));
         }
     }
     look_at_record();
+}
+
+void Monitor::on_event(const loop::TimedEvent& event)
+{
+    if (event.event == Event::met) {
+        std::erase_if(status_.awaited,
+                      [&](std::uint16_t id) { return is_pair() || id == event.about; });
+    }
+    tell(event.at, is_pair() ? std::string{describe(event.event)}
+                             : describe_in_circle(event.event, event.about));
 }
 
 void Monitor::take(const record::Row& row)
@@ -144,8 +209,7 @@ void Monitor::take(const record::Row& row)
         status_.missed += tick->missed_before;
     } else if (const auto* session = std::get_if<record::SessionRow>(&row)) {
         status_.session = *session;
-    } else {
-        ++status_.messages;
+        status_.round_trips[session->other] = 2 * session->offset_uncertainty;
     }
 }
 
@@ -206,7 +270,7 @@ void Monitor::show(base::TimePoint now)
     if (next_show_ && !base::is_due(next_show_, now)) return;
     const base::Duration every = line_.is_terminal() ? on_terminal_every : elsewhere_every;
     if (next_show_ || line_.is_terminal()) {
-        const std::string line = line_of(status_, shown_);
+        const std::string line = line_of(status_, shown_, is_pair());
         if (line_.is_terminal()) {
             screen_.put(line_.shown(fmt::format("hapnet-peer {}: {}", peer_id_, line)));
         } else {

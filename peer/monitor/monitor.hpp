@@ -9,17 +9,22 @@
 #include "proto/net/terminal_line.hpp"
 #include "proto/net/text_queue.hpp"
 
+#include <cstdint>
 #include <exception>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::peer::monitor {
 
 /// The values in the status line.
 struct StatusLine {
-    bool is_met = false; // the other peer has answered
+    std::vector<std::uint16_t> awaited; // the others that have not answered; 0: whoever does
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
+    std::map<std::uint16_t, base::Duration> round_trips; // the shortest, to each of the others
     std::uint64_t messages = 0;
     std::uint64_t ticks_in_session = 0;
     std::uint64_t missed = 0;
@@ -36,8 +41,9 @@ public:
     static constexpr base::Duration event_every{std::chrono::milliseconds{500}};
 
     /// Text goes to `screen`, which outlives it. `writer` may be empty.
+    /// `others`: the ids of the roster.
     Monitor(loop::Journal& journal, net::TextQueue& screen, std::optional<record::Writer> writer,
-            std::uint16_t peer_id);
+            std::uint16_t peer_id, std::vector<std::uint16_t> others = {0});
 
     /// Reads everything in the journal. When the record cannot be written any more (a full disk),
     /// it says so once and goes on without it.
@@ -68,6 +74,8 @@ public:
 private:
     void take(const record::Row& row);
     void look_at_record();
+    [[nodiscard]] bool is_pair() const { return others_.size() <= 1; }
+    void on_event(const loop::TimedEvent& event);
     void tell(base::TimePoint at, std::string_view words);
     void say(std::string_view text);
 
@@ -79,6 +87,7 @@ private:
     RateLimit events_{events_at_once, event_every};
     std::uint64_t events_left_out_ = 0;
     std::uint16_t peer_id_;
+    std::vector<std::uint16_t> others_;
     net::TerminalLine line_;
     StatusLine status_;
     StatusLine shown_;
@@ -88,10 +97,14 @@ private:
 /// Why nothing leaves, in words for a person; "" when it does, or soon will.
 [[nodiscard]] std::string_view describe(net::SendOutcome outcome);
 
-/// News of the line to the other peer in words, with what to do about it.
+/// News of the line to the other peer of two in words, with what to do about it.
 [[nodiscard]] std::string_view describe(line::News news);
 
-/// An event in words for a person.
+/// An event in a session of two in words for a person.
 [[nodiscard]] std::string_view describe(Event event);
+
+/// The same among more than two: whom it is about.
+[[nodiscard]] std::string describe_in_circle(line::News news, std::uint16_t about);
+[[nodiscard]] std::string describe_in_circle(Event event, std::uint16_t about);
 
 } // namespace hapnet::peer::monitor

@@ -15,7 +15,7 @@ namespace hapnet::peer::monitor {
 /// it keeps nobody else from anything. Rows that find no room are dropped and counted.
 class Recorder {
 public:
-    /// 8 s of ticks and messages: longer than any stall of a disk that we want to survive.
+    /// 8 s of ticks and messages of two peers, 2 s of eight: longer than most stalls of a disk.
     static constexpr std::size_t rows_max = 16384;
 
     explicit Recorder(record::Writer writer);

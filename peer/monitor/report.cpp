@@ -9,6 +9,8 @@
 #include "proto/net/clock.hpp"
 #include "scene/text/text.hpp"
 
+#include <algorithm>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::peer::monitor {
@@ -46,6 +48,18 @@ json tick_json(const loop::LoopCounters& loop)
               {"max", microseconds(loop.late.max())}}}};
 }
 
+std::span<const loop::OtherStatus> others_of(const loop::ServoStatus& status)
+{
+    return std::span{status.others}.first(status.others_count);
+}
+
+std::uint64_t strangers_of(const loop::ServoStatus& status)
+{
+    std::uint64_t strangers = 0;
+    for (const loop::OtherStatus& other : others_of(status)) strangers += other.line.strangers;
+    return strangers;
+}
+
 json messages_json(const Run& run)
 {
     const Counters& c = run.status.messages;
@@ -58,15 +72,14 @@ json messages_json(const Run& run)
             {"malformed", c.malformed},
             {"other_version", c.other_version},
             {"implausible", c.implausible},
-            {"strangers", run.status.line.strangers},
+            {"strangers", strangers_of(run.status)},
             {"overflowed", run.status.overflowed},
             {"send_failed", run.status.loop.send_failures}};
 }
 
 /// null without a key.
-json secure_json(const Run& run)
+json secure_json(const std::optional<line::Status::Key>& key)
 {
-    const auto& key = run.status.line.key;
     if (!key) return nullptr;
     const secure::Association::Counts& c = key->counts;
     json out{{"agreed", key->is_agreed},
@@ -90,18 +103,39 @@ json secure_json(const Run& run)
     return out;
 }
 
+/// All keys together: counts are sums, and there is an agreement when there is one with each.
+std::optional<line::Status::Key> all_keys(const loop::ServoStatus& status)
+{
+    std::optional<line::Status::Key> all;
+    for (const loop::OtherStatus& other : others_of(status)) {
+        const auto& key = other.line.key;
+        if (!key) continue;
+        if (!all) {
+            all = key;
+            continue;
+        }
+        all->is_agreed = all->is_agreed && key->is_agreed;
+        if (key->age) all->age = std::max(all->age.value_or(*key->age), *key->age);
+        all->counts += key->counts;
+        all->misnamed += key->misnamed;
+    }
+    return all;
+}
+
 json session_json(const Run& run)
 {
     const auto& session = run.status.session;
     if (!session) return nullptr;
+    // Among more than two, number and clock are of each other: see others[].
+    const bool is_pair = run.status.is_pair();
     const auto& clock = run.status.others.front().clock;
-    json out{{"number", session->number},
+    json out{{"number", is_pair ? json(session->number) : json{}},
              {"seed", session->seed},
-             {"role", session->is_left ? "L" : "R"},
+             {"role", run.status.is_left ? "L" : "R"},
              {"joined_late", session->joined_late},
              {"clock_offset_ms", nullptr},
              {"clock_uncertainty_ms", nullptr}};
-    if (clock) {
+    if (is_pair && clock) {
         out["clock_offset_ms"] = base::to_seconds(clock->offset) * 1e3;
         out["clock_uncertainty_ms"] = base::to_seconds(clock->uncertainty) * 1e3;
     }
@@ -141,8 +175,7 @@ json clock_json(const loop::OtherStatus& other)
 json others_json(const loop::ServoStatus& status)
 {
     json out = json::array();
-    for (std::size_t i = 0; i < status.others_count; ++i) {
-        const loop::OtherStatus& other = status.others.at(i);
+    for (const loop::OtherStatus& other : others_of(status)) {
         const ArrivalCounts& arrived = other.paths.arrived;
         json in = path_json(other.paths.in);
         in["sent"] = arrived.sent;
@@ -151,9 +184,12 @@ json others_json(const loop::ServoStatus& status)
         in["reordered"] = arrived.reordered;
         in["loss"] = arrived.loss ? json(*arrived.loss) : json{};
         out.push_back({{"id", other.id != 0 ? json(other.id) : json{}},
+                       {"session", other.session != 0 ? json(other.session) : json{}},
+                       {"heard", other.is_heard},
                        {"clock", clock_json(other)},
                        {"in", std::move(in)},
-                       {"out", path_json(other.paths.out)}});
+                       {"out", path_json(other.paths.out)},
+                       {"secure", secure_json(other.line.key)}});
     }
     return out;
 }
@@ -254,13 +290,19 @@ std::string_view words_on_phase(const loop::ServoStatus& status)
 {
     switch (status.phase) {
     case record::Phase::waiting:
-        return "waiting for the other peer; is it running, and is the emulator between the two?";
+        return status.is_pair() ? "waiting for the other peer; is it running, and is the emulator "
+                                  "between the two?"
+                                : "waiting for the other peers; are they running, and is the "
+                                  "emulator between all?";
     case record::Phase::countdown: return "the session starts within a second";
     case record::Phase::running:
-        return status.is_remote_heard ? "in session"
-                                      : "in session, but the other peer is silent: zero force";
+        if (status.is_remote_heard) return "in session";
+        return status.is_pair() ? "in session, but the other peer is silent: zero force"
+                                : "in session, but all other peers are silent: zero force";
     case record::Phase::hands_off: return "in session, hands off";
-    case record::Phase::alone: return "the other peer has said goodbye: alone, with zero force";
+    case record::Phase::alone:
+        return status.is_pair() ? "the other peer has said goodbye: alone, with zero force"
+                                : "all others have said goodbye: alone, with zero force";
     case record::Phase::ended: return "the session has ended";
     }
     return "";
@@ -307,9 +349,20 @@ Ordered shown_session(const Run& run)
 {
     const auto& session = run.status.session;
     if (!session) return nullptr;
-    return {{"number", session->number},
-            {"role", session->is_left ? "L" : "R"},
+    return {{"number", run.status.is_pair() ? Ordered(session->number) : Ordered{}},
+            {"role", run.status.is_left ? "L" : "R"},
             {"at_s", base::to_seconds(run.status.at - session->start)}};
+}
+
+Ordered shown_others(const loop::ServoStatus& status)
+{
+    auto out = Ordered::array();
+    for (const loop::OtherStatus& other : others_of(status)) {
+        out.push_back({{"id", other.id != 0 ? Ordered(other.id) : Ordered{}},
+                       {"heard", other.is_heard},
+                       {"gone", other.is_gone}});
+    }
+    return out;
 }
 
 Ordered shown_fault(const loop::ServoStatus& status)
@@ -317,6 +370,12 @@ Ordered shown_fault(const loop::ServoStatus& status)
     if (!is_at_fault(status)) return nullptr;
     return {{"fault", device::name_of(status.fault.fault)},
             {"tripped_by", device::name_of(status.fault.trip)}};
+}
+
+/// Of the roster: 0 is whoever answers.
+json ids_of(const Options& options)
+{
+    return options.others.empty() ? json::array() : json(options.roster().others);
 }
 
 } // namespace
@@ -342,6 +401,8 @@ json configuration_json(const Options& options, std::string_view device)
             {"operator", simulated ? json(options.device.person.name) : json{}},
             {"operator_toml", simulated ? json(print_operator(options.device.person)) : json{}},
             {"duration_s", base::to_seconds(options.duration)},
+            {"peers", ids_of(options)},
+            {"wait_for", options.wait_for},
             {"tick_ns", 1'000'000},
             {"wire", wire::protocol_version},
             {"boot_id", net::boot_id()},
@@ -354,12 +415,12 @@ json statistics_json(const Run& run)
     out.erase("started_unix_s");
     out["session"] = session_json(run);
     out["others"] = others_json(run.status);
-    out["secure"] = secure_json(run);
+    out["secure"] = secure_json(all_keys(run.status));
     out["tick"] = tick_json(run.status.loop);
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);
     out["energy"] = energy_json(run.status);
-    out["record_rows_lost"] = run.rows_lost + run.status.loop.unrecorded;
+    out["record_rows_lost"] = run.rows_lost + run.status.loop.unrecorded + run.status.loop.too_long;
     out["texts_lost"] = run.texts_lost;
     out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
     out["real_time"] = {{"fifo", run.status.real_time.fifo},
@@ -390,6 +451,7 @@ Ordered show_json(const Run& run, const Recovery& recovery)
             {"phase", record::name_of(status.phase)},
             {"remote_heard", status.is_remote_heard},
             {"session", shown_session(run)},
+            {"others", shown_others(status)},
             {"force_n", base::norm(status.force)},
             {"governor", device::name_of(status.governor_state)},
             {"force_withheld", status.withheld != loop::Withheld::no},
@@ -427,6 +489,11 @@ std::string summary(const Run& run)
         text += fmt::format("hapnet-peer {}: a flood of {} datagrams that had no effect was left "
                             "out of the record\n",
                             run.options.id, left_out);
+    }
+    if (loop.too_long > 0 && run.options.record) {
+        text += fmt::format("hapnet-peer {}: {} messages were longer than any of this scene, and "
+                            "were left out of the record\n",
+                            run.options.id, loop.too_long);
     }
     if (run.texts_lost > 0) {
         text += fmt::format("hapnet-peer {}: {} messages were lost, as they were not read\n",

@@ -24,27 +24,38 @@ consteval std::size_t used_bytes()
 }
 
 static_assert(used_bytes<TickRow>() <= row_bytes);
-static_assert(used_bytes<MessageRow>() <= row_bytes);
 static_assert(used_bytes<SessionRow>() <= row_bytes);
 
-bool is_consistent(const TickRow&) { return true; }
-bool is_consistent(const MessageRow& row) { return row.size <= MessageRow::bytes_max; }
-bool is_consistent(const SessionRow&) { return true; }
+/// Calls visit(name, field) for the fields of a row that files of this layout have.
+template <typename R>
+void for_each_field_of(const Layout& layout, R& row, const auto& visit)
+{
+    for_each_field(row, [&]<typename T>(std::string_view name, T& field) {
+        const bool is_newer =
+            name == "from" || name == "other" || name == "noted_at" || name == "remote_skew_ppm";
+        if (layout.version > 2 || !is_newer) visit(name, field);
+    });
+}
 
 template <typename R>
-base::Result<Row> decode_fields(base::ByteReader& in)
+base::Result<Row> decode_fields(base::ByteReader in, std::size_t size, const Layout& layout)
 {
     R row;
     std::string_view refused;
-    for_each_field(row, [&]<typename T>(std::string_view name, T& field) {
+    std::size_t used = sizeof(kind_code<R>);
+    for_each_field_of(layout, row, [&]<typename T>(std::string_view name, T& field) {
         if (!FieldType<T>::take(in, field) && refused.empty()) refused = name;
+        used += FieldType<T>::bytes;
     });
+    if constexpr (std::is_same_v<R, MessageRow>) {
+        if (refused == "bytes") return base::fail("a message longer than its row");
+        used += row.bytes.size();
+    }
     if (!refused.empty()) {
         return base::fail(
             fmt::format("impossible value of '{}' in a {} row", refused, base::described_name<R>));
     }
-    if (!is_consistent(row)) return base::fail("a message longer than its row");
-    const auto padding = in.raw(row_bytes - used_bytes<R>());
+    const auto padding = in.raw(size - used);
     if (std::ranges::any_of(padding, [](std::byte b) { return b != std::byte{0}; })) {
         return base::fail(fmt::format("padding of a {} row is not zero", base::described_name<R>));
     }
@@ -53,33 +64,47 @@ base::Result<Row> decode_fields(base::ByteReader& in)
 
 } // namespace
 
-RowBytes encode(const Row& row)
+std::optional<std::size_t> Layout::bytes_of(std::byte kind) const
 {
-    RowBytes bytes{};
-    base::ByteWriter out{bytes};
+    switch (std::to_integer<std::uint8_t>(kind)) {
+    case kind_code<TickRow>:
+    case kind_code<SessionRow>: return row_bytes;
+    case kind_code<MessageRow>: return message_row_bytes;
+    default: return std::nullopt;
+    }
+}
+
+RowBytes encode(const Row& row, const Layout& layout)
+{
+    RowBytes bytes;
     std::visit(
         [&]<typename R>(const R& fields) {
-            base::ensure(is_consistent(fields));
+            if constexpr (std::is_same_v<R, MessageRow>)
+                base::ensure(fields.bytes.size() <= layout.message_bytes_max());
+            bytes.resize(*layout.bytes_of(std::byte{kind_code<R>}));
+            base::ByteWriter out{bytes};
             out.u8(kind_code<R>);
-            for_each_field(fields, [&]<typename T>(std::string_view, const T& field) {
-                FieldType<T>::put(out, field);
+            for_each_field_of(layout, fields, [&]<typename T>(std::string_view, const T& field) {
+                FieldType<std::remove_const_t<T>>::put(out, field);
             });
         },
         row);
     return bytes;
 }
 
-base::Result<Row> decode(std::span<const std::byte> bytes)
+base::Result<Row> decode(std::span<const std::byte> bytes, const Layout& layout)
 {
-    if (bytes.size() != row_bytes) {
-        return base::fail(fmt::format("a row of {} bytes instead of {}", bytes.size(), row_bytes));
-    }
+    if (bytes.empty()) return base::fail("a row of 0 bytes");
+    const auto size = layout.bytes_of(bytes.front());
     base::ByteReader in{bytes};
-    switch (const std::uint8_t kind = in.u8()) {
-    case kind_code<TickRow>: return decode_fields<TickRow>(in);
-    case kind_code<MessageRow>: return decode_fields<MessageRow>(in);
-    case kind_code<SessionRow>: return decode_fields<SessionRow>(in);
-    default: return base::fail(fmt::format("unknown kind of row {}", kind));
+    const std::uint8_t kind = in.u8();
+    if (!size) return base::fail(fmt::format("unknown kind of row {}", kind));
+    if (bytes.size() != *size)
+        return base::fail(fmt::format("a row of {} bytes instead of {}", bytes.size(), *size));
+    switch (kind) {
+    case kind_code<TickRow>: return decode_fields<TickRow>(in, *size, layout);
+    case kind_code<MessageRow>: return decode_fields<MessageRow>(in, *size, layout);
+    default: return decode_fields<SessionRow>(in, *size, layout);
     }
 }
 

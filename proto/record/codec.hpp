@@ -5,23 +5,53 @@
 #include "proto/base/result.hpp"
 #include "proto/record/rows.hpp"
 
-#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace hapnet::record {
 
-/// Every row takes this many bytes, so that the n-th row is found without reading those before.
+/// A row of a tick or a session takes this many bytes.
 inline constexpr std::size_t row_bytes = 216;
+/// Of a row of a message, those before the message.
+inline constexpr std::size_t message_head_bytes = 21;
 
-using RowBytes = std::array<std::byte, row_bytes>;
+/// How the rows of a file are laid out: all rows of one kind have one length.
+struct Layout {
+    /// Version 2 has no `from` in its messages, and less in its session rows.
+    static constexpr int version_min = 2;
+    static constexpr int version_now = 3;
+
+    int version = version_now;
+    std::size_t message_row_bytes = message_head_bytes + MessageRow::bytes_max;
+
+    /// For messages of so many bytes at most.
+    [[nodiscard]] static constexpr Layout for_messages_of(std::size_t bytes)
+    {
+        return {.message_row_bytes = message_head_bytes + bytes};
+    }
+    [[nodiscard]] static constexpr Layout of_version_2()
+    {
+        return {.version = 2, .message_row_bytes = row_bytes};
+    }
+    /// The longest message that has room.
+    [[nodiscard]] constexpr std::size_t message_bytes_max() const
+    {
+        return message_row_bytes - message_head_bytes + (version == 2 ? 2 : 0);
+    }
+    /// The length of a row that begins with this byte; nullopt: there is no such kind.
+    [[nodiscard]] std::optional<std::size_t> bytes_of(std::byte kind) const;
+};
+
+using RowBytes = std::vector<std::byte>;
 
 /// One byte for the kind of the row, its fields (fields.hpp) little-endian and unaligned, then
-/// zeros. A MessageRow's size must be within its bounds; times beyond 36 years are written, but
-/// decode() refuses them.
-[[nodiscard]] RowBytes encode(const Row& row);
+/// zeros. A message must be within its bounds; times beyond 36 years are written, but decode()
+/// refuses them.
+[[nodiscard]] RowBytes encode(const Row& row, const Layout& layout = {});
 
 /// Refuses whatever encode() would not write: accepted bytes re-encode to themselves.
-[[nodiscard]] base::Result<Row> decode(std::span<const std::byte> bytes);
+[[nodiscard]] base::Result<Row> decode(std::span<const std::byte> bytes, const Layout& layout = {});
 
 } // namespace hapnet::record

@@ -108,7 +108,7 @@ struct FieldType<base::Duration> {
 
 template <>
 struct FieldType<base::TimePoint> {
-    static constexpr std::string_view type = "i64", unit = "ns of CLOCK_MONOTONIC";
+    static constexpr std::string_view type = "i64", unit = "ns of CLOCK_BOOTTIME";
     static constexpr std::size_t bytes = 8;
     static void put(base::ByteWriter& out, base::TimePoint value)
     {
@@ -158,15 +158,32 @@ struct FieldType<base::Force> : VectorFieldType<base::Force> {
 };
 
 template <>
-struct FieldType<std::array<std::byte, MessageRow::bytes_max>> {
-    using Bytes = std::array<std::byte, MessageRow::bytes_max>;
-    static constexpr std::string_view type = "u8[160]", unit = "";
-    static constexpr std::size_t bytes = MessageRow::bytes_max;
-    static void put(base::ByteWriter& out, const Bytes& value) { out.raw(value); }
-    static bool take(base::ByteReader& in, Bytes& value)
+struct FieldType<double> {
+    static constexpr std::string_view type = "f64", unit = "";
+    static constexpr std::size_t bytes = 8;
+    static void put(base::ByteWriter& out, double value) { out.f64(value); }
+    static bool take(base::ByteReader& in, double& value)
     {
-        for (std::byte& b : value) b = std::byte{in.u8()};
+        value = in.f64();
         return true;
+    }
+};
+
+/// A length, then so many bytes.
+template <>
+struct FieldType<std::vector<std::byte>> {
+    static constexpr std::string_view type = "u16 n, u8[n]", unit = "";
+    static constexpr std::size_t bytes = 2; // at least
+    static void put(base::ByteWriter& out, const std::vector<std::byte>& value)
+    {
+        out.u16(static_cast<std::uint16_t>(value.size()));
+        out.raw(value);
+    }
+    static bool take(base::ByteReader& in, std::vector<std::byte>& value)
+    {
+        const auto taken = in.raw(in.u16());
+        value.assign(taken.begin(), taken.end());
+        return in.ok();
     }
 };
 

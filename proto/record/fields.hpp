@@ -24,8 +24,8 @@ constexpr auto fields_of(base::Tag<TickRow>)
         base::member("missed_before", &TickRow::missed_before,
                      "ticks skipped between the row before and this one"),
         base::member("sent_sequence", &TickRow::sent_sequence,
-                     "sequence of the state message sent in this tick; 1 is the first of a "
-                     "session, 0: none sent"),
+                     "sequence of the state message sent in this tick to the first of the others; "
+                     "1 is the first of a session, 0: none sent"),
         base::member("phase", &TickRow::phase, "of the session, as this peer sees it"),
         base::member("touching", &TickRow::touching, "whether this hand touches the body"),
         base::member("remote_touching", &TickRow::remote_touching,
@@ -58,8 +58,10 @@ constexpr auto fields_of(base::Tag<MessageRow>)
     return base::fields(
         "message", base::member("tick", &MessageRow::tick, "tick that read it from the socket"),
         base::member("received_at", &MessageRow::received_at, "the kernel's receive stamp"),
-        base::member("size", &MessageRow::size, "length of the datagram; at most 160"),
-        base::member("bytes", &MessageRow::bytes, "the datagram, then zeros"));
+        base::member("from", &MessageRow::from,
+                     "id of the peer that it came from; 0: not known yet. Not in version 2"),
+        base::member("bytes", &MessageRow::bytes,
+                     "its length in two bytes, then the message; zeros fill the row"));
 }
 
 constexpr auto fields_of(base::Tag<SessionRow>)
@@ -73,7 +75,11 @@ constexpr auto fields_of(base::Tag<SessionRow>)
         base::member("offset_uncertainty", &SessionRow::offset_uncertainty,
                      "bound of the error of `remote_offset`"),
         base::member("session", &SessionRow::session, "its number, as in the messages"),
-        base::member("seed", &SessionRow::seed, "the seed that counts: that of the lower id"));
+        base::member("seed", &SessionRow::seed, "the seed that counts: that of the lowest id"),
+        base::member("other", &SessionRow::other, "id of the other; from here on not in version 2"),
+        base::member("noted_at", &SessionRow::noted_at, "when `remote_offset` held"),
+        base::member("remote_skew_ppm", &SessionRow::remote_skew_ppm,
+                     "by how much the remote's clock runs faster, in parts per million"));
 }
 
 /// Calls visit(name, field) for every field of a row.

@@ -7,12 +7,11 @@
 #include "proto/record/fields.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <vector>
 
 namespace hapnet::record {
 
 namespace {
-
-constexpr int version = 2;
 
 template <typename R>
 nlohmann::json schema_of()
@@ -30,12 +29,13 @@ nlohmann::json schema_of()
     return {{"kind", unsigned{kind_code<R>}}, {"fields", std::move(fields)}};
 }
 
-/// All of the header that is the same in every record of this format.
-nlohmann::json layout()
+/// All of the header that is the same in every record of this layout.
+nlohmann::json description_of(const Layout& layout)
 {
     return {{"format", "hapnet-record"},
-            {"version", version},
+            {"version", layout.version},
             {"row_bytes", row_bytes},
+            {"message_row_bytes", layout.message_row_bytes},
             {"byte_order", "little"},
             {"schema",
              {{base::described_name<TickRow>, schema_of<TickRow>()},
@@ -45,11 +45,12 @@ nlohmann::json layout()
 
 } // namespace
 
-std::string header_line(const nlohmann::json& config)
+std::string header_line(const nlohmann::json& config, const Layout& layout)
 {
-    const auto ours = layout();
+    const auto ours = description_of(layout);
     nlohmann::ordered_json header; // the format stands first, for whoever looks into the file
-    for (const char* key : {"format", "version", "row_bytes", "byte_order", "schema"}) {
+    for (const char* key :
+         {"format", "version", "row_bytes", "message_row_bytes", "byte_order", "schema"}) {
         header[key] = ours[key];
     }
     header["config"] = config;
@@ -57,31 +58,44 @@ std::string header_line(const nlohmann::json& config)
     return header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-base::Result<nlohmann::json> parse_header(std::string_view line)
+base::Result<Header> parse_header(std::string_view line)
 {
     const auto header = nlohmann::json::parse(line, nullptr, false);
-    const auto ours = layout();
-    const bool is_record =
-        header.is_object() && header.value("format", nlohmann::json{}) == ours["format"];
-    const auto found = is_record ? header.value("version", nlohmann::json{}) : nlohmann::json{};
-    if (found.is_number_integer() && found != version) {
-        return base::fail(fmt::format("it is of version {}, and this program reads version {}: use "
-                                      "the hapnet-lab of the release that wrote it",
-                                      found.dump(), version));
+    auto layout = Layout::for_messages_of(MessageRow::bytes_max);
+    const auto found = [&header](const char* key) {
+        return header.is_object() ? header.value(key, nlohmann::json{}) : nlohmann::json{};
+    };
+    const bool is_record = found("format") == "hapnet-record";
+    if (const auto version = found("version"); is_record && version.is_number_integer()) {
+        if (version < Layout::version_min || version > Layout::version_now) {
+            return base::fail(fmt::format("it is of version {}, and this program reads versions {} "
+                                          "to {}: use the hapnet-lab of the release that wrote it",
+                                          version.dump(), Layout::version_min,
+                                          Layout::version_now));
+        }
+        if (version == 2) layout = Layout::of_version_2();
     }
-    for (const char* key : {"format", "version", "row_bytes", "byte_order"}) {
-        if (!header.is_object() || !header.contains(key) || header[key] != ours[key]) {
+    if (const auto bytes = found("message_row_bytes"); bytes.is_number_unsigned()) {
+        const auto most = layout.message_row_bytes;
+        if (bytes < message_head_bytes || bytes > most)
+            return base::fail(fmt::format("\"message_row_bytes\" is not from {} to {}",
+                                          message_head_bytes, most));
+        layout.message_row_bytes = bytes.get<std::size_t>();
+    }
+    const auto ours = description_of(layout);
+    std::vector<const char*> keys{"format", "version", "row_bytes", "byte_order"};
+    if (layout.version > 2) keys.push_back("message_row_bytes");
+    for (const char* key : keys) {
+        if (found(key) != ours[key]) {
             return base::fail(
                 fmt::format("expected a JSON line with \"{}\":{}", key, ours[key].dump()));
         }
     }
-    if (!header.contains("schema") || header["schema"] != ours["schema"]) {
-        return base::fail(fmt::format("its schema is not that of version {}", version));
-    }
-    if (!header.contains("config") || !header["config"].is_object()) {
+    if (layout.version > 2 && found("schema") != ours["schema"])
+        return base::fail(fmt::format("its schema is not that of version {}", layout.version));
+    if (!found("config").is_object())
         return base::fail("expected an object \"config\" in its header");
-    }
-    return header["config"];
+    return Header{header["config"], layout};
 }
 
 } // namespace hapnet::record

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/result.hpp"
+#include "proto/record/codec.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,10 +13,14 @@ namespace hapnet::record {
 
 /// The first line of a record, without its end of line: JSON that names the format, describes
 /// every field of every row (type, offset, unit) and carries `config`, the configuration of the
-/// peer that writes.
-[[nodiscard]] std::string header_line(const nlohmann::json& config);
+/// peer that writes. The layout is of the newest version.
+[[nodiscard]] std::string header_line(const nlohmann::json& config, const Layout& layout = {});
 
-/// The `config` of a header line; refuses a header of another format or layout.
-[[nodiscard]] base::Result<nlohmann::json> parse_header(std::string_view line);
+struct Header {
+    nlohmann::json config;
+    Layout layout;
+};
+/// Refuses a header of another format or layout.
+[[nodiscard]] base::Result<Header> parse_header(std::string_view line);
 
 } // namespace hapnet::record

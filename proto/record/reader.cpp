@@ -47,18 +47,30 @@ base::Result<Record> read(const std::string& path)
     std::ifstream file{path, std::ios::binary};
     if (!file) return base::fail(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
 
-    auto config = parse_header(read_header_line(file));
-    if (!config) {
+    auto header = parse_header(read_header_line(file));
+    if (!header) {
         return base::fail(
-            fmt::format("{} is not a record that can be read: {}", path, config.error().message));
+            fmt::format("{} is not a record that can be read: {}", path, header.error().message));
     }
-    Record record{
-        .config = std::move(*config), .ticks{}, .messages{}, .sessions{}, .ticks_before_session{}};
-    RowBytes bytes{};
+    const Layout layout = header->layout;
+    Record record{.config = std::move(header->config),
+                  .ticks{},
+                  .messages{},
+                  .sessions{},
+                  .ticks_before_session{}};
+    RowBytes bytes;
     for (std::size_t number = 1;; ++number) {
-        file.read(reinterpret_cast<char*>(bytes.data()), row_bytes);
-        if (file.gcount() != static_cast<std::streamsize>(row_bytes)) break;
-        const auto row = decode(bytes);
+        char kind{};
+        if (!file.get(kind)) break;
+        // Of a kind that there is not, one byte is enough to say so.
+        bytes.assign(layout.bytes_of(std::byte(kind)).value_or(1), std::byte(kind));
+        const auto rest = static_cast<std::streamsize>(bytes.size()) - 1;
+        file.read(reinterpret_cast<char*>(bytes.data() + 1), rest);
+        if (file.gcount() != rest) {
+            record.cut_off = true;
+            break;
+        }
+        const auto row = decode(bytes, layout);
         if (!row) {
             return base::fail(
                 fmt::format("{}: row {} is damaged: {}", path, number, row.error().message));
@@ -67,7 +79,6 @@ base::Result<Record> read(const std::string& path)
     }
     if (file.bad())
         return base::fail(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
-    record.cut_off = file.gcount() != 0;
     return record;
 }
 

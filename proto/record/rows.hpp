@@ -6,11 +6,10 @@
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <variant>
+#include <vector>
 
 namespace hapnet::record {
 
@@ -40,7 +39,8 @@ struct TickRow {
     base::Duration late{};
     /// Ticks skipped between the row before and this one.
     std::uint32_t missed_before = 0;
-    /// Sequence of the state message sent in this tick; 1 is the first of a session, 0: none sent.
+    /// Sequence of the state message sent in this tick to the first of the others; 1 is the first
+    /// of a session, 0: none sent.
     std::uint32_t sent_sequence = 0;
     Phase phase = Phase::waiting;
     bool touching = false;
@@ -76,38 +76,41 @@ struct TickRow {
     friend bool operator==(const TickRow&, const TickRow&) = default;
 };
 
-/// A state message as it came from the remote, undecoded.
+/// A message as it came from another peer, undecoded.
 struct MessageRow {
-    static constexpr std::size_t bytes_max = 160;
+    /// Longer than any message of ours: a state with eight bodies that turn has 838.
+    static constexpr std::size_t bytes_max = 838;
 
     /// The tick that read it from the socket.
     std::uint64_t tick = 0;
     /// The kernel's receive stamp.
     base::TimePoint received_at{};
-    /// The size of the datagram in `bytes`; at most bytes_max.
-    std::uint16_t size = 0;
-    std::array<std::byte, bytes_max> bytes{};
-
-    [[nodiscard]] std::span<const std::byte> datagram() const
-    {
-        return std::span{bytes}.first(size);
-    }
+    /// The id of the peer that it came from; 0: not known yet.
+    std::uint16_t from = 0;
+    std::vector<std::byte> bytes{};
 
     friend bool operator==(const MessageRow&, const MessageRow&) = default;
 };
 
-/// The agreement of both peers; written when T0 is agreed and whenever any of it changes.
+/// What this peer and another have agreed on; written when the start is agreed, whenever any of it
+/// changes, and every second.
 struct SessionRow {
     /// T0 on this peer's clock.
     base::TimePoint start{};
     base::Duration length{};
-    /// The remote's clock minus this clock.
+    /// The other's clock minus this clock.
     base::Duration remote_offset{};
     /// Bound of the error of `remote_offset`.
     base::Duration offset_uncertainty{};
     std::uint32_t session = 0;
-    /// The seed that counts: that of the lower id.
+    /// The seed that counts: that of the lowest id.
     std::uint64_t seed = 0;
+    /// The id of the other; 0: not said, as in records of version 2.
+    std::uint16_t other = 0;
+    /// When `remote_offset` held, on this clock.
+    base::TimePoint noted_at{};
+    /// By how much the other's clock runs faster, in parts per million.
+    double remote_skew_ppm = 0.0;
 
     friend bool operator==(const SessionRow&, const SessionRow&) = default;
 };

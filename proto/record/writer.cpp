@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "proto/record/writer.hpp"
 
-#include "proto/record/codec.hpp"
 #include "proto/record/header.hpp"
 
 #include <cerrno>
@@ -37,18 +36,18 @@ std::FILE* open_alone(const std::string& path)
 
 } // namespace
 
-Writer::Writer(std::string path, const nlohmann::json& config)
-    : path_{std::move(path)}, file_{open_alone(path_)}
+Writer::Writer(std::string path, const nlohmann::json& config, const Layout& layout)
+    : path_{std::move(path)}, layout_{layout}, file_{open_alone(path_)}
 {
     if (!file_) refuse(errno == EWOULDBLOCK ? "create (another program is writing)" : "create");
-    const std::string header = header_line(config) + '\n';
+    const std::string header = header_line(config, layout_) + '\n';
     put(header.data(), header.size());
     flush();
 }
 
 void Writer::write(const Row& row)
 {
-    const RowBytes bytes = encode(row);
+    const RowBytes bytes = encode(row, layout_);
     put(bytes.data(), bytes.size());
 }
 

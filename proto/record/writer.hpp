@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "proto/record/rows.hpp"
+#include "proto/record/codec.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -16,8 +16,9 @@ namespace hapnet::record {
 /// thread. All of it throws std::system_error, naming the file, when the file refuses.
 class Writer {
 public:
-    /// Creates the file, or empties it, and writes the header at once.
-    Writer(std::string path, const nlohmann::json& config);
+    /// Creates the file, or empties it, and writes the header at once. A message of a row must have
+    /// room in the layout.
+    Writer(std::string path, const nlohmann::json& config, const Layout& layout = {});
 
     void write(const Row& row);
     void flush();
@@ -31,6 +32,7 @@ private:
     [[noreturn]] void refuse(const char* what) const;
 
     std::string path_;
+    Layout layout_;
     std::unique_ptr<std::FILE, Close> file_;
 };
 

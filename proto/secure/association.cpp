@@ -84,14 +84,43 @@ KeyIndex Association::fresh_index()
     }
 }
 
-Association::Epoch* Association::epoch_of(KeyIndex index)
+const Association::Epoch* Association::epoch_of(KeyIndex index) const
 {
-    for (auto* epoch : {&current_, &next_, &previous_})
+    for (const auto* epoch : {&current_, &next_, &previous_})
         if (*epoch && (*epoch)->own == index) return &**epoch;
     return nullptr;
 }
 
+Association::Epoch* Association::epoch_of(KeyIndex index)
+{
+    return const_cast<Epoch*>(std::as_const(*this).epoch_of(index)); // NOLINT(*-const-cast)
+}
+
+Association::Counts& Association::Counts::operator+=(const Counts& other)
+{
+    for (const auto count :
+         {&Counts::handshakes, &Counts::rekeys, &Counts::forged, &Counts::replayed,
+          &Counts::unsealed, &Counts::unknown_key, &Counts::other_circle, &Counts::refused,
+          &Counts::cookies, &Counts::roamed, &Counts::not_sealed})
+        this->*count += other.*count;
+    last_handshake = std::max(last_handshake, other.last_handshake);
+    return *this;
+}
+
 // --- what comes ---
+
+bool Association::is_named_by(Bytes datagram) const
+{
+    const auto is_handshake = [this](KeyIndex index) {
+        return initiating_ && initiating_->own == index;
+    };
+    if (const auto index = key_of(datagram)) return epoch_of(*index) != nullptr;
+    if (const auto initiation = read_initiation(datagram))
+        return initiation->ends == Ends{config_.other_id, config_.own_id};
+    if (const auto response = read_response(datagram)) return is_handshake(response->receiver);
+    const auto cookie = read_cookie_reply(datagram);
+    return cookie && is_handshake(cookie->receiver);
+}
 
 std::optional<Association::Received>
 Association::on_datagram(std::span<std::byte> datagram, const Place& from, base::TimePoint now)

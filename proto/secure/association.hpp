@@ -69,6 +69,10 @@ public:
     Association& operator=(const Association&) = delete;
     ~Association() = default;
 
+    /// Whether a datagram says that it is for these two: it names a key or a handshake of theirs,
+    /// or is a handshake's beginning from the one to the other. Nothing is proved by that.
+    [[nodiscard]] bool is_named_by(Bytes datagram) const;
+
     /// A message that was opened: the first bytes of the datagram are the plain message.
     struct Received {
         std::size_t size = 0;
@@ -109,6 +113,9 @@ public:
         std::uint64_t roamed = 0;
         std::uint64_t not_sealed = 0;    // own messages for which there was no key
         base::Duration last_handshake{}; // how long the last one took that this side began
+
+        /// Of several associations together; of the times the longest.
+        Counts& operator+=(const Counts& other);
     };
     [[nodiscard]] const Counts& counts() const { return counts_; }
 
@@ -192,6 +199,7 @@ private:
     [[nodiscard]] bool is_lower() const { return config_.own_id < config_.other_id; }
     [[nodiscard]] std::uint32_t session_with(std::uint32_t other_run) const;
     [[nodiscard]] KeyIndex fresh_index();
+    [[nodiscard]] const Epoch* epoch_of(KeyIndex index) const;
     [[nodiscard]] Epoch* epoch_of(KeyIndex index);
 
     Config config_;

@@ -130,6 +130,66 @@ play_session() {
     stop_children
 }
 
+# start_links FOLDER PEERS OPTION...: an emulator with a link for every two of so many peers. Sets
+# emulator, and places: peer 1 sends to ${places[1-2]} what is for peer 2.
+declare -A places=()
+start_links() {
+    local folder=$1 peers=$2 links=() ready='' i j word
+    for ((i = 1; i < peers; i++)); do
+        for ((j = i + 1; j <= peers; j++)); do
+            links+=(--link "$i-$j=127.0.0.1:0,127.0.0.1:0")
+        done
+    done
+    "${bin:?}/hapnet-emulator" "${links[@]}" "${@:3}" --stats "$folder/emulator.json" \
+        >"$folder/emulator.out" 2>"$folder/emulator.log" &
+    emulator=$!
+    children+=("$emulator")
+    for _ in {1..100}; do
+        ready=$(grep -s -m 1 '^ready ' "$folder/emulator.out" || true)
+        [[ -z $ready ]] || break
+        kill -0 "$emulator" 2>/dev/null || break
+        sleep 0.05
+    done
+    [[ -n $ready ]] || fail "the emulator did not start:" "$folder/emulator.log"
+    for word in $ready; do
+        [[ $word =~ ^([0-9]+)-([0-9]+)=([^,]+),(.+)$ ]] || continue
+        places[${BASH_REMATCH[1]}-${BASH_REMATCH[2]}]=${BASH_REMATCH[3]}
+        places[${BASH_REMATCH[2]}-${BASH_REMATCH[1]}]=${BASH_REMATCH[4]}
+    done
+}
+
+# play_circle FOLDER SECONDS PEERS PEER-OPTION...: a session of so many through the started links,
+# which then end too. What peer 1 says is shown.
+play_circle() {
+    local folder=$1 seconds=$2 peers=$3 i j others running=()
+    for ((i = peers; i >= 1; i--)); do
+        others=()
+        for ((j = 1; j <= peers; j++)); do
+            ((i == j)) || others+=(--peer "$j=${places[$i-$j]}")
+        done
+        local words=("$bin/hapnet-peer" --id "$i" "${others[@]}" --duration "${seconds}s" --seed 1
+            --record "$folder/peer-$i.rec" --stats "$folder/peer-$i.json" "${@:4}")
+        if ((i == 1)); then
+            timeout --kill-after 5 $((seconds + 30)) "${words[@]}" >"$folder/peer-$i.out" &
+        else
+            timeout --kill-after 5 $((seconds + 30)) "${words[@]}" >"$folder/peer-$i.out" \
+                2>"$folder/peer-$i.log" &
+        fi
+        running+=("$!")
+    done
+    children=("$emulator" "${running[@]}")
+    while ((${#running[@]} > 0)); do
+        wait_for_one "$folder" "$emulator" "${running[@]}"
+        local left=() one
+        for one in "${running[@]}"; do
+            [[ $one == "$ended" ]] || left+=("$one")
+        done
+        running=("${left[@]}")
+    done
+    children=("$emulator")
+    stop_children
+}
+
 # analyse FOLDER: metrics of the records in it.
 analyse() {
     "$bin/hapnet-lab" analyse "$1/peer-1.rec" "$1/peer-2.rec" --json >"$1/analysis.json"

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 namespace hapnet::e2e {
 
@@ -101,6 +102,28 @@ TEST(LabReport, SaysThatItReplacesAPageAboutSomethingElse)
         << outcome.err;
 }
 
+TEST(LabReport, ShowsEveryTwoOfThreePeersNamedOrInAFolder)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("three");
+    std::vector<std::string> words{"report"};
+    for (const int id : {1, 2, 3}) {
+        const fs::path path = folder / (std::to_string(id) + ".rec");
+        write_record(path, id, 0.001 * id);
+        words.push_back(path.string());
+    }
+    const auto named = run("hapnet-lab", words);
+    EXPECT_EQ(named.exit, 0) << named.err;
+    const auto page = text_of((folder / "report.html").string());
+    for (const char* pair :
+         {"A is peer 1, B is peer 2", "A is peer 1, B is peer 3", "A is peer 2, B is peer 3"})
+        EXPECT_NE(page.find(pair), std::string::npos) << pair;
+    const auto found = run("hapnet-lab", {"report", folder.string()});
+    EXPECT_EQ(found.exit, 0) << found.err;
+    EXPECT_NE(text_of((folder / "report.html").string()).find("A is peer 2, B is peer 3"),
+              std::string::npos);
+}
+
 TEST(LabReport, RefusesOneRecordAloneAndTwoThatDoNotBelongTogether)
 {
     const TemporaryFolder temporary;
@@ -115,7 +138,8 @@ TEST(LabReport, RefusesOneRecordAloneAndTwoThatDoNotBelongTogether)
     fs::copy_file(a, folder / "one" / "a.rec");
     const auto one = run("hapnet-lab", {"report", (folder / "one").string()});
     EXPECT_EQ(one.exit, 2);
-    EXPECT_NE(one.err.find("one has 1 record (a.rec): a session has two"), std::string::npos)
+    EXPECT_NE(one.err.find("one has 1 record (a.rec): name those of one session"),
+              std::string::npos)
         << one.err;
     const auto twice = run("hapnet-lab", {"report", a, again});
     EXPECT_EQ(twice.exit, 2);

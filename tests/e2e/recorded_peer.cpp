@@ -21,6 +21,7 @@
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace hapnet::e2e {
@@ -202,8 +203,10 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     peer::Side side{settings};
     peer::loop::Watchdog watchdog{rig.device(), &crash};
     const net::Endpoint remote = net::resolve(net::parse_host_port(asked.remote).value());
-    peer::line::Line line{remote.packed()};
-    peer::loop::Servo servo{{side, rig, socket, remote, line, journal, watchdog, gate}};
+    std::vector<peer::line::Line> to_remote;
+    to_remote.emplace_back(remote.packed());
+    peer::line::Lines lines{std::move(to_remote)};
+    peer::loop::Servo servo{{side, rig, socket, {remote}, lines, journal, watchdog, gate}};
     const peer::Options unused;
     std::optional<control::Server> server;
     std::optional<peer::monitor::ControlSession> control_session;

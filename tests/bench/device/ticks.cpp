@@ -140,8 +140,8 @@ void Ticks::deliver()
 {
     while (const auto datagram = side_.poll()) other_.on_datagram(datagram->bytes(), now_);
     while (const auto datagram = other_.poll()) side_.on_datagram(datagram->bytes(), now_);
-    while (side_.event()) {}
-    while (other_.event()) {}
+    while (side_.notice()) {}
+    while (other_.notice()) {}
 }
 
 void Ticks::tick()

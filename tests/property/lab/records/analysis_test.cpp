@@ -36,8 +36,7 @@ record::Record wild_record(int peer_id, const base::RandomStream& stream, std::u
         state.sequence = static_cast<std::uint32_t>(1 + i % 7);
         state.sent = base::TimePoint{base::Duration{static_cast<std::int64_t>(message.tick >> 4U)}};
         const wire::Datagram datagram = wire::encode(state);
-        message.size = static_cast<std::uint16_t>(datagram.bytes().size());
-        std::ranges::copy(datagram.bytes(), message.bytes.begin());
+        message.bytes.assign(datagram.bytes().begin(), datagram.bytes().end());
         wild.messages.push_back(message);
     }
     return wild;

@@ -5,12 +5,12 @@
 #include "proto/base/random.hpp"
 #include "proto/record/rows.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::record {
 
@@ -29,10 +29,9 @@ public:
     {
         value = static_cast<std::uint8_t>(bits());
     }
-    void operator()(std::string_view name, std::uint16_t& value)
+    void operator()(std::string_view, std::uint16_t& value)
     {
         value = static_cast<std::uint16_t>(bits());
-        if (name == "size") value = static_cast<std::uint16_t>(value % (MessageRow::bytes_max + 1));
     }
     void operator()(std::string_view, std::uint32_t& value)
     {
@@ -47,21 +46,25 @@ public:
     {
         value = base::TimePoint{base::Duration{signed_bits()}};
     }
-    void operator()(std::string_view, std::array<std::byte, MessageRow::bytes_max>& value)
+    void operator()(std::string_view, double& value) { value = finite_bits(); }
+    void operator()(std::string_view, std::vector<std::byte>& value)
     {
+        value.resize(bits() % (MessageRow::bytes_max + 1));
         for (std::byte& b : value) b = static_cast<std::byte>(bits() & 0xff);
     }
     // Any finite double; not the rest, which equals nothing and could not be compared.
     void operator()(std::string_view, auto& vector)
     {
-        for (glm::length_t i = 0; i < 3; ++i) {
-            const auto value = std::bit_cast<double>(bits());
-            vector.value[i] = std::isfinite(value) ? value : 0.0;
-        }
+        for (glm::length_t i = 0; i < 3; ++i) vector.value[i] = finite_bits();
     }
 
 private:
     std::uint64_t bits() { return stream_.bits(round_, draw_++); }
+    double finite_bits()
+    {
+        const auto value = std::bit_cast<double>(bits());
+        return std::isfinite(value) ? value : 0.0;
+    }
     // As far as a row may go: 2^60 ns either way.
     std::int64_t signed_bits() { return static_cast<std::int64_t>(bits()) >> 3; }
 

@@ -6,10 +6,12 @@
 #include "tests/unit/lab/records/recording.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <spdlog/fmt/fmt.h>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hapnet::lab::records {
@@ -126,16 +128,70 @@ TEST(Csv, CountsTimeFromT0OrElseFromTheFirstTick)
 TEST(Csv, ShowsAMessageAndLeavesCellsEmptyForWhatIsNone)
 {
     Recording recording{1};
-    EXPECT_FALSE(remote_csv_zero(recording.content()));
+    EXPECT_TRUE(newest_sessions(recording.content()).empty());
     recording.session({.start = start, .length = 1s, .remote_offset = -3001500us, .session = 1})
         .message(9, epoch + 2s, start + 3ms);
     auto row = recording.content().messages.front();
-    const auto remote_zero = remote_csv_zero(recording.content());
-    EXPECT_EQ(message_csv_header(), "time_s,tick,size_bytes,session,sequence,sent_s,sent_time_s");
-    EXPECT_EQ(csv_line(row, start, remote_zero), "0.003000000,0,86,1,9,2.000000000,0.001500000");
-    EXPECT_EQ(csv_line(row, start, std::nullopt), "0.003000000,0,86,1,9,2.000000000,");
-    row.bytes.fill(std::byte{0});
-    EXPECT_EQ(csv_line(row, start, remote_zero), "0.003000000,0,86,,,,");
+    const auto sessions = newest_sessions(recording.content());
+    EXPECT_EQ(message_csv_header(),
+              "time_s,tick,size_bytes,session,sequence,sent_s,sent_time_s,from");
+    EXPECT_EQ(csv_line(row, start, sessions), "0.003000000,0,86,1,9,2.000000000,0.001500000,");
+    EXPECT_EQ(csv_line(row, start, {}), "0.003000000,0,86,1,9,2.000000000,,");
+    row.from = 3; // of whom no session is known
+    EXPECT_EQ(csv_line(row, start, sessions), "0.003000000,0,86,1,9,2.000000000,,3");
+    std::ranges::fill(row.bytes, std::byte{0});
+    EXPECT_EQ(csv_line(row, start, sessions), "0.003000000,0,86,,,,,3");
+}
+
+TEST(CircleReport, KeepsTheKeysOfTwoAndHasAllOfEachPairBeside)
+{
+    std::vector<Recording> peers{Recording{1}, Recording{2}, Recording{3}};
+    const auto meet = [&](std::size_t a, std::size_t b, std::uint32_t session) {
+        for (const auto& [self, other] : {std::pair{a, b}, std::pair{b, a}}) {
+            peers[self].session({.start = start,
+                                 .length = 5s,
+                                 .session = session,
+                                 .other = static_cast<std::uint16_t>(other + 1)});
+        }
+    };
+    meet(0, 1, 12);
+    meet(0, 2, 13);
+    meet(1, 2, 23);
+    const std::array places{0.010, 0.011, 0.014};
+    for (std::size_t i = 0; i < 3; ++i) {
+        peers[i].ticks(0s, 2s, Phase::running, cube_at(places.at(i)));
+        peers[i].ticks(2s, 5s, Phase::hands_off, cube_at(i == 1 ? 0.0102 : 0.010));
+    }
+    const std::vector<record::Record> records{peers[2].content(), peers[0].content(),
+                                              peers[1].content()};
+    const auto circle = analyse_circle(records);
+    ASSERT_TRUE(circle) << circle.error().message;
+    const json report = to_json(*circle);
+    EXPECT_EQ(report["worst_pair"], "1-3");
+    EXPECT_NEAR(report["discrepancy_x_mm"]["mean"].get<double>(), 4.0, 1e-9);
+    EXPECT_NEAR(report["pairs"]["1-2"]["discrepancy_x_mm"]["mean"].get<double>(), 1.0, 1e-9);
+    EXPECT_NEAR(report["pairs"]["2-3"]["discrepancy_x_mm"]["mean"].get<double>(), 3.0, 1e-9);
+    EXPECT_NEAR(report["settled_discrepancy_mm"].get<double>(), 0.2, 1e-9);
+    EXPECT_NEAR(report["pairs"]["1-3"]["settled_discrepancy_mm"].get<double>(), 0.0, 1e-9);
+    EXPECT_NEAR(report["peers"]["3"]["tick"]["rate_hz"].get<double>(), 1000.0, 1e-9);
+    EXPECT_EQ(report["valid"], true) << report["invalid_because"];
+    EXPECT_TRUE(report["bodies"].empty()) << "the records say no scene";
+    for (const char* key : {"a", "b", "a_to_b", "b_to_a", "clock", "overlap", "touching"})
+        EXPECT_TRUE(report.contains(key)) << key;
+    const std::string text = to_table(*circle);
+    for (const char* words : {"|x_1 - x_3|", "3 to 2", "peer 3", "\nvalid\n"})
+        EXPECT_NE(text.find(words), std::string::npos) << words << '\n' << text;
+}
+
+TEST(CircleReport, NamesThePeersThatCannotBeCompared)
+{
+    Recording a{1}, b{2}, c{3};
+    a.session(1s);
+    b.session(1s);
+    const std::vector<record::Record> records{a.content(), b.content(), c.content()};
+    EXPECT_EQ(analyse_circle(records).error().message,
+              "peers 1 (A) and 3 (B): the records share no session: were they made in the same "
+              "run?");
 }
 
 /// The lines of a joined CSV, by their cells.

@@ -105,6 +105,45 @@ TEST(Analysis, IgnoresTheEchoOffsetWithinOneBoot)
     EXPECT_EQ(analysis_of(a, b).clock.offset, 0s);
 }
 
+TEST(Analysis, ReckonsWithTheSkewOfTheEchoClock)
+{
+    const record::SessionRow row{.remote_offset = 8s,
+                                 .offset_uncertainty = 1ms,
+                                 .other = 2,
+                                 .noted_at = start + 10s,
+                                 .remote_skew_ppm = 100.0};
+    const Clock clock = clock_of(row);
+    EXPECT_EQ(clock.to_b(start + 10s), start + 18s);
+    EXPECT_EQ(clock.to_a(start + 18s), start + 10s);
+    // 10 s before: it was 1 ms less ahead, but for what rounding to whole nanoseconds leaves.
+    EXPECT_LE(std::chrono::abs(clock.to_b(start) - (start + 8s - 1ms)), 1ns);
+    EXPECT_LE(std::chrono::abs(clock.to_a(start + 8s - 1ms) - start), 1ns);
+    record::SessionRow damaged = row;
+    damaged.remote_skew_ppm = 1e300;
+    EXPECT_EQ(clock_of(damaged).to_b(start), start + 8s);
+}
+
+TEST(Analysis, TakesOfInterleavedSessionsThoseOfTheTwo)
+{
+    Recording a{1};
+    Recording b{3};
+    const auto row = [](std::uint32_t session, std::uint16_t other, base::Duration offset) {
+        return record::SessionRow{.start = start,
+                                  .length = 1s,
+                                  .remote_offset = offset,
+                                  .session = session,
+                                  .other = other};
+    };
+    a.session(row(12, 2, 1s)).session(row(13, 3, 2s)).ticks(0ms, 5ms);
+    a.session(row(12, 2, 3s)).session(row(13, 3, 4s)).ticks(5ms, 15ms);
+    a.session(row(14, 2, 5s)).ticks(15ms, 18ms); // the other one was restarted
+    b.session(row(13, 1, 0s)).ticks(0ms, 18ms);
+    const auto session = common_session(a.content(), b.content());
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_EQ(session->a.terms.remote_offset, 4s);
+    EXPECT_EQ(session->a.ticks.size(), 18U);
+}
+
 TEST(Analysis, DoesNotTakeTwoUnknownBootsForOne)
 {
     Recording a{1, ""};

@@ -115,7 +115,7 @@ TEST(Path, SkipsMessagesOfAnotherSessionAndWhatIsNoMessage)
     b.session({.start = start, .length = 1s, .session = 8});
     b.message(900, start, start);
     b.session(1s).message(1, start, start + 1ms);
-    b.content().messages.push_back({.size = 70});
+    b.content().messages.push_back({.bytes = std::vector<std::byte>(70)});
     const Path path = analysis_of(a, b).a_to_b;
     EXPECT_EQ(path.received, 1U);
     EXPECT_EQ(path.loss, 0.0);

@@ -132,11 +132,9 @@ private:
 
     void note(const wire::Datagram& datagram, std::uint64_t tick)
     {
-        record::MessageRow row{.tick = tick,
-                               .received_at = now_,
-                               .size = static_cast<std::uint16_t>(datagram.bytes().size())};
-        std::ranges::copy(datagram.bytes(), row.bytes.begin());
-        record_.messages.push_back(row);
+        record_.messages.push_back({.tick = tick,
+                                    .received_at = now_,
+                                    .bytes{datagram.bytes().begin(), datagram.bytes().end()}});
     }
 
     Fate fate_;

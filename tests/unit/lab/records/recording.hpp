@@ -67,8 +67,7 @@ public:
         const wire::Datagram datagram = wire::encode(state);
         record::MessageRow row;
         row.received_at = received;
-        row.size = static_cast<std::uint16_t>(datagram.bytes().size());
-        std::ranges::copy(datagram.bytes(), row.bytes.begin());
+        row.bytes.assign(datagram.bytes().begin(), datagram.bytes().end());
         content_.messages.push_back(row);
         return *this;
     }

@@ -69,7 +69,7 @@ TEST(ReplayOfARecord, NoticesAMessageThatWasNotTheRecordedOne)
         if (lost) {
             other.messages.erase(found);
         } else {
-            auto state = std::get<wire::State>(wire::decode(found->datagram()).value());
+            auto state = std::get<wire::State>(wire::decode(found->bytes).value());
             state.contact_force.value.x += 0.01;
             std::ranges::copy(wire::encode(state).bytes(), found->bytes.begin());
         }
@@ -174,6 +174,27 @@ bool was_ever(const record::Record& record, GovernorState state)
     });
 }
 
+TEST(ReplayOfARecord, RefusesPeersThatCannotHavePlayed)
+{
+    record::Record record = RecordedPair{}.play(1500);
+    record.config["peers"] = {0};
+    EXPECT_TRUE(replay(record, std::nullopt).has_value());
+    for (const auto& peers : {nlohmann::json{3, 2}, nlohmann::json{2, 2}, nlohmann::json{0, 2},
+                              nlohmann::json::array(), nlohmann::json{2, 3, 4, 5, 6, 7, 8, 9}}) {
+        record.config["peers"] = peers;
+        const auto refused = replay(record, std::nullopt);
+        ASSERT_FALSE(refused.has_value()) << peers;
+        EXPECT_NE(refused.error().message.find("'peers'"), std::string::npos);
+    }
+    record.config["peers"] = {2, 3};
+    EXPECT_EQ(replay(record, std::nullopt).error().message,
+              "a message of peer 0, which is not of the session: the file is damaged");
+    for (record::MessageRow& message : record.messages) message.from = 2;
+    EXPECT_TRUE(replay(record, std::nullopt).has_value());
+    EXPECT_FALSE(
+        replay(record, peer::parse_algorithm("algorithm = \"sep\"", "test").value()).has_value());
+}
+
 TEST(ReplayOfATroubledSession, GivesTheForcesBeforeTheFaultAtItAndAfterIt)
 {
     const std::vector<RecordedPair::Fate> fates{
@@ -266,6 +287,7 @@ template <typename Row>
 std::optional<Row> with_bit_flipped(const Row& row, std::size_t byte, unsigned bit)
 {
     record::RowBytes bytes = record::encode(row);
+    if (byte >= bytes.size()) return std::nullopt;
     bytes[byte] ^= std::byte{1} << bit;
     const auto decoded = record::decode(bytes);
     if (!decoded || !std::holds_alternative<Row>(*decoded)) return std::nullopt;

@@ -54,7 +54,9 @@ TEST(PeerOptions, HoldWhatWasTyped)
     EXPECT_EQ(options.id, 2);
     EXPECT_EQ(options.listen.host, "127.0.0.1");
     EXPECT_EQ(options.listen.port, 7102);
-    EXPECT_EQ(options.remote.port, 9);
+    ASSERT_EQ(options.others.size(), 1U);
+    EXPECT_EQ(options.others[0].place.port, 9);
+    EXPECT_EQ(options.roster().others, std::vector<std::uint16_t>{0});
     EXPECT_EQ(options.scene_name, "lift");
     EXPECT_EQ(options.duration, 20s);
     EXPECT_EQ(options.force_max_n, 0.5);
@@ -102,6 +104,60 @@ TEST(PeerOptions, PrintAnAlgorithmWithoutARemote)
     expect_words(refusal_to({"--print-algorithm", "best"}),
                  "--print-algorithm: there is neither a file nor an algorithm 'best'");
     expect_words(prints({"doctor", "--print-udev-rules"}).value(), "SUBSYSTEM");
+}
+
+Options circle_of(std::vector<std::string> words)
+{
+    words.insert(words.begin(), {"--peer", "3=127.0.0.1:9", "--peer", "2=127.0.0.1:8"});
+    cli::Typed typed{"hapnet-peer", std::move(words)};
+    return std::get<Options>(std::get<Command>(parse_command_line(typed.words()).value()));
+}
+
+std::string refusal_to_circle(std::vector<std::string> words)
+{
+    words.insert(words.begin(), {"--peer", "3=127.0.0.1:9", "--peer", "2=127.0.0.1:8"});
+    return refusal_to(std::move(words));
+}
+
+TEST(PeerOptions, NameTheOthersOfACircleInTheOrderOfTheirIds)
+{
+    const Options options = circle_of({"--task", "T7"});
+    EXPECT_EQ(options.roster().others, (std::vector<std::uint16_t>{2, 3}));
+    EXPECT_EQ(options.roster().wait_for, 0U);
+    EXPECT_EQ(options.others[0].place.port, 8);
+    EXPECT_EQ(options.scene_name, "carry");
+    EXPECT_EQ(circle_of({"--task", "T3"}).scene_name, "carry");
+    EXPECT_EQ(circle_of({"--task", "T7", "--wait-for", "2"}).roster().wait_for, 2U);
+    EXPECT_EQ(circle_of({"--task", "T7", "--wait-for", "all"}).roster().wait_for, 0U);
+}
+
+TEST(PeerOptions, LetOneNamedPeerBeWhoeverAnswersThere)
+{
+    cli::Typed typed{"hapnet-peer", {"--peer", "2=127.0.0.1:8"}};
+    const auto options =
+        std::get<Options>(std::get<Command>(parse_command_line(typed.words()).value()));
+    EXPECT_EQ(options.roster().others, std::vector<std::uint16_t>{0});
+    EXPECT_EQ(options.scene_name, "paper");
+}
+
+TEST(PeerOptions, SayWhatDoesNotFitACircle)
+{
+    expect_words(refusal_to_circle({}), "--scene paper has room for 2 hands");
+    expect_words(refusal_to_circle({}), "use --task T7, or --scene carry");
+    EXPECT_EQ(refusal_to_circle({"--task", "T7", "--algorithm", "sep"}),
+              "--algorithm sep is for two peers: more than two play with base alone");
+    EXPECT_EQ(refusal_to_circle({"--task", "T7", "--peer", "2=127.0.0.1:7"}),
+              "--peer 2: this peer is named twice");
+    expect_words(refusal_to_circle({"--task", "T7", "--id", "3"}), "--peer 3: this is the id of");
+    expect_words(refusal_to_circle({"--task", "T7", "--id", "32"}), "ids are from 1 to 31");
+    expect_words(refusal_to_circle({"--task", "T7", "--wait-for", "4"}),
+                 "--wait-for 4: there are 3");
+    expect_words(refusal_to_circle({"--wait-for", "1"}), "write all, or a number from 2 to 8");
+    expect_words(refusal_to_circle({"--remote", "127.0.0.1:7"}), "--peer and --remote both say");
+    std::vector<std::string> nine{"--task", "T7"};
+    for (int id = 4; id < 10; ++id)
+        nine.insert(nine.end(), {"--peer", std::to_string(id) + "=127.0.0.1:7"});
+    expect_words(refusal_to_circle(nine), "9 peers are named, this one counted: a session has 8");
 }
 
 } // namespace

@@ -59,7 +59,7 @@ public:
                 if (!cut) inboxes_[1 - side].push_back(*datagram);
                 sent[side].push_back(wire::decode(datagram->bytes()).value());
             }
-            while (const auto event = peers[side]->event()) events[side].push_back(*event);
+            while (const auto notice = peers[side]->notice()) events[side].push_back(notice->event);
         }
     }
 

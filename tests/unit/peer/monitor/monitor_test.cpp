@@ -113,6 +113,38 @@ TEST(Monitor, NoLongerWaitsForAPeerThatAnswered)
     testing::internal::GetCapturedStderr();
 }
 
+TEST(Monitor, NamesThePeersOfACircle)
+{
+    testing::internal::CaptureStderr();
+    loop::Journal journal;
+    net::TextQueue screen{STDERR_FILENO};
+    Monitor monitor{journal, screen, std::nullopt, 1, {2, 3, 4}};
+    base::TimePoint now{1s};
+    const auto line_with = [&](const loop::TimedEvent& event) {
+        journal.put(record::Row{record::TickRow{}});
+        journal.put(event);
+        monitor.drain();
+        monitor.show(now += 5s);
+    };
+    line_with({Event::met, now, 3});
+    line_with({Event::met, now, 2});
+    line_with({Event::met, now, 4});
+    line_with({Event::left, now, 3});
+    journal.put(loop::TimedLineNews{line::News::moved, now, 4});
+    monitor.close();
+    monitor.finish();
+    while (!screen.is_done()) std::this_thread::yield();
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "hapnet-peer 1: peer 3 answers\n"
+              "hapnet-peer 1: peer 2 answers\n"
+              "hapnet-peer 1: waiting for peer 4; running, and is the emulator between you?\n"
+              "hapnet-peer 1: peer 4 answers\n"
+              "hapnet-peer 1: agreeing on the start with the other peers\n"
+              "hapnet-peer 1: peer 3 said goodbye: its hand is gone\n"
+              "hapnet-peer 1: agreeing on the start with the other peers\n"
+              "hapnet-peer 1: peer 4 is heard from another address: sending there\n");
+}
+
 TEST(Monitor, LetsNoFloodOfEventsFillALog)
 {
     testing::internal::CaptureStderr();

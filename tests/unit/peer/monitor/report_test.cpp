@@ -129,5 +129,33 @@ TEST_F(Shown, HasTheClockOfEachOtherAndThePathsToItAndBack)
     EXPECT_EQ(shown["out"]["age_ms"]["peak_max"], 5.0);
 }
 
+TEST_F(Shown, HasTheSessionAndTheKeyWithEachOfACircle)
+{
+    status.session = Session{.number = 0, .start = base::TimePoint{10s}};
+    status.others_count = 2;
+    for (const std::size_t i : {0U, 1U}) {
+        loop::OtherStatus& other = status.others.at(i);
+        other.id = static_cast<std::uint16_t>(i + 2);
+        other.session = static_cast<std::uint32_t>(i + 70);
+        other.is_heard = i == 1;
+        other.line.strangers = 1 - i;
+        other.line.key.emplace();
+        other.line.key->is_agreed = i == 0;
+        other.line.key->counts.handshakes = 1;
+        other.line.key->counts.last_handshake = (i + 1) * 1ms;
+    }
+    const auto statistics = statistics_json({options, status, "a device"});
+    EXPECT_EQ(statistics["session"]["number"], nullptr);
+    EXPECT_EQ(statistics["others"][1]["session"], 71);
+    EXPECT_EQ(statistics["others"][0]["heard"], false);
+    EXPECT_EQ(statistics["others"][0]["secure"]["agreed"], true);
+    EXPECT_EQ(statistics["secure"]["agreed"], false);
+    EXPECT_EQ(statistics["secure"]["handshakes"], 2);
+    EXPECT_EQ(statistics["secure"]["handshake_ms"], 2.0);
+    EXPECT_EQ(statistics["messages"]["strangers"], 1);
+    EXPECT_EQ(show()["others"][1]["id"], 3);
+    EXPECT_EQ(show()["others"][1]["heard"], true);
+}
+
 } // namespace
 } // namespace hapnet::peer::monitor

@@ -15,7 +15,7 @@ std::uint8_t at(const RowBytes& bytes, std::size_t index)
     return std::to_integer<std::uint8_t>(bytes.at(index));
 }
 
-TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion2)
+TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion3)
 {
     TickRow row;
     row.tick = 0x0102030405060708;
@@ -44,7 +44,7 @@ TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion2)
 
 TEST(RecordCodec, RefusesAnUnknownKindOfRow)
 {
-    RowBytes bytes{};
+    RowBytes bytes(row_bytes);
     EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 0");
     bytes[0] = std::byte{4};
     EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 4");
@@ -82,14 +82,63 @@ TEST(RecordCodec, RefusesPaddingThatIsNotZero)
     EXPECT_EQ(decode(bytes).error().message, "padding of a session row is not zero");
 }
 
+TEST(RecordCodec, PutsAMessageBehindItsLength)
+{
+    MessageRow row;
+    row.tick = 5;
+    row.from = 0x0203;
+    row.bytes = {std::byte{8}, std::byte{9}};
+    const auto layout = Layout::for_messages_of(4);
+    const RowBytes bytes = encode(row, layout);
+    ASSERT_EQ(bytes.size(), 25U);
+    EXPECT_EQ(at(bytes, 0), 2); // a message row
+    EXPECT_EQ(at(bytes, 17), 3);
+    EXPECT_EQ(at(bytes, 18), 2);
+    EXPECT_EQ(at(bytes, 19), 2); // its length
+    EXPECT_EQ(at(bytes, 21), 8);
+    EXPECT_EQ(at(bytes, 22), 9);
+    EXPECT_EQ(decode(bytes, layout).value(), Row{row});
+}
+
 TEST(RecordCodec, RefusesAMessageLongerThanItsRow)
 {
     MessageRow row;
-    row.size = MessageRow::bytes_max;
+    row.bytes.resize(140);
+    const auto layout = Layout::for_messages_of(140);
+    RowBytes bytes = encode(row, layout);
+    EXPECT_TRUE(decode(bytes, layout));
+    bytes[19] = std::byte{141};
+    EXPECT_EQ(decode(bytes, layout).error().message, "a message longer than its row");
+}
+
+TEST(RecordCodec, RefusesBytesBehindAMessageThatAreNotZero)
+{
+    MessageRow row;
+    row.bytes.resize(3);
     RowBytes bytes = encode(row);
-    EXPECT_TRUE(decode(bytes));
-    bytes[17] = std::byte{MessageRow::bytes_max + 1};
-    EXPECT_EQ(decode(bytes).error().message, "a message longer than its row");
+    bytes.back() = std::byte{1};
+    EXPECT_EQ(decode(bytes).error().message, "padding of a message row is not zero");
+}
+
+TEST(RecordCodec, ReadsTheRowsOfVersion2AsOfNobodyInParticular)
+{
+    const auto layout = Layout::of_version_2();
+    MessageRow message;
+    message.bytes.assign(160, std::byte{7});
+    RowBytes bytes = encode(message, layout);
+    ASSERT_EQ(bytes.size(), row_bytes);
+    EXPECT_EQ(at(bytes, 17), 160); // its length: there was nothing before it
+    EXPECT_EQ(at(bytes, 19), 7);
+    EXPECT_EQ(decode(bytes, layout).value(), Row{message});
+    SessionRow session;
+    session.seed = 3;
+    bytes = encode(session, layout);
+    EXPECT_EQ(at(bytes, 37), 3);
+    EXPECT_EQ(decode(bytes, layout).value(), Row{session});
+    session.other = 2;
+    EXPECT_EQ(std::get<SessionRow>(decode(encode(session, layout), layout).value()).other, 0);
+    bytes[45] = std::byte{1}; // where `other` is now
+    EXPECT_FALSE(decode(bytes, layout));
 }
 
 TEST(RecordCodec, RefusesBytesThatAreNotOneWholeRow)

@@ -55,12 +55,12 @@ TEST(RecordFile, GivesBackRowsOfEachKindInTheOrderWritten)
 {
     const TemporaryPath file;
     MessageRow message;
-    message.size = 3;
-    message.bytes[2] = std::byte{9};
+    message.from = 2;
+    message.bytes = {std::byte{0}, std::byte{0}, std::byte{9}};
     SessionRow session;
     session.session = 77;
     {
-        Writer writer{file.text(), config};
+        Writer writer{file.text(), config, Layout::for_messages_of(136)};
         writer.write(tick(1));
         writer.write(session);
         writer.write(message);
@@ -177,11 +177,12 @@ TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)
     const auto header = nlohmann::json::parse(header_line(config));
     EXPECT_EQ(header["format"], "hapnet-record");
     EXPECT_EQ(header["row_bytes"], row_bytes);
+    EXPECT_EQ(header["message_row_bytes"], 859);
     const auto& fields = header["schema"]["tick"]["fields"];
     ASSERT_EQ(fields.size(), 24);
     EXPECT_EQ(fields[1],
               nlohmann::json::parse(
-                  R"({"name":"due","type":"i64","offset":9,"unit":"ns of CLOCK_MONOTONIC"})"));
+                  R"({"name":"due","type":"i64","offset":9,"unit":"ns of CLOCK_BOOTTIME"})"));
     EXPECT_EQ(fields[15], nlohmann::json::parse(
                               R"({"name":"remote","type":"f64[3]","offset":181,"unit":"N"})"));
     EXPECT_EQ(fields[5]["values"][3], "hands_off");
@@ -194,26 +195,55 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
     auto other = ours;
     other["version"] = 1;
     EXPECT_EQ(parse_header(other.dump()).error().message,
-              "it is of version 1, and this program reads version 2: use the hapnet-lab of the "
-              "release that wrote it");
+              "it is of version 1, and this program reads versions 2 to 3: use the hapnet-lab of "
+              "the release that wrote it");
+    other["version"] = 4;
+    EXPECT_FALSE(parse_header(other.dump()));
     other = ours;
     other["row_bytes"] = 200;
     EXPECT_EQ(parse_header(other.dump()).error().message,
               "expected a JSON line with \"row_bytes\":216");
     other = ours;
     other["schema"]["tick"]["fields"][0]["offset"] = 2;
-    EXPECT_EQ(parse_header(other.dump()).error().message, "its schema is not that of version 2");
+    EXPECT_EQ(parse_header(other.dump()).error().message, "its schema is not that of version 3");
+    other = ours;
+    other["message_row_bytes"] = 860;
+    EXPECT_EQ(parse_header(other.dump()).error().message,
+              "\"message_row_bytes\" is not from 21 to 859");
+    other.erase("message_row_bytes");
+    EXPECT_FALSE(parse_header(other.dump()));
     other = ours;
     other["config"] = 1;
     EXPECT_FALSE(parse_header(other.dump()));
     EXPECT_TRUE(parse_header(ours.dump()));
 }
 
+TEST(RecordFile, OfVersion2IsStillRead)
+{
+    const TemporaryPath file;
+    const auto layout = Layout::of_version_2();
+    MessageRow message;
+    message.bytes.resize(150);
+    nlohmann::json header{{"format", "hapnet-record"}, {"version", 2},     {"row_bytes", 216},
+                          {"byte_order", "little"},    {"config", config}, {"schema", 1}};
+    std::string content = header.dump() + "\n";
+    for (const Row& row : {Row{tick(0)}, Row{message}, Row{SessionRow{.session = 5}}}) {
+        const RowBytes bytes = encode(row, layout);
+        content.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }
+    file.fill(content);
+    const auto record = read(file.text());
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_EQ(record->messages, std::vector{message});
+    EXPECT_EQ(record->sessions.at(0).session, 5U);
+    EXPECT_EQ(record->ticks.size(), 1U);
+}
+
 TEST(RecordHeader, IsOneLineOfUtf8WhateverTheConfigurationSays)
 {
     const auto line = header_line({{"scene", "a\nb\xff"}});
     EXPECT_EQ(line.find('\n'), std::string::npos);
-    EXPECT_TRUE(line.starts_with(R"({"format":"hapnet-record","version":2,)"));
+    EXPECT_TRUE(line.starts_with(R"({"format":"hapnet-record","version":3,)"));
     EXPECT_TRUE(parse_header(line));
 }
 

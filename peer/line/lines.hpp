@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/line/line.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::peer::line {
+
+/// The lines to all the others of a session, in the order of its roster: finds the one that a
+/// datagram came by, and lets them go on with their keys in turn. Either all have keys or none.
+class Lines {
+public:
+    /// At least one.
+    explicit Lines(std::vector<Line> lines);
+
+    struct Opened {
+        std::size_t from = 0; // which of the lines
+        std::span<const std::byte> message;
+    };
+    /// The plain message in a datagram; nullopt: it has none for this side. Valid until the next
+    /// call, and no longer than the datagram.
+    [[nodiscard]] std::optional<Opened> open(std::span<const std::byte> datagram,
+                                             const secure::Place& from, base::TimePoint now);
+    /// One of them goes on with its keys: call it once a tick. At most one multiplication on the
+    /// curve, however many there are.
+    void tick(secure::Moment moment);
+
+    [[nodiscard]] Line& operator[](std::size_t of) { return lines_[of]; }
+    [[nodiscard]] const Line& operator[](std::size_t of) const { return lines_[of]; }
+    [[nodiscard]] std::size_t size() const { return lines_.size(); }
+    [[nodiscard]] bool are_sealed() const { return lines_.front().is_sealed(); }
+    /// Datagrams without a key from elsewhere than any of the others' places.
+    [[nodiscard]] std::uint64_t strangers() const { return lines_.front().strangers(); }
+
+private:
+    std::vector<Line> lines_;
+    std::size_t next_ = 0; // to go on with its keys
+};
+
+} // namespace hapnet::peer::line
