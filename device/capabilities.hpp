@@ -54,6 +54,7 @@ struct Capabilities {
     double damping_max_ns_per_m =
         0.0;                   // likewise; for information only, scenes are not limited by it
     double resolution_m = 0.0; // of positions
+    double friction_n = 0.0;   // to be overcome at the grip (Coulomb); 0: not known
     /// No hand moves the device faster than this: 1 m/s is far above any task.
     double speed_max_m_per_s = std::numeric_limits<double>::infinity();
     int axes_in = 3;

@@ -144,6 +144,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.introduction.seed = options.seed.value();
     settings.introduction.boot = wire::boot_of(net::boot_id());
     settings.introduction.task = wire::TaskName::from_text(device::name_of(options.task)).value();
+    settings.introduction.hand = hand_model_of(rig.device().capabilities());
     settings.scene = options.scene;
     settings.algorithm = options.algorithm;
     // The scene's springs are as much stiffer at the hand as its dampers: by the scale squared.

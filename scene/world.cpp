@@ -282,6 +282,21 @@ std::optional<Refusal> World::place(BodyId body, base::Position position, base::
     return std::nullopt;
 }
 
+std::optional<Refusal> World::shift(BodyId body, base::Displacement way)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    const Slot slot = state_.bodies.slot_of[body];
+    glm::dvec3 place = state_.bodies.position.at(slot);
+    const glm::dvec3& light = state_.bodies.properties[slot].inverse_mass;
+    for (const int axis : {0, 1, 2}) {
+        if (light[axis] != 0.0) place[axis] += way.value[axis];
+    }
+    if (const auto why = objection(place, reach_max_m)) return refuse(*why);
+    state_.bodies.position.put(slot, place);
+    std::visit([&](auto& stepper) { stepper.on_body_shifted(state_, body); }, stepper_);
+    return std::nullopt;
+}
+
 std::optional<Refusal> World::drive(BodyId body, base::Velocity velocity,
                                     const glm::dvec3& angular_velocity)
 {

@@ -37,7 +37,8 @@ using RefusalCounts = std::array<std::uint64_t, refusals>;
 
 /// What moves a world on, chosen when the scene is frozen. Each is a value with two verbs:
 /// step(config, state), and on_body_placed(state, body) after a body was put somewhere from
-/// outside. Those whose bodies sleep have wake(state, body), too. The order is that of StepperKind.
+/// outside, on_body_shifted(state, body) after it was moved by a little. Those whose bodies sleep
+/// have wake(state, body), too. The order is that of StepperKind.
 using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
                              RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
                              RigidStepper<BroadPhase::grid>>;
@@ -71,6 +72,10 @@ public:
     std::optional<Refusal> place(BodyId body, const BodyState& state);
     /// The same; orientation and angular velocity stay.
     std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
+
+    /// Moves a movable body by a little; hands that hold it, or press on one of its faces, go on
+    /// doing so. Locked coordinates stay as they are.
+    std::optional<Refusal> shift(BodyId body, base::Displacement way);
 
     /// A kinematic body moves on like that from where it is, until it is told otherwise.
     std::optional<Refusal> drive(BodyId body, base::Velocity velocity,

@@ -44,6 +44,7 @@ Capabilities capabilities_of(const Drive& drive)
     can.workspace_min = {-omni::half_workspace_m};
     can.workspace_max = {omni::half_workspace_m};
     can.resolution_m = omni::radians_per_count * omni::link_m;
+    can.friction_n = omni::friction_n;
     can.speed_max_m_per_s = 1.0;
     can.buttons = 2;
     can.has_holder = true;

@@ -37,7 +37,8 @@ SimulatedOmni::SimulatedOmni(const Performer& performer)
                      .force_continuous_n = plant.force_continuous_n,
                      .stiffness_max_n_per_m = 700.0,
                      .damping_max_ns_per_m = 5.0,
-                     .resolution_m = plant.resolution_m};
+                     .resolution_m = plant.resolution_m,
+                     .friction_n = plant.friction_n};
 }
 
 void SimulatedOmni::on_cue(const Cue& cue)

@@ -21,7 +21,8 @@ std::uint16_t tick_rate_hz(base::Duration tick)
     return static_cast<std::uint16_t>(std::min<base::Duration::rep>(rate, UINT16_MAX));
 }
 
-peer::Settings settings_of(const Setting& setting, const PlayerId& id)
+peer::Settings settings_of(const Setting& setting, const PlayerId& id,
+                           const device::Capabilities& capabilities)
 {
     const PlayerSetting& player = setting.players.at(id.side);
     peer::Settings settings;
@@ -35,6 +36,7 @@ peer::Settings settings_of(const Setting& setting, const PlayerId& id)
                              .seed = player.seed.value_or(setting.seed).value(),
                              .tick_rate_hz = tick_rate_hz(setting.tick),
                              .task = wire::TaskName::from_text(name_of(setting.task)).value()};
+    settings.introduction.hand = peer::hand_model_of(capabilities);
     return settings;
 }
 
@@ -99,7 +101,7 @@ secure::Place place_of(std::size_t side)
 
 VirtualPlayer::VirtualPlayer(const Setting& setting, const PlayerId& id)
     : rig{rig_of(setting, id)},
-      side{std::make_unique<peer::Side>(settings_of(setting, id))},
+      side{std::make_unique<peer::Side>(settings_of(setting, id, rig.device().capabilities()))},
       line{line_of(setting, id)},
       other_place{place_of(1 - id.side)},
       clock_ahead{setting.players.at(id.side).clock_ahead}

@@ -37,6 +37,7 @@ Algorithms (docs/design/algorithms.md; two peers may use different ones, more pl
   dead-reckoning  the same, with the other peer's cube extrapolated to now
   sep             the same, with the other hand's force and position predicted
                   (in place of the paper's TiDeC, which is not published)
+  remote-proxy    not of the paper: the other hand is in this scene, drawn to where it means to be
 A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
 
 Examples:

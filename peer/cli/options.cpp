@@ -294,8 +294,8 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
     program.option("--task", "P1|T1|...|T7", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
     program.option("--algorithm", "NAME|FILE",
-                   "How the two cubes are kept together: base (default), dead-reckoning, sep, or a "
-                   "file of parameters in TOML",
+                   "How the two cubes are kept together: base (default), dead-reckoning, sep, "
+                   "remote-proxy, or a file of parameters in TOML",
                    cli::into(options.algorithm, parse_algorithm_name));
     program
         .option("--print-algorithm", "NAME|FILE",

@@ -50,6 +50,7 @@ std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
     remote_->hears_us = hello.nonce_heard == self_.nonce;
     remote_->heard = hello.heard;
     remote_->length_ms = hello.length_ms;
+    remote_->hand = hello.hand;
     if (hello.nonce_heard != self_.nonce) { // it has not heard this run of us yet
         asked_ = true;
         last_heard_ = wire::Echo{hello.sent, {}};

@@ -91,6 +91,11 @@ public:
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
     /// Its id; 0 before it was met.
     [[nodiscard]] std::uint16_t id() const { return remote_ ? remote_->id : std::uint16_t{0}; }
+    /// Its hand, as far as it has said.
+    [[nodiscard]] wire::HandModel hand() const
+    {
+        return remote_ ? remote_->hand : wire::HandModel{};
+    }
     /// Whether it has heard this run of us.
     [[nodiscard]] bool is_heard_there() const { return remote_ && remote_->hears_us; }
     /// Those that it hears, bit i for id i.
@@ -105,6 +110,7 @@ private:
         bool hears_us = false;
         std::uint32_t heard = 0;
         std::uint32_t length_ms = 0;
+        wire::HandModel hand{};
     };
 
     [[nodiscard]] std::optional<wire::ByeReason> refusal_of(const wire::Hello& hello) const;

@@ -62,6 +62,18 @@ std::optional<FingerFriction> friction_of(const Settings& settings)
     return FingerFriction{settings.scene.hands};
 }
 
+/// As this peer says it of its hand, or else of nobody's in particular.
+HandDynamics dynamics_of(const Settings& settings)
+{
+    const wire::HandModel& said = settings.introduction.hand;
+    HandDynamics hand;
+    if (said.mass > 0.0F) hand.mass_kg = static_cast<double>(said.mass);
+    if (said.damping > 0.0F) hand.damping_ns_per_m = static_cast<double>(said.damping);
+    if (said.stiffness > 0.0F) hand.stiffness_n_per_m = static_cast<double>(said.stiffness);
+    hand.friction_n = static_cast<double>(said.friction);
+    return hand;
+}
+
 /// The share of the force on the hand that may be rendered.
 double rendered_share(const Settings& settings)
 {
@@ -76,7 +88,7 @@ Member::Config member_of(const Settings& settings)
 {
     Member::Config config{.introduction = settings.introduction,
                           .staleness = settings.staleness,
-                          .stale = base_options(settings.algorithm).stale,
+                          .stale = stale_of(settings.algorithm),
                           .tick = settings.tick,
                           .measures_path = settings.measures_paths};
     config.introduction.length = settings.length;
@@ -92,11 +104,14 @@ Peer::Peer(const Settings& settings)
       body_{shared_body_of(settings)},
       world_{world_of(settings)},
       friction_{friction_of(settings)},
+      intention_{dynamics_of(settings)},
       force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)},
       remote_reach_m_{remote_reach_m(settings.scene)}
 {
-    base::ensure(circle_.is_pair() || std::holds_alternative<BaseAlgorithm>(settings.algorithm));
+    base::ensure(circle_.is_pair() || plays_with_many(settings.algorithm));
+    if (auto* proxies = std::get_if<RemoteProxy>(&settings_.algorithm))
+        proxies->prepare(others_.size());
 }
 
 void Peer::tell(Event event, const Member* about)
@@ -149,8 +164,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
     pending_refusal_.reset();
     if (greeting.met) tell(Event::met, &other);
     circle_.after_hello(from, arrived);
-    if (greeting.in_session)
-        std::visit([](auto& algorithm) { algorithm.forget(); }, settings_.algorithm);
+    if (greeting.in_session) forget(from);
     if (session() && !had_session) {
         body_known_ = !session()->joined_late;
         tell(Event::agreed);
@@ -159,6 +173,19 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
         if (circle_.is_pair()) body_known_ = !session()->joined_late;
         tell(Event::restarted, &other);
     }
+}
+
+/// The run of one of the others has ended.
+void Peer::forget(std::size_t other)
+{
+    const auto forget = [&](auto& algorithm) {
+        if constexpr (requires { algorithm.forget(other); }) {
+            algorithm.forget(other);
+        } else {
+            algorithm.forget();
+        }
+    };
+    std::visit(forget, settings_.algorithm);
 }
 
 void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::size_t from)
@@ -185,7 +212,9 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
                                  .taken = heard.taken,
                                  .clock = other.handshake().clock(),
                                  .tick = settings_.tick,
-                                 .force_max_n = force_max_n_};
+                                 .force_max_n = force_max_n_,
+                                 .from = from,
+                                 .hand = other.handshake().hand()};
     std::visit([&](auto& algorithm) { algorithm.hear(received); }, settings_.algorithm);
 }
 
@@ -351,13 +380,20 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .yields = others()[lowest].id() < settings_.introduction.id,
                               .tick = settings_.tick,
                               .clock = clock(lowest),
-                              .force_max_n = force_max_n_};
+                              .force_max_n = force_max_n_,
+                              .lower_ids = circle_.rank(),
+                              .hands = &settings_.scene.hands};
     const base::Position before = position();
     if (body_known_) move_world(tick, situation, input);
     keep_within_reach();
     account(tick, position() - before, now);
     // The governor's own fade runs along with the others': zero when one of them counts as lost.
     tick.permitted = usable && body_known_ && are_others_fresh(now) && tick.phase == Phase::running;
+    if (usable) {
+        intention_.add({hand.hip, hand.velocity, hand.felt}, now);
+    } else {
+        intention_.reset();
+    }
     say_states(tick, now, usable ? hand : Hand{});
 }
 
@@ -428,7 +464,11 @@ void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
     state.hip = hand.hip;
     state.hip_velocity = hand.velocity;
     state.work_uj = static_cast<std::uint32_t>(std::llround(1e6 * hand.work_j));
-    state.intention_velocity = hand.velocity; // no algorithm asks for more than the HIP yet
+    state.intention_velocity = hand.velocity;
+    if (intention_.is_known()) {
+        state.intention = intention_.place() - hand.hip;
+        state.intention_velocity = intention_.velocity();
+    }
     state.contact_force = tick.touched.on_body;
     const wire::BodyState body{.body = static_cast<std::uint16_t>(body_),
                                .position = position(),

@@ -5,6 +5,7 @@
 #include "peer/core/circle.hpp"
 #include "peer/core/effect_sums.hpp"
 #include "peer/core/finger_friction.hpp"
+#include "peer/core/intention.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/record/rows.hpp"
@@ -22,11 +23,12 @@ struct Hand {
     bool gripping = false;
     bool present = true; // a person holds the device, and its sample is valid
     double work_j = 0.0; // of the hand on its device since the start
+    base::Force felt;    // that the device was told in the tick before
 };
 
 struct Settings {
     Introduction introduction;
-    Roster roster; // the others; with more than one the algorithm must be base
+    Roster roster; // the others; with more than one: plays_with_many()
     scene::Description scene = scene::paper_scene(); // one that shared_body() accepts
     Algorithm algorithm;
     /// Damping of the device and the loosest grip on it. It bounds the contacts that can be
@@ -185,6 +187,7 @@ private:
     void on_message(const wire::State& state, base::TimePoint arrived, std::size_t from);
     void on_message(const wire::Bye& bye, base::TimePoint arrived, std::size_t from);
     [[nodiscard]] bool is_plausible(const wire::State& state) const;
+    void forget(std::size_t other);
     void consider_refusal(const PendingRefusal& refusal, base::TimePoint arrived);
     void tell(Event event, const Member* about = nullptr);
 
@@ -207,6 +210,7 @@ private:
     scene::BodyId body_;        // the shared one
     scene::World world_;
     std::optional<FingerFriction> friction_; // where the scene's hands have any
+    Intention intention_;                    // of this hand
     double force_max_n_;                     // of the remote hand
     double share_;                           // of the forces on the hand, that may be rendered
     double remote_reach_m_;                  // of what the other side may claim

@@ -57,8 +57,8 @@ public:
         const device::Sample before = sample_;
         sample_ = rig.read(now);
         work_j_ += work_since(before);
-        tick_ = peer_.tick(
-            now, {sample_.hip, sample_.velocity, sample_.gripping, is_in_hand(sample_), work_j_});
+        tick_ = peer_.tick(now, {sample_.hip, sample_.velocity, sample_.gripping,
+                                 is_in_hand(sample_), work_j_, told_});
         told_ = rig.apply(tick_.force, tick_.permitted, now);
         governor_state_ = rig.governor_state();
         if (is_cue_due()) rig.on_cue(take_cue());

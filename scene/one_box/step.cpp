@@ -248,6 +248,10 @@ void OneBoxStepper<coulomb>::on_body_placed(WorldState& /*state*/, BodyId /*body
     hands_.forget_box();
 }
 
+template <bool coulomb>
+void OneBoxStepper<coulomb>::on_body_shifted(WorldState& /*state*/, BodyId /*body*/)
+{}
+
 template class OneBoxStepper<false>;
 template class OneBoxStepper<true>;
 

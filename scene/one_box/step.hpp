@@ -40,6 +40,7 @@ public:
         return {.events = std::uint64_t{events_max} * (1 + config.hands.count)};
     }
     void on_body_placed(WorldState& state, BodyId body);
+    void on_body_shifted(WorldState& state, BodyId body);
 
     /// In how many ticks there were more events than are followed.
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }

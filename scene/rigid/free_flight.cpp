@@ -254,5 +254,6 @@ void FreeFlightStepper::apply_half_torque(WorldState& state, BodyId body, double
 }
 
 void FreeFlightStepper::on_body_placed(WorldState& /*state*/, BodyId /*body*/) {}
+void FreeFlightStepper::on_body_shifted(WorldState& /*state*/, BodyId /*body*/) {}
 
 } // namespace hapnet::scene

@@ -57,6 +57,7 @@ public:
 
     void step(const WorldConfig& config, WorldState& state);
     void on_body_placed(WorldState& state, BodyId body);
+    void on_body_shifted(WorldState& state, BodyId body);
     [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& /*config*/) const { return {}; }
 
 private:

@@ -141,12 +141,18 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 {
+    on_body_shifted(state, body);
+    hand_contacts_.forget(state.bodies, body);
+    joints_.on_placed(state, body);
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::on_body_shifted(WorldState& state, BodyId body)
+{
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(state.bodies, body);
     boxes_.forget(state.bodies, body);
-    hand_contacts_.forget(state.bodies, body);
-    joints_.on_placed(state, body);
 }
 
 template <BroadPhase broad_phase>

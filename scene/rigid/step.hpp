@@ -42,6 +42,7 @@ public:
 
     void step(const WorldConfig& config, WorldState& state);
     void on_body_placed(WorldState& state, BodyId body);
+    void on_body_shifted(WorldState& state, BodyId body);
     void wake(WorldState& state, BodyId body);
     /// The most that a tick can take.
     [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& config) const;

@@ -130,6 +130,7 @@ const std::vector<KeyTable>& tables()
         {"base", rows_of<peer::BaseOptions>()},
         {"dead-reckoning", base::markdown(own_rows<peer::DeadReckoningOptions>())},
         {"sep", base::markdown(own_rows<peer::EstimatorPredictorOptions>())},
+        {"remote-proxy", rows_of<peer::RemoteProxyOptions>()},
         {"governor", base::markdown(device::limit_keys())},
         {"operator", rows_of<device::Operator>()},
         {"task-options", rows_of<device::TaskOptions>()},

@@ -30,6 +30,7 @@ Capabilities capabilities_of(const JointPlantFigures& plant)
     can.stiffness_max_n_per_m = omni::stiffness_max_n_per_m;
     can.damping_max_ns_per_m = omni::damping_max_ns_per_m;
     can.resolution_m = omni::radians_per_count * omni::link_m;
+    can.friction_n = omni::friction_n;
     can.buttons = 2;
     can.has_holder = true;
     can.joints = JointLimits{omni::mechanism, plant.torque_max_nm};

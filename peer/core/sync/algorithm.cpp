@@ -10,25 +10,30 @@ namespace hapnet::peer {
 
 base::Result<Algorithm> algorithm_named(std::string_view name)
 {
-    const auto& [plain, dead_reckoning, sep] = algorithm_names;
+    const auto& [plain, dead_reckoning, sep, remote_proxy] = algorithm_names;
     if (name == plain) return BaseAlgorithm{};
     if (name == dead_reckoning) return DeadReckoning{};
     if (name == sep) return EstimatorPredictor{};
+    if (name == remote_proxy) return RemoteProxy{};
     return base::fail(
         fmt::format("unknown algorithm '{}': {}", name, base::suggestion(name, algorithm_names)));
 }
 
-const BaseOptions& base_options(const Algorithm& algorithm)
+Stale stale_of(const Algorithm& algorithm)
 {
     struct Reader {
-        const BaseOptions& operator()(const BaseAlgorithm& one) const { return one.options(); }
-        const BaseOptions& operator()(const DeadReckoning& one) const { return one.options().base; }
-        const BaseOptions& operator()(const EstimatorPredictor& one) const
-        {
-            return one.options().base;
-        }
+        Stale operator()(const BaseAlgorithm& one) const { return one.options().stale; }
+        Stale operator()(const DeadReckoning& one) const { return one.options().base.stale; }
+        Stale operator()(const EstimatorPredictor& one) const { return one.options().base.stale; }
+        Stale operator()(const RemoteProxy& /*one*/) const { return Stale::drop; }
     };
     return std::visit(Reader{}, algorithm);
+}
+
+bool plays_with_many(const Algorithm& algorithm)
+{
+    return std::holds_alternative<BaseAlgorithm>(algorithm) ||
+           std::holds_alternative<RemoteProxy>(algorithm);
 }
 
 } // namespace hapnet::peer

@@ -5,6 +5,7 @@
 #include "peer/core/sync/base_algorithm.hpp"
 #include "peer/core/sync/dead_reckoning.hpp"
 #include "peer/core/sync/estimator_predictor.hpp"
+#include "peer/core/sync/remote_proxy.hpp"
 #include "proto/base/result.hpp"
 
 #include <string_view>
@@ -16,17 +17,19 @@ namespace hapnet::peer {
 /// a small value that is told of every state that arrives (hear()), moves the world (tick()), and
 /// forgets a run of the other side that has ended (forget()). docs/design/algorithms.md describes
 /// them.
-using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor>;
+using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor, RemoteProxy>;
 
 /// The names of the algorithms, in the order of their variant.
-inline constexpr auto algorithm_names =
-    base::names(base::described_name<BaseOptions>, base::described_name<DeadReckoningOptions>,
-                base::described_name<EstimatorPredictorOptions>);
+inline constexpr auto algorithm_names = base::names(
+    base::described_name<BaseOptions>, base::described_name<DeadReckoningOptions>,
+    base::described_name<EstimatorPredictorOptions>, base::described_name<RemoteProxyOptions>);
 
-/// "base", "dead-reckoning" or "sep", with all defaults.
+/// "base", "dead-reckoning", "sep" or "remote-proxy", with all defaults.
 [[nodiscard]] base::Result<Algorithm> algorithm_named(std::string_view name);
 
-/// The options that every algorithm has.
-[[nodiscard]] const BaseOptions& base_options(const Algorithm& algorithm);
+/// What it does with states that were overtaken.
+[[nodiscard]] Stale stale_of(const Algorithm& algorithm);
+/// Whether it can play with more than one other.
+[[nodiscard]] bool plays_with_many(const Algorithm& algorithm);
 
 } // namespace hapnet::peer

@@ -26,6 +26,8 @@ struct ReceivedState {
     std::optional<ClockEstimate> clock{}; // the other side's, as far as it is known
     base::Duration tick{std::chrono::milliseconds{1}};
     double force_max_n = scene::force_max_n; // that a contact of this scene can exert
+    std::size_t from = 0;                    // which of the others sent it, in their order
+    wire::HandModel hand{};                  // of its sender, as far as it has said
 };
 
 /// One of the others as last heard.
@@ -45,6 +47,8 @@ struct Situation {
     base::Duration tick{std::chrono::milliseconds{1}}; // from here on as in ReceivedState
     std::optional<ClockEstimate> clock{};
     double force_max_n = scene::force_max_n;
+    std::size_t lower_ids = 0;                     // so many of the others
+    const scene::HandDescription* hands = nullptr; // of the scene; nullptr: without friction
 };
 
 /// The result of one tick of an algorithm.

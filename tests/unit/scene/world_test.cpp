@@ -206,6 +206,32 @@ TEST_P(EveryProfile, ACopyRunsOnItsOwn)
     EXPECT_EQ(world.hash(), copy.hash());
 }
 
+TEST_P(EveryProfile, AShiftedBodyIsHeldAsBeforeAndAPlacedOneIsTakenAnew)
+{
+    World shifted = this->world();
+    HandInput grip = hand_at(-0.022);
+    grip.gripping = true;
+    shifted.set_hand(0, grip);
+    shifted.tick();
+    ASSERT_TRUE(shifted.touch(0).holding);
+    World placed = shifted;
+    const base::Displacement way{{1e-3, 0.0, 0.0}};
+    const base::Position there = shifted.position(0) + way;
+    EXPECT_EQ(shifted.shift(0, way), std::nullopt);
+    EXPECT_EQ(placed.place(0, there, placed.velocity(0)), std::nullopt);
+    EXPECT_EQ(shifted.position(0), there);
+    shifted.tick();
+    placed.tick();
+    EXPECT_LT(shifted.touch(0).on_body.x(), -0.2); // 500 N/m pull it back by a millimetre
+    EXPECT_NEAR(placed.touch(0).on_body.x(), 0.0, 0.05);
+
+    const auto before = shifted.hash();
+    expect_refused(shifted, Refusal::not_finite, shifted.shift(0, {{nan, 0.0, 0.0}}));
+    expect_refused(shifted, Refusal::out_of_range, shifted.shift(0, {{1e9, 0.0, 0.0}}));
+    expect_refused(shifted, Refusal::no_such_body, shifted.shift(99, way));
+    EXPECT_EQ(shifted.hash(), before);
+}
+
 INSTANTIATE_TEST_SUITE_P(World, EveryProfile,
                          ::testing::Values(StepperKind::sliding, StepperKind::sliding_coulomb,
                                            StepperKind::lone, StepperKind::few, StepperKind::many),

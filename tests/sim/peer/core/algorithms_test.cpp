@@ -110,8 +110,8 @@ TEST(Algorithms, SepIsTheBaseAlgorithmWhereTheHandThatWatchesHasNoForce)
 
 TEST(Algorithms, OfDifferentNamesPlayTogetherAndAgreeInTheEnd)
 {
-    for (const auto* left : {"base", "dead-reckoning", "sep"}) {
-        for (const auto* right : {"base", "dead-reckoning", "sep"}) {
+    for (const auto* left : {"base", "dead-reckoning", "sep", "remote-proxy"}) {
+        for (const auto* right : {"base", "dead-reckoning", "sep", "remote-proxy"}) {
             Carrying session{{algorithm(left), algorithm(right)}, {}};
             for (int ms = 0; ms < 4000; ++ms) session.step();
             EXPECT_GT(session.ticks[1].freshness, 0.0);

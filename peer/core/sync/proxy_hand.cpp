@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/sync/proxy_hand.hpp"
+
+#include "proto/base/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace hapnet::peer {
+
+namespace {
+
+/// The share of the way that a first-order filter goes in a time.
+double share_in(double seconds, double constant_s)
+{
+    return constant_s > 0.0 ? 1.0 - base::exp(-seconds / constant_s) : 1.0;
+}
+
+glm::dvec3 shortened(const glm::dvec3& v, double length_max)
+{
+    const double length = glm::length(v);
+    return length > length_max ? (length_max / length) * v : v;
+}
+
+} // namespace
+
+ProxyHand::ProxyHand(const ProxyHandOptions& options)
+    : options_{options}, hand_{options.hand}, words_(words_max)
+{}
+
+void ProxyHand::take_dynamics(const wire::HandModel& said)
+{
+    const auto take = [](double& value, float heard) {
+        if (heard > 0.0F) value = static_cast<double>(heard);
+    };
+    hand_ = options_.hand;
+    take(hand_.mass_kg, said.mass);
+    take(hand_.damping_ns_per_m, said.damping);
+    take(hand_.stiffness_n_per_m, said.stiffness);
+    take(hand_.friction_n, said.friction);
+}
+
+base::Duration ProxyHand::age(base::TimePoint now) const
+{
+    return std::max(base::Duration{0}, now - sent_at_);
+}
+
+double ProxyHand::hear(const ReceivedState& received)
+{
+    const wire::State& state = received.state;
+    const double tick_s = base::to_seconds(received.tick);
+    const base::Duration delay =
+        std::max(base::Duration{0}, one_way_delay(received).value_or(base::Duration{0}));
+    const double age_s = base::to_seconds(delay);
+    const bool is_first = !has_heard_;
+    const std::uint32_t ticks = is_first ? 0 : state.sequence - sequence_;
+    if (is_first) take_dynamics(received.hand);
+    has_heard_ = true;
+    sequence_ = state.sequence;
+    sent_at_ = received.arrived - delay;
+    if (state.touching) touched_at_ = sent_at_;
+    contact_force_ = base::limited(state.contact_force, received.force_max_n).value;
+    intention_ = (state.hip + state.intention).value;
+    const double filter_s =
+        std::max(base::to_seconds(options_.velocity_filter_min), options_.velocity_filter * age_s);
+    const double share = is_first ? 1.0 : share_in(ticks * tick_s, filter_s);
+    velocity_ += share * (state.intention_velocity.value - velocity_);
+    largest_age_s_ = std::max(largest_age_s_, std::min(age_s, age_max_s));
+
+    const Heard word{state.sequence, intention_, velocity_};
+    if (!is_first) learn(word, ticks, tick_s, age_s);
+    words_[heard_++ % words_max] = word;
+
+    const std::uint32_t work_before_uj = is_first ? state.work_uj : work_uj_;
+    work_uj_ = state.work_uj;
+    return 1e-6 * static_cast<double>(static_cast<std::int32_t>(work_uj_ - work_before_uj));
+}
+
+/// The newest word with at most this number. Numbers asked for do not fall.
+const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t sequence)
+{
+    if (heard_ == 0) return nullptr;
+    if (heard_ > words_max) older_ = std::max(older_, heard_ - words_max);
+    while (older_ + 1 < heard_ && words_[(older_ + 1) % words_max].sequence <= sequence) ++older_;
+    const Heard& found = words_[older_ % words_max];
+    return found.sequence <= sequence ? &found : nullptr;
+}
+
+/// By least squares: what would a projection of the word of that time ago have told of this one?
+/// The prior leaves a slow hand where it was heard.
+void ProxyHand::learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s)
+{
+    const auto age_ticks = static_cast<std::uint32_t>(age_s / tick_s + 0.5);
+    if (age_ticks >= word.sequence) return;
+    const Heard* const old = heard_at(word.sequence - age_ticks);
+    if (old == nullptr) return;
+    const double apart_s = (word.sequence - old->sequence) * tick_s;
+    const glm::dvec3 predicted = apart_s * old->velocity;
+    const glm::dvec3 truly = word.place - old->place;
+    const double share = share_in(ticks * tick_s, base::to_seconds(options_.memory));
+    predicted_true_ += share * (glm::dot(predicted, truly) - predicted_true_);
+    predicted_ += share * (glm::dot(predicted, predicted) - predicted_);
+    true_ += share * (glm::dot(truly, truly) - true_);
+    const double slow_m = options_.believed_above_m_per_s * age_s;
+    const double scale = predicted_ + slow_m * slow_m;
+    eta_ = scale > 0.0 ? std::clamp(predicted_true_ / scale, 0.0, 1.0) : 0.0;
+}
+
+void ProxyHand::forget()
+{
+    has_heard_ = false;
+    is_there_ = false;
+    touched_at_.reset();
+    heard_ = 0;
+    older_ = 0;
+    predicted_true_ = predicted_ = true_ = 0.0;
+    eta_ = 0.0;
+    trust_ = 1.0;
+}
+
+void ProxyHand::look(const View& view)
+{
+    const double tick_s = base::to_seconds(view.tick);
+    const double age_s = base::to_seconds(age(view.now));
+    largest_age_s_ -= largest_age_s_ * tick_s / age_memory_s;
+    largest_age_s_ = std::max(largest_age_s_, std::min(age_s, age_max_s));
+    const auto& state = view.other.remote->state();
+    const auto& body = view.other.remote->body();
+    const bool acts = has_heard_ && state && body && (state->touching || state->holding) &&
+                      view.other.freshness > 0.0;
+    if (!acts) {
+        is_there_ = false;
+        return;
+    }
+    gripping_ = state->holding;
+    if (!is_there_) { // as deep in the body as it is over there
+        is_there_ = true;
+        trust_ = 1.0;
+        place_ = view.body.position.value + (state->hip - body->position).value;
+        speed_ = view.body.velocity.value;
+        anchor_ = place_ + (intention_ - state->hip.value);
+    }
+    const double ahead_max_s = base::to_seconds(options_.ahead_max);
+    const glm::dvec3 wanted = intention_ + (eta_ * std::min(age_s, ahead_max_s)) * velocity_;
+    glm::dvec3 way = age_s < ahead_max_s ? (eta_ * tick_s) * velocity_ : glm::dvec3{0.0};
+    way += share_in(tick_s, base::to_seconds(options_.anchor_filter)) * (wanted - anchor_ - way);
+    anchor_ += shortened(way, options_.anchor_speed_m_per_s * tick_s);
+
+    double trusted = 1.0;
+    if (view.own_hand_touches) {
+        const double missed = true_ - 2.0 * eta_ * predicted_true_ + eta_ * eta_ * predicted_;
+        trusted = 1.0 / (1.0 + missed / (options_.unsure_by_m * options_.unsure_by_m) +
+                         predicted_ / (options_.soft_by_m * options_.soft_by_m));
+    }
+    trust_ += std::min(1.0, tick_s / trust_filter_s) * (trusted - trust_);
+}
+
+scene::HandInput ProxyHand::input() const
+{
+    if (!is_there_) return {.present = false};
+    return {.position = {place_}, .velocity = {speed_}, .gripping = gripping_};
+}
+
+double ProxyHand::kinetic_energy_j() const
+{
+    return is_there_ ? 0.5 * hand_.mass_kg * glm::dot(speed_, speed_) : 0.0;
+}
+
+double ProxyHand::drive_energy_j() const
+{
+    if (!is_there_) return 0.0;
+    const glm::dvec3 stretch = anchor_ - place_;
+    const double k = hand_.stiffness_n_per_m;
+    return 0.5 * (trust_ * k * glm::dot(stretch, stretch) +
+                  (1.0 - trust_) * glm::dot(contact_force_, contact_force_) / k);
+}
+
+double ProxyHand::step(base::Force on_hand, const Drive& drive)
+{
+    if (!is_there_) return 0.0;
+    // Short against every hand's own period, also with the stiffest contact.
+    constexpr int parts = 4;
+    const double seconds = base::to_seconds(drive.tick) / parts;
+    const glm::dvec3 before = place_;
+    const glm::dvec3 steady =
+        (1.0 - trust_) * (contact_force_ + (eta_ * hand_.damping_ns_per_m) * velocity_);
+    for (int part = 0; part < parts; ++part) {
+        const glm::dvec3 spring = (trust_ * hand_.stiffness_n_per_m) * (anchor_ - place_);
+        move(drive.share * (spring + steady) + on_hand.value, seconds);
+    }
+    return glm::dot(on_hand.value, place_ - before);
+}
+
+/// A short time under a constant force, damping and friction (Karnopp 1985), each axis by itself.
+void ProxyHand::move(const glm::dvec3& force, double seconds)
+{
+    const double friction_n = trust_ * hand_.friction_n;
+    const double damping = 1.0 + hand_.damping_ns_per_m * seconds / hand_.mass_kg;
+    for (int axis = 0; axis < 3; ++axis) {
+        double& speed = speed_[axis];
+        const double along =
+            speed != 0.0 ? std::copysign(1.0, speed) : std::copysign(1.0, force[axis]);
+        const bool sticks = speed == 0.0 && std::abs(force[axis]) <= friction_n;
+        const double after =
+            sticks
+                ? 0.0
+                : (speed + seconds * (force[axis] - along * friction_n) / hand_.mass_kg) / damping;
+        speed = after * along < 0.0 ? 0.0 : after; // friction ends a motion, and turns none round
+        place_[axis] += seconds * speed;
+    }
+}
+
+} // namespace hapnet::peer

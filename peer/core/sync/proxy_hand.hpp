@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/finger_friction.hpp"
+#include "peer/core/intention.hpp"
+#include "peer/core/sync/situation.hpp"
+#include "proto/base/fields.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::peer {
+
+/// How a proxy stands for another hand. docs/design/algorithms.md has the equations.
+struct ProxyHandOptions {
+    HandDynamics hand{}; // where the hello says nothing
+    base::Duration anchor_filter{std::chrono::milliseconds{20}};
+    double anchor_speed_m_per_s = 0.4;
+    /// The intention's velocity is smoothed over this share of its age, since the age multiplies
+    /// its noise, ...
+    double velocity_filter = 0.15;
+    base::Duration velocity_filter_min{std::chrono::milliseconds{20}}; // ... and at least so long
+    /// A resting hand wanders by 5 to 7 mm/s, a carrying one moves at 67.
+    double believed_above_m_per_s = 0.015;
+    base::Duration memory{std::chrono::seconds{2}};
+    base::Duration ahead_max{std::chrono::milliseconds{250}};
+    double unsure_by_m = 0.003;
+    double soft_by_m = 0.005;
+
+    friend bool operator==(const ProxyHandOptions&, const ProxyHandOptions&) = default;
+};
+
+/// The hand of another peer in this copy of the scene: a mass on a spring, with damping and
+/// friction, drawn to where its owner means to be by now. How far the heard intention is projected
+/// to now is learnt from how well that would have worked (eta); how far the hand is trusted to be a
+/// spring, and not a mere force, from what it would have missed by (g).
+class ProxyHand {
+public:
+    /// What it may do in a tick, and what comes of it.
+    struct Drive {
+        double share = 1.0; // of its spring and force: what the account and freshness allow
+        base::Duration tick{};
+        double force_max_n = 0.0;
+    };
+
+    explicit ProxyHand(const ProxyHandOptions& options);
+
+    /// A state that was taken. Returns the work that its owner has put in since the one before, J:
+    /// it may be negative.
+    [[nodiscard]] double hear(const ReceivedState& received);
+    /// Its owner's run has ended: its work is counted from its next message on.
+    void forget();
+
+    /// The age of what was heard last.
+    [[nodiscard]] base::Duration age(base::TimePoint now) const;
+    /// The largest age of late, which is forgotten within some seconds; at most 400 ms.
+    [[nodiscard]] base::Duration usual_age() const { return base::from_seconds(largest_age_s_); }
+    [[nodiscard]] double eta() const { return eta_; }
+    /// When it last touched a body, on this peer's clock.
+    [[nodiscard]] const std::optional<base::TimePoint>& touched_at() const { return touched_at_; }
+    [[nodiscard]] base::TimePoint sent_at() const { return sent_at_; } // on this peer's clock
+
+    /// Comes, stays or goes as its owner's hand does, and looks where to be drawn to.
+    struct View {
+        const Other& other;
+        scene::BodyState body; // the shared one in this copy
+        base::TimePoint now;
+        base::Duration tick{};
+        bool own_hand_touches = false;
+    };
+    void look(const View& view);
+    [[nodiscard]] bool is_there() const { return is_there_; }
+    [[nodiscard]] scene::HandInput input() const;
+    [[nodiscard]] base::Position place() const { return {place_}; }
+
+    [[nodiscard]] double kinetic_energy_j() const;
+    /// Of what drives it, at full share.
+    [[nodiscard]] double drive_energy_j() const;
+    /// Moves on by a tick against the force on it. Returns the work of that force, J: negative when
+    /// it has given the copy energy.
+    [[nodiscard]] double step(base::Force on_hand, const Drive& drive);
+
+    /// Dry friction of its finger on the body, where the scene's hands have any.
+    std::optional<FingerFriction> finger;
+
+private:
+    /// A word of its owner, for learning.
+    struct Heard {
+        std::uint32_t sequence = 0;
+        glm::dvec3 place{0.0};
+        glm::dvec3 velocity{0.0}; // smoothed
+    };
+    void take_dynamics(const wire::HandModel& said);
+    void learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s);
+    [[nodiscard]] const Heard* heard_at(std::uint32_t sequence);
+    void move(const glm::dvec3& force, double seconds);
+
+    static constexpr std::size_t words_max = 1024; // a second of them
+    static constexpr double age_max_s = 0.4;       // in usual_age()
+    static constexpr double age_memory_s = 5.0;
+    static constexpr double trust_filter_s = 0.05;
+
+    ProxyHandOptions options_;
+    HandDynamics hand_; // of its owner
+
+    // What was heard.
+    bool has_heard_ = false;
+    std::uint32_t sequence_ = 0;
+    std::uint32_t work_uj_ = 0;
+    base::TimePoint sent_at_;
+    std::optional<base::TimePoint> touched_at_;
+    glm::dvec3 intention_{0.0};
+    glm::dvec3 velocity_{0.0}; // of the intention, smoothed
+    glm::dvec3 contact_force_{0.0};
+    double largest_age_s_ = 0.0;
+    std::vector<Heard> words_; // a ring
+    std::uint64_t heard_ = 0;  // so many words so far
+    std::uint64_t older_ = 0;  // the one that heard_at() gave last
+
+    // What was learnt: means of products of predicted and true motion.
+    double predicted_true_ = 0.0;
+    double predicted_ = 0.0;
+    double true_ = 0.0;
+    double eta_ = 0.0;
+    double trust_ = 1.0; // g
+
+    // The hand in this copy.
+    bool is_there_ = false;
+    bool gripping_ = false;
+    glm::dvec3 place_{0.0};
+    glm::dvec3 speed_{0.0};
+    glm::dvec3 anchor_{0.0};
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/base_options.hpp"
+#include "peer/core/sync/proxy_hand.hpp"
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+namespace hapnet::peer {
+
+struct RemoteProxyOptions {
+    ProxyHandOptions proxy{.hand = {.friction_n = 0.26}}; // an Omni's friction
+    double account_j = 0.030;
+    double power_w = 0.4; // four times what the tasks take
+    double correction_rate_hz = 20.0;
+    double correction_speed_m_per_s = 0.25;
+
+    friend bool operator==(const RemoteProxyOptions&, const RemoteProxyOptions&) = default;
+};
+constexpr auto fields_of(base::Tag<HandDynamics> /*struct*/)
+{
+    return base::fields("hand-dynamics",
+                        base::field("mass", &HandDynamics::mass_kg,
+                                    base::Quantity{base::mass_kind, 0.02, 10.0},
+                                    "of a proxy whose owner says nothing of its hand"),
+                        base::field("damping", &HandDynamics::damping_ns_per_m,
+                                    base::Quantity{base::damping_kind, 0.0, 100.0}, "likewise"),
+                        base::field("stiffness", &HandDynamics::stiffness_n_per_m,
+                                    base::Quantity{base::stiffness_kind, 10.0, 5000.0},
+                                    "likewise: of the grip, to where the hand means to be"),
+                        base::field("friction", &HandDynamics::friction_n,
+                                    base::Quantity{base::force_kind, 0.0, 10.0},
+                                    "likewise: of its device; has to be right within 0.05 N"));
+}
+constexpr auto fields_of(base::Tag<ProxyHandOptions> /*struct*/)
+{
+    using Options = ProxyHandOptions;
+    constexpr base::Quantity length{base::length_kind, 1e-6, 1.0};
+    constexpr base::Quantity speed{base::speed_kind, 0.0, 10.0};
+    return base::fields(
+        "proxy-hand", base::part(&Options::hand),
+        base::field("anchor_filter", &Options::anchor_filter, parameter_time,
+                    "time constant with which the anchor goes to the projected intention"),
+        base::field("anchor_speed", &Options::anchor_speed_m_per_s, speed,
+                    "greatest speed of the anchor"),
+        base::field("velocity_filter", &Options::velocity_filter, base::Number{0.0, 10.0},
+                    "time constant of the intention's velocity, as a share of its age"),
+        base::field("velocity_filter_min", &Options::velocity_filter_min, parameter_time,
+                    "and at least this"),
+        base::field("believed_above", &Options::believed_above_m_per_s, speed,
+                    "a hand that is slower is not projected"),
+        base::field("memory", &Options::memory, parameter_time,
+                    "over what time eta and g are learnt"),
+        base::field("ahead_max", &Options::ahead_max, parameter_time,
+                    "the farthest that an intention is projected"),
+        base::field("unsure_by", &Options::unsure_by_m, length,
+                    "error of the projection at which half of the spring becomes a force"),
+        base::field("soft_by", &Options::soft_by_m, length,
+                    "length of the projection at which it does"));
+}
+constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
+{
+    using Options = RemoteProxyOptions;
+    return base::fields(
+        "remote-proxy", base::part(&Options::proxy),
+        base::field("account", &Options::account_j, base::Quantity{base::energy_kind, 0.0, 10.0},
+                    "energy that the proxies may give before their owners' work is known"),
+        base::field("power", &Options::power_w, base::Quantity{base::power_kind, 0.0, 100.0},
+                    "and so much more for each second of delay"),
+        base::field("correction_rate", &Options::correction_rate_hz,
+                    base::Quantity{base::frequency_kind, 0.0, 1000.0},
+                    "share of the copies' difference that goes in a second, while the own hand "
+                    "is off"),
+        base::field("correction_speed", &Options::correction_speed_m_per_s,
+                    base::Quantity{base::speed_kind, 0.0, 10.0}, "and its greatest speed"));
+}
+
+/// The other hands are present in this copy as hands, each drawn to where its owner means to be
+/// (remote dynamic proxies, Li and Constantinescu; the intention, Takagi et al. 2017). No delayed
+/// force is fed back: the loop closes by the error of the model alone. What all proxies together
+/// may put into this copy is bounded by what their owners are known to have put in, as their
+/// running sums of work say (passive set-position modulation, Lee and Huang), so that the copies
+/// together stay passive whatever the network does and however wrong a model of a hand is.
+class RemoteProxy {
+public:
+    RemoteProxy() : RemoteProxy(RemoteProxyOptions{}) {}
+    explicit RemoteProxy(const RemoteProxyOptions& options);
+
+    /// Takes the memory for so many others.
+    void prepare(std::size_t others);
+    void hear(const ReceivedState& received);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget(std::size_t of = 0);
+
+    [[nodiscard]] const RemoteProxyOptions& options() const { return options_; }
+    /// What the proxies may still give, J.
+    [[nodiscard]] double account_j() const { return account_j_; }
+    [[nodiscard]] const std::vector<ProxyHand>& proxies() const { return proxies_; }
+
+private:
+    /// Who touched last, of the others.
+    struct Leader {
+        std::size_t index = 0;
+        base::TimePoint touched;
+    };
+    /// This copy in an earlier tick.
+    struct Past {
+        glm::dvec3 place{0.0};
+        glm::dvec3 corrected{0.0};
+    };
+
+    void lend();
+    void look(const scene::World& world, const Situation& situation);
+    void act(scene::World& world, const Situation& situation);
+    [[nodiscard]] double share() const;
+    void move_proxies(const scene::World& world, const Situation& situation, double share,
+                      Outcome& outcome);
+    [[nodiscard]] std::optional<std::size_t> leader(const Situation& situation) const;
+    [[nodiscard]] glm::dvec3 error_against(std::size_t leader, const Situation& situation,
+                                           const scene::BodyState& body) const;
+    void correct(scene::World& world, const Situation& situation);
+    void remember(const scene::World& world, const Situation& situation);
+
+    static constexpr std::size_t past_max = 4096; // ticks
+
+    RemoteProxyOptions options_;
+    std::vector<ProxyHand> proxies_; // of the others, in their order
+    std::vector<base::Force> rubbing_;
+    std::vector<Past> past_; // a ring
+    std::uint64_t ticks_ = 0;
+    double account_j_ = 0.0;
+    double lent_j_ = 0.0; // the largest allowance so far
+    double allowance_j_ = 0.0;
+    std::optional<base::TimePoint> touched_; // by the own hand
+    bool own_hand_touches_ = false;
+    glm::dvec3 corrected_{0.0};   // the sum of all corrections
+    glm::dvec3 proxy_force_{0.0}; // of all proxies on the body, in the last tick
+};
+
+} // namespace hapnet::peer
