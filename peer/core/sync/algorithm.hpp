@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/shared_body.hpp"
 #include "peer/core/sync/base_algorithm.hpp"
 #include "peer/core/sync/dead_reckoning.hpp"
 #include "peer/core/sync/estimator_predictor.hpp"
 #include "proto/base/result.hpp"
 
+#include <span>
 #include <string_view>
 #include <variant>
 
@@ -28,5 +30,10 @@ inline constexpr auto algorithm_names =
 
 /// The options that every algorithm has.
 [[nodiscard]] const BaseOptions& base_options(const Algorithm& algorithm);
+
+/// Whether it can play these bodies; the error says what it cannot. Bodies that turn, and several,
+/// are for base alone, with the readings of the paper that they have, too.
+[[nodiscard]] base::Result<void> check_bodies_of(const Algorithm& algorithm,
+                                                 std::span<const SharedBody> bodies);
 
 } // namespace hapnet::peer
