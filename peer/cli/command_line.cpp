@@ -27,6 +27,9 @@ constexpr const char* footer =
   T5  both press the cube against the static one; in turn one lets go suddenly
   T6  L taps the cube at 3 Hz while R rests on its far side
   T7  T3 in the scene carry, which has room for eight hands; a session has two so far
+  T8  both turn the cube of the scene turning to and fro
+  T9  L puts a cube of stack-of-three on another, then R the third on both
+  T10 L hands R the screwdriver of the scene bench, and R puts it down
 Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). Both peers
 need the same task, and should be given the same --duration. A peer waits for the other one without
 a limit; --duration counts from their common start.
