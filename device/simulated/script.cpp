@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "device/simulated/script.hpp"
 
+#include "device/simulated/carriage.hpp"
 #include "device/simulated/minimum_jerk.hpp"
 #include "proto/base/math.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hapnet::device {
 
@@ -56,6 +58,16 @@ constexpr double taps_begin_s = 2.0;
 constexpr double tap_hertz = 3.0;
 constexpr double tap_amplitude_m = 0.013;
 constexpr double tap_off_m = 0.004;
+
+// T8: so far beside the cube's middle a hand presses; when it turns the other way, on its other
+// side.
+constexpr double turn_beside_m = 0.010;
+constexpr double turn_angle_rad = 0.5; // each way
+constexpr double turn_squeeze_n = 0.7;
+constexpr double turn_every_s = 6.0; // of which:
+constexpr double turn_closes_s = 1.0;
+constexpr double turn_turned_s = 4.0;
+constexpr double turn_opened_s = 5.0; // and then the hand goes over to the other side
 
 constexpr double let_go_m = 0.020;
 constexpr double lift_off_m = 0.045; // above the cube, whose upper face is at 20 mm
@@ -116,6 +128,7 @@ double Script::squeeze_n() const
     case Task::t4: return 0.86;
     case Task::t5: return 0.71;
     case Task::t6: return 0.14;
+    case Task::t8: return turn_squeeze_n;
     default: return 0.0;
     }
 }
@@ -158,6 +171,9 @@ Intention Script::working(double t) const
     case Task::t4: return lift(t);
     case Task::t5: return wall(t);
     case Task::t6: return at_x(tap_x(t));
+    case Task::t8: return turn(t);
+    case Task::t9: return carried(cue_.is_left ? left_of_tower : right_of_tower, t);
+    case Task::t10: return carried(cue_.is_left ? giver : taker, t);
     }
     return {};
 }
@@ -226,6 +242,26 @@ double Script::tap_x(double t) const
     if (!cue_.is_left) return touching_m - closing(depth_m(squeeze_n()), t);
     const double swing = t < taps_begin_s ? 0.0 : sine_of_turns(tap_hertz * (t - taps_begin_s));
     return -touching_m - tap_off_m + tap_amplitude_m * swing;
+}
+
+/// The cube turns about the vertical with the hands: even turns one way, odd ones back.
+Intention Script::turn(double t) const
+{
+    const double number = std::floor(t / turn_every_s);
+    const double within = t - number * turn_every_s;
+    const bool is_back = std::fmod(number, 2.0) != 0.0;
+    const double turned = between(turn_closes_s, turn_turned_s, within);
+    const double angle = turn_angle_rad * (is_back ? 1.0 - turned : turned);
+    const double closed =
+        between(0.0, turn_closes_s, within) - between(turn_turned_s, turn_opened_s, within);
+    const double depth = -clearance_m + closed * (clearance_m + depth_m(cue_.share * squeeze_n()));
+    const double over = between(turn_opened_s, turn_every_s, within);
+    const double beside = turn_beside_m * (is_back ? -1.0 : 1.0) * (1.0 - 2.0 * over);
+    const double x = side_ * (touching_m - depth);
+    const double z = -side_ * beside;
+    const double cosine = base::cos(angle);
+    const double sine = base::sin(angle);
+    return {.target = {{cosine * x + sine * z, 0.0, cosine * z - sine * x}}};
 }
 
 } // namespace hapnet::device

@@ -38,6 +38,9 @@ std::string_view scene_of(Task task)
     if (task == Task::t4) return "lift";
     if (task == Task::t5) return "wall";
     if (task == Task::t7) return "carry";
+    if (task == Task::t8) return "turning";
+    if (task == Task::t9) return "stack-of-three";
+    if (task == Task::t10) return "bench";
     return "paper";
 }
 

@@ -14,26 +14,29 @@ namespace hapnet::device {
 
 /// The tasks of the two simulated hands; docs/design/tasks.md describes them.
 enum class Task : std::uint8_t {
-    p1, // L holds the cube and carries it along a prescribed path; R watches (Table 1)
-    t1, // by turns: L pushes the cube where the path rises, R where it falls
-    t2, // against each other: one holds, the other presses at 0.5, 1 and 2 Hz; then swapped
-    t3, // both squeeze the cube between them and carry it along the path at half speed
-    t4, // both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down; twice
-    t5, // both press the cube against the static one, and one lets go suddenly; then the other
-    t6, // L taps the cube at 3 Hz while R rests on its far side
-    t7, // T3 with two to eight hands: by turns of their ids from the left and from the right
+    p1,  // L holds the cube and carries it along a prescribed path; R watches (Table 1)
+    t1,  // by turns: L pushes the cube where the path rises, R where it falls
+    t2,  // against each other: one holds, the other presses at 0.5, 1 and 2 Hz; then swapped
+    t3,  // both squeeze the cube between them and carry it along the path at half speed
+    t4,  // both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down; twice
+    t5,  // both press the cube against the static one, and one lets go suddenly; then the other
+    t6,  // L taps the cube at 3 Hz while R rests on its far side
+    t7,  // T3 with two to eight hands: by turns of their ids from the left and from the right
+    t8,  // both turn the cube between them to and fro, each pushing off its middle
+    t9,  // L puts the second cube on the first, then R the third on those
+    t10, // L lifts the screwdriver and hands it to R, who puts it down
 };
 
 constexpr auto names_of(base::Tag<Task> /*enum*/)
 {
-    return base::names("P1", "T1", "T2", "T3", "T4", "T5", "T6", "T7");
+    return base::names("P1", "T1", "T2", "T3", "T4", "T5", "T6", "T7", "T8", "T9", "T10");
 }
 using base::name_of;
 
-inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3,
-                                      Task::t4, Task::t5, Task::t6, Task::t7};
+inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3, Task::t4, Task::t5,
+                                      Task::t6, Task::t7, Task::t8, Task::t9, Task::t10};
 
-/// "P1", "T1", ... "T7"
+/// "P1", "T1", ... "T10"
 [[nodiscard]] base::Result<Task> task_named(std::string_view name);
 
 /// The name of the built-in scene that the task is made for.

@@ -12,9 +12,9 @@ namespace hapnet::device {
 
 /// Options of a task. Unset ones take the task's own value.
 struct TaskOptions {
-    /// T3 to T7: the force that a hand aims to press with on a cube that stays where it is; in T3
-    /// and T7 the hands on one side together. T3 and T7 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N
-    /// (the resting hand).
+    /// T3 to T8: the force that a hand aims to press with on a cube that stays where it is; in T3,
+    /// T7 and T8 the hands on one side together. T3 and T7 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N
+    /// (the resting hand), T8 0.7 N.
     std::optional<double> squeeze_n{};
     double press_depth_m = 0.004;        // T2: each aim within the cube
     double press_amplitude_m = 0.0035;   // T2: of the presser's aim
@@ -29,9 +29,10 @@ constexpr auto fields_of(base::Tag<TaskOptions> /*struct*/)
     constexpr base::Quantity aim{base::length_kind, 0.0, 0.02};
     return base::fields(
         "task-options",
-        base::field("squeeze", &TaskOptions::squeeze_n, base::Quantity{base::force_kind, 0.0, 3.3},
-                    "T3 to T7: force that a hand, or in T3 and T7 the hands on one side, intend to "
-                    "press with; without it 0.571 N, 0.86 N, 0.71 N, 0.14 N, 0.571 N"),
+        base::field(
+            "squeeze", &TaskOptions::squeeze_n, base::Quantity{base::force_kind, 0.0, 3.3},
+            "T3 to T8: force that a hand, or in T3, T7 and T8 the hands on one side, intend "
+            "to press with; without it 0.571 N, 0.86 N, 0.71 N, 0.14 N, 0.571 N, 0.7 N"),
         base::field("press_depth", &TaskOptions::press_depth_m, aim,
                     "T2: how far each hand aims within the cube"),
         base::field("press_amplitude", &TaskOptions::press_amplitude_m, aim,

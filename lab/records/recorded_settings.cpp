@@ -143,17 +143,17 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     settings.length = base::Duration{std::llround(written->duration_s * 1e9)};
     auto scene = scene::parse_scene(written->scene_toml, "scene_toml");
     if (!scene) return tl::unexpected{scene.error()};
-    const auto body = peer::shared_body(*scene);
-    if (!body) return base::fail("its config: 'scene_toml': " + body.error().message);
+    const auto bodies = peer::shared_bodies(*scene);
+    if (!bodies) return base::fail("its config: 'scene_toml': " + bodies.error().message);
     settings.scene = *std::move(scene);
     settings.introduction.scene_hash = scene::hash(settings.scene);
     auto algorithm = peer::parse_algorithm(written->algorithm_toml, "algorithm_toml");
     if (!algorithm) return tl::unexpected{algorithm.error()};
     settings.algorithm = *std::move(algorithm);
-    if (settings.roster.others.size() > 1 &&
-        !std::holds_alternative<peer::BaseAlgorithm>(settings.algorithm)) {
-        return base::fail("its config: more than two peers play with base alone");
-    }
+    if (settings.roster.others.size() > 1 && !peer::plays_with_many(settings.algorithm))
+        return base::fail("its config: this algorithm is for two peers");
+    if (const auto fine = peer::check_bodies_of(settings.algorithm, *bodies); !fine)
+        return base::fail("its config: 'algorithm_toml': " + fine.error().message);
     const auto limits =
         device::parse_limits(written->governor_toml, "governor_toml", device::known_mechanisms);
     if (!limits) return tl::unexpected{limits.error()};

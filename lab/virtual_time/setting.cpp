@@ -14,8 +14,11 @@ namespace hapnet::lab::virtual_time {
 
 base::Result<void> validate(const Setting& setting)
 {
-    if (auto body = peer::shared_body(setting.scene); !body) {
-        return tl::unexpected{std::move(body).error()};
+    const auto bodies = peer::shared_bodies(setting.scene);
+    if (!bodies) return tl::unexpected{bodies.error()};
+    for (const PlayerSetting& player : setting.players) {
+        if (const auto fine = peer::check_bodies_of(player.algorithm, *bodies); !fine)
+            return tl::unexpected{fine.error()};
     }
     if (auto world = scene::World::freeze(setting.scene, {.tick = setting.tick}); !world) {
         return tl::unexpected{std::move(world).error()};

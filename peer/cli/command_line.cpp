@@ -28,6 +28,9 @@ constexpr const char* footer =
   T6  L taps the cube at 3 Hz while R rests on its far side
   T7  T3 with two to eight hands: in the order of their ids the 1st, 3rd, ... acts as L, the others
       as R, and those on one side share its force
+  T8  both turn the cube of the scene turning to and fro
+  T9  L puts a cube of stack-of-three on another, then R the third on both
+  T10 L hands R the screwdriver of the scene bench, and R puts it down
 Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). All peers
 need the same task and scene; the shortest --duration counts, from their common start. A peer waits
 for the others without a limit.

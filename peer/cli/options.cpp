@@ -56,17 +56,17 @@ base::Result<double> parse_force_limit(const std::string& text)
     return force;
 }
 
-/// A scene that two peers can share.
+/// A scene that peers can share.
 base::Result<scene::Description> scene_for_a_session(const std::string& file_or_name)
 {
     auto scene = scene::load_scene(file_or_name, net::text_of_file);
     if (!scene) return scene;
-    const auto body = shared_body(*scene);
-    if (!body) return base::fail(fmt::format("{}: {}", file_or_name, body.error().message));
+    const auto bodies = shared_bodies(*scene);
+    if (!bodies) return base::fail(fmt::format("{}: {}", file_or_name, bodies.error().message));
     return scene;
 }
 
-/// Loads it, and checks that two peers can share it.
+/// Loads it, and checks that peers can share it.
 base::Result<void> take_scene(const std::string& file_or_name, Options& options)
 {
     auto scene = scene_for_a_session(file_or_name);
@@ -285,13 +285,14 @@ void add_peer_options(cli::Command& program, Options& options, Asked& asked)
 void add_session_options(cli::Command& program, Options& options, Asked& asked)
 {
     add_peer_options(program, options, asked);
-    program.option("--scene", "FILE|NAME",
-                   "A scene in TOML, or a built-in one by name; it has one movable body that does "
-                   "not turn (default: the task's; lift for T4, wall for T5, carry "
-                   "for T7, paper for the others)",
-                   [&options](const std::string& text) { return take_scene(text, options); });
+    program.option(
+        "--scene", "FILE|NAME",
+        "A scene in TOML, or a built-in one by name; at most 8 of its bodies are movable "
+        "(default: the task's; lift for T4, wall for T5, carry for T7, turning for T8, "
+        "stack-of-three for T9, bench for T10, paper for the others)",
+        [&options](const std::string& text) { return take_scene(text, options); });
     add_force_options(program, options);
-    program.option("--task", "P1|T1|...|T7", "What the hands do, simulated or yours (default P1)",
+    program.option("--task", "P1|T1|...|T10", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
     program.option("--algorithm", "NAME|FILE",
                    "How the two cubes are kept together: base (default), dead-reckoning, sep, "
@@ -333,6 +334,8 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
         const auto taken = take_scene(std::string{scene_for(options)}, options);
         if (!taken) return base::fail(fmt::format("--scene: {}", taken.error().message));
     }
+    const auto played = check_bodies_of(options.algorithm, shared_bodies(options.scene).value());
+    if (!played) return base::fail(fmt::format("--algorithm: {}", played.error().message));
     return check_circle(options);
 }
 

@@ -9,17 +9,26 @@
 
 namespace hapnet::peer {
 
-/// Running sums of the effects that this peer's hand has caused since the session began. Messages
-/// carry the sums themselves, so that a receiver that missed messages has missed no effect.
+/// Running sums of the effects that this peer's hand has caused on a body since the session began.
+/// Messages carry the sums themselves, so that a receiver that missed messages has missed no
+/// effect.
 class EffectSums {
 public:
     void add(base::Displacement moved) { displacement_ += moved; }
     void add(base::Impulse given) { impulse_ += given; }
+    /// By so many radians about the axis of `turned`.
+    void add_rotation(const glm::dvec3& turned) { rotation_ += turned; }
+    /// In N m s, about the body's centre.
+    void add_angular(const glm::dvec3& given) { angular_impulse_ += given; }
 
     /// In micrometres, as the wire has it.
     [[nodiscard]] wire::Sums displacement_um() const { return millionths(displacement_.value); }
     /// In micronewton seconds.
     [[nodiscard]] wire::Sums impulse_uns() const { return millionths(impulse_.value); }
+    /// In microradians.
+    [[nodiscard]] wire::Sums rotation_urad() const { return millionths(rotation_); }
+    /// In millionths of N m s.
+    [[nodiscard]] wire::Sums angular_impulse_unms() const { return millionths(angular_impulse_); }
 
 private:
     [[nodiscard]] static wire::Sums millionths(const glm::dvec3& v)
@@ -35,6 +44,8 @@ private:
 
     base::Displacement displacement_;
     base::Impulse impulse_;
+    glm::dvec3 rotation_{0.0};        // rad
+    glm::dvec3 angular_impulse_{0.0}; // N m s
 };
 
 } // namespace hapnet::peer

@@ -4,10 +4,12 @@
 
 #include "peer/core/passivity.hpp"
 #include "proto/base/ensure.hpp"
+#include "scene/maths/rotation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace hapnet::peer {
@@ -23,6 +25,7 @@ constexpr double speed_max_m_per_s = 1000.0;
 constexpr double reach_of_scene = 8.0;
 constexpr double reach_least_m = 1.0;
 constexpr double crossing_s = 0.1;
+constexpr double turn_max_rad_per_s = 1000.0;
 
 double remote_reach_m(const scene::Description& scene)
 {
@@ -42,11 +45,18 @@ bool is_usable(const Hand& hand)
            scene::is_within(hand.velocity.value, speed_max_m_per_s);
 }
 
-scene::BodyId shared_body_of(const Settings& settings)
+std::vector<SharedBody> shared_bodies_of(const Settings& settings)
 {
-    const auto body = shared_body(settings.scene);
-    base::ensure(body.has_value());
-    return *body;
+    auto bodies = shared_bodies(settings.scene);
+    base::ensure(bodies.has_value() && check_bodies_of(settings.algorithm, *bodies).has_value());
+    return *std::move(bodies);
+}
+
+std::optional<BaseBodies> base_bodies_of(const Settings& settings,
+                                         const std::vector<SharedBody>& shared)
+{
+    if (is_one_without_turning(shared)) return std::nullopt;
+    return BaseBodies{shared, settings.introduction.id, base_options(settings.algorithm)};
 }
 
 scene::World world_of(const Settings& settings)
@@ -74,11 +84,27 @@ HandDynamics dynamics_of(const Settings& settings)
     return hand;
 }
 
+/// The stiffest and the most damped that a hand can feel in the scene, as one.
+VirtualWall hardest_wall(const scene::Description& scene)
+{
+    VirtualWall wall{scene.hands.stiffness_n_per_m, scene.hands.damping_ns_per_m};
+    const auto meet = [&wall](double stiffness_n_per_m, double damping_ns_per_m) {
+        wall.stiffness_n_per_m = std::max(wall.stiffness_n_per_m, stiffness_n_per_m);
+        wall.damping_ns_per_m = std::max(wall.damping_ns_per_m, damping_ns_per_m);
+    };
+    for (const scene::BodyDescription& body : scene.bodies) {
+        const scene::HandDescription on_it = scene::hand_on(scene.hands, {}, body.feel);
+        meet(on_it.stiffness_n_per_m, on_it.damping_ns_per_m);
+    }
+    for (const scene::FieldDescription& field : scene.fields)
+        if (field.on_hands) meet(field.stiffness_n_per_m, field.damping_ns_per_m);
+    return wall;
+}
+
 /// The share of the force on the hand that may be rendered.
 double rendered_share(const Settings& settings)
 {
-    const scene::HandDescription& hips = settings.scene.hands;
-    const VirtualWall wall{hips.stiffness_n_per_m, hips.damping_ns_per_m};
+    const VirtualWall wall = hardest_wall(settings.scene);
     return std::min(
         share_within(settings.stiffness_max_n_per_m, wall),
         passive_share(wall, base::to_seconds(settings.tick), settings.grip_damping_ns_per_m));
@@ -101,13 +127,16 @@ Peer::Peer(const Settings& settings)
     : settings_{settings},
       circle_{settings.roster, member_of(settings)},
       others_(settings.roster.others.size()),
-      body_{shared_body_of(settings)},
+      shared_{shared_bodies_of(settings)},
+      body_{shared_.front().id},
+      base_bodies_{base_bodies_of(settings, shared_)},
       world_{world_of(settings)},
       friction_{friction_of(settings)},
       intention_{dynamics_of(settings)},
       force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)},
-      remote_reach_m_{remote_reach_m(settings.scene)}
+      remote_reach_m_{remote_reach_m(settings.scene)},
+      effects_(shared_.size())
 {
     base::ensure(circle_.is_pair() || plays_with_many(settings.algorithm));
     if (auto* proxies = std::get_if<RemoteProxy>(&settings_.algorithm))
@@ -218,6 +247,14 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
     std::visit([&](auto& algorithm) { algorithm.hear(received); }, settings_.algorithm);
 }
 
+inline bool Peer::is_shared(const wire::BodyState& body) const
+{
+    if (!base_bodies_) return body.body == body_ && !body.turning;
+    return std::ranges::any_of(shared_, [&](const SharedBody& shared) {
+        return shared.id == body.body && shared.turns() == body.turning.has_value();
+    });
+}
+
 bool Peer::is_plausible(const wire::State& state) const
 {
     const double speed_m_per_s = remote_reach_m_ / crossing_s;
@@ -227,7 +264,9 @@ bool Peer::is_plausible(const wire::State& state) const
     };
     if (!is_possible(state.hip, state.hip_velocity)) return false;
     return std::all_of(state.bodies.begin(), state.bodies.end(), [&](const wire::BodyState& body) {
-        return body.body == body_ && is_possible(body.position, body.velocity);
+        return is_shared(body) && is_possible(body.position, body.velocity) &&
+               (!body.turning ||
+                scene::is_within(body.turning->angular_velocity, turn_max_rad_per_s));
     });
 }
 
@@ -307,7 +346,7 @@ Tick Peer::tick(base::TimePoint now, const Hand& hand)
     tick.phase = in_session && is_alone() ? Phase::alone : phase;
     for (std::size_t i = 0; i < others_.size(); ++i) {
         const Member& other = others()[i];
-        others_[i] = {&other.remote(), other.freshness(now)};
+        others_[i] = {&other.remote(), other.freshness(now), other.id()};
         tick.freshness = std::max(tick.freshness, others_[i].freshness);
     }
     note(phase, now);
@@ -325,20 +364,24 @@ Tick Peer::tick(base::TimePoint now, const Hand& hand)
 std::size_t Peer::chief() const
 {
     const auto is_heard = [](const Other& other) { return other.freshness > 0.0; };
-    const auto was_heard = [](const Other& other) { return other.remote->body().has_value(); };
+    const auto was_heard = [](const Other& other) { return other.remote->body() != nullptr; };
     auto found = std::ranges::find_if(others_, is_heard);
     if (found == others_.end()) found = std::ranges::find_if(others_, was_heard);
     return found == others_.end() ? 0 : static_cast<std::size_t>(found - others_.begin());
 }
 
-/// One who joins late starts with the body where one of the others has it.
-void Peer::take_body_over()
+/// One who joins late starts with the bodies where one of the others has them.
+void Peer::take_bodies_over()
 {
     if (body_known_) return;
     for (const Other& other : others_) {
-        const auto& body = other.remote->body();
-        if (!body) continue;
-        world_.place(body_, body->position, body->velocity);
+        if (other.remote->bodies_known() < shared_.size()) continue;
+        if (base_bodies_) {
+            base_bodies_->take_over(world_, *other.remote);
+        } else {
+            const wire::BodyState& body = *other.remote->body();
+            world_.place(body_, body.position, body.velocity);
+        }
         body_known_ = true;
         return;
     }
@@ -364,7 +407,7 @@ bool Peer::are_others_fresh(base::TimePoint now) const
 
 void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
 {
-    take_body_over();
+    take_bodies_over();
     const bool usable = is_usable(hand);
     if (!usable) ++counters_.unusable_hand;
     const scene::HandInput input{.position = usable ? hand.hip : base::Position{},
@@ -383,10 +426,10 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .force_max_n = force_max_n_,
                               .lower_ids = circle_.rank(),
                               .hands = &settings_.scene.hands};
-    const base::Position before = position();
+    note_places();
     if (body_known_) move_world(tick, situation, input);
     keep_within_reach();
-    account(tick, position() - before, now);
+    account(tick, now);
     // The governor's own fade runs along with the others': zero when one of them counts as lost.
     tick.permitted = usable && body_known_ && are_others_fresh(now) && tick.phase == Phase::running;
     if (usable) {
@@ -399,14 +442,25 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
 
 /// A remote side that lies can drag the body to where the other copy would not believe it to be any
 /// more; then the two would never agree again.
-void Peer::keep_within_reach()
+inline void Peer::keep_within_reach()
 {
-    const base::Position place = position();
-    if (scene::is_within(place.value, remote_reach_m_)) return;
-    constexpr double inside = 0.99; // whatever is rounded on the wire
-    const glm::dvec3 back =
-        glm::clamp(place.value, -inside * remote_reach_m_, inside * remote_reach_m_);
-    world_.place(body_, {back}, {});
+    for (const SharedBody& shared : shared_) {
+        const base::Position place = world_.position(shared.id);
+        if (scene::is_within(place.value, remote_reach_m_)) continue;
+        constexpr double inside = 0.99; // whatever is rounded on the wire
+        const glm::dvec3 back =
+            glm::clamp(place.value, -inside * remote_reach_m_, inside * remote_reach_m_);
+        world_.place(shared.id, {back}, {});
+    }
+}
+
+inline void Peer::note_places()
+{
+    for (std::size_t i = 0; i < shared_.size(); ++i) {
+        effects_[i].place_before = world_.position(shared_[i].id);
+        if (shared_[i].turns())
+            effects_[i].orientation_before = world_.body(shared_[i].id).orientation;
+    }
 }
 
 void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand)
@@ -417,8 +471,10 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandI
         rubbing = friction_->on_body(hand, world_.body(body_));
         world_.push(body_, rubbing);
     }
-    const Outcome outcome = std::visit(
-        [&](auto& algorithm) { return algorithm.tick(world_, situation); }, settings_.algorithm);
+    const Outcome outcome = base_bodies_
+                                ? base_bodies_->tick(world_, situation)
+                                : std::visit([&](auto& one) { return one.tick(world_, situation); },
+                                             settings_.algorithm);
     tick.touched = outcome.touched;
     tick.remote_touching = outcome.remote_touching;
     tick.remote_force = outcome.remote_force;
@@ -433,25 +489,89 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandI
     tick.force = share_ * on_hand;
 }
 
-void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint now)
+void Peer::account(const Tick& tick, base::TimePoint now)
 {
-    const bool touching = tick.touched.touching;
-    if (touching) {
-        last_touch_ = now;
-        effects_.add(tick.touched.on_body * settings_.tick);
-    } else if (tick.remote_touching) {
-        last_touch_.reset(); // the other hand has taken the body over
+    using Mover = BaseBodies::Mover;
+    if (base_bodies_) {
+        for (std::size_t i = 0; i < shared_.size(); ++i)
+            account_for(i, base_bodies_->mover(i), tick, now);
+        return;
+    }
+    const Mover of_others = tick.remote_touching ? Mover::others : Mover::none;
+    account_for(0, tick.touched.touching ? Mover::own : of_others, tick, now);
+}
+
+inline void Peer::account_for(std::size_t body, BaseBodies::Mover mover, const Tick& tick,
+                              base::TimePoint now)
+{
+    Effect& effect = effects_[body];
+    const SharedBody& shared = shared_[body];
+    if (mover == BaseBodies::Mover::own) {
+        effect.last_touch = now;
+        if (tick.touched.body == shared.id) add_push(body, tick.touched);
+    } else if (mover == BaseBodies::Mover::others) {
+        effect.last_touch.reset(); // another hand has taken the body over
     }
     // The body still coasts from this hand's push for a while after it.
-    const bool ours = last_touch_ && now - *last_touch_ < push_lasts;
-    if (ours) effects_.add(moved);
-    if (touching || base::norm(moved) > 1e-9) last_stir_ = now;
+    const bool ours = effect.last_touch && now - *effect.last_touch < push_lasts;
+    const base::Displacement moved = world_.position(shared.id) - effect.place_before;
+    if (ours) effect.sums.add(moved);
+    bool stirs = mover == BaseBodies::Mover::own || base::norm(moved) > 1e-9;
+    if (shared.turns()) {
+        const glm::dvec3 turned =
+            scene::turn_between(effect.orientation_before, world_.body(shared.id).orientation);
+        if (ours) effect.sums.add_rotation(turned);
+        stirs = stirs || base::norm(base::Displacement{turned}) > 1e-7;
+    }
+    if (stirs) effect.last_stir = now;
+}
+
+/// Of this hand on a body, in the tick.
+void Peer::add_push(std::size_t body, const scene::HandTouch& touch)
+{
+    Effect& effect = effects_[body];
+    const base::Impulse given = touch.on_body * settings_.tick;
+    effect.sums.add(given);
+    if (!shared_[body].turns()) return;
+    const base::Displacement lever = world_.state().hands[own_hand].position - effect.place_before;
+    effect.sums.add_angular(glm::cross(lever.value, given.value));
 }
 
 /// Whether the others must hear of the body: it moves, or did a moment ago.
-bool Peer::body_stirs(base::TimePoint now) const
+inline bool Peer::body_stirs(std::size_t body, base::TimePoint now) const
 {
-    return last_stir_ && now - *last_stir_ < body_lingers;
+    const auto& last = effects_[body].last_stir;
+    return last && now - *last < body_lingers;
+}
+
+inline wire::BodyState Peer::body_state(std::size_t body) const
+{
+    const SharedBody& shared = shared_[body];
+    const EffectSums& sums = effects_[body].sums;
+    wire::BodyState state{.body = static_cast<std::uint16_t>(shared.id),
+                          .position = world_.position(shared.id),
+                          .velocity = world_.velocity(shared.id),
+                          .caused_displacement_um = sums.displacement_um(),
+                          .caused_impulse_uns = sums.impulse_uns(),
+                          .turning = {}};
+    if (!shared.turns()) return state;
+    const scene::BodyState turned = world_.body(shared.id);
+    const auto spin =
+        base::limited(base::Velocity{turned.angular_velocity}, 0.99 * turn_max_rad_per_s);
+    state.turning = {.orientation = wire::Orientation::from(turned.orientation),
+                     .angular_velocity = spin.value,
+                     .caused_rotation_urad = sums.rotation_urad(),
+                     .caused_angular_impulse_unms = sums.angular_impulse_unms()};
+    return state;
+}
+
+/// Those that something touches or moves; all of them when that is due.
+inline BodySet Peer::bodies_to_say(bool all, base::TimePoint now) const
+{
+    unsigned set = 0;
+    for (std::size_t i = 0; body_known_ && i < shared_.size(); ++i)
+        if (all || body_stirs(i, now)) set |= 1U << i;
+    return static_cast<BodySet>(set);
 }
 
 /// The same to each of the others, but for what belongs to the two of them: number and clock.
@@ -470,20 +590,18 @@ void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
         state.intention_velocity = intention_.velocity();
     }
     state.contact_force = tick.touched.on_body;
-    const wire::BodyState body{.body = static_cast<std::uint16_t>(body_),
-                               .position = position(),
-                               .velocity = velocity(),
-                               .caused_displacement_um = effects_.displacement_um(),
-                               .caused_impulse_uns = effects_.impulse_uns(),
-                               .turning = {}};
-    const bool stirs = body_stirs(now);
+    BodySet said = 0; // that the state has, which is mostly the same for all
     for (Member& other : circle_.members()) {
         if (!other.session() || other.is_gone()) continue;
         state.session = other.numbering().number;
         state.sequence = other.next_sequence();
         state.echo = other.handshake().echo(now);
-        state.bodies.clear();
-        if (body_known_ && (stirs || other.is_body_due())) state.bodies.add(body);
+        const BodySet due = bodies_to_say(other.is_body_due(), now);
+        if (due != std::exchange(said, due)) {
+            state.bodies.clear();
+            for (std::size_t i = 0; i < shared_.size(); ++i)
+                if ((due >> i & 1U) != 0) state.bodies.add(body_state(i));
+        }
         other.post(wire::encode(state));
         ++counters_.sent;
     }

@@ -8,6 +8,7 @@
 #include "peer/core/intention.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "peer/core/sync/base_bodies.hpp"
 #include "proto/record/rows.hpp"
 
 #include <optional>
@@ -29,8 +30,8 @@ struct Hand {
 struct Settings {
     Introduction introduction;
     Roster roster; // the others; with more than one: plays_with_many()
-    scene::Description scene = scene::paper_scene(); // one that shared_body() accepts
-    Algorithm algorithm;
+    scene::Description scene = scene::paper_scene(); // one that shared_bodies() accepts
+    Algorithm algorithm;                             // one that check_bodies_of() accepts
     /// Damping of the device and the loosest grip on it. It bounds the contacts that can be
     /// rendered without the hand drawing energy from them (passive_share). The default is a nominal
     /// grip on a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z.
@@ -103,9 +104,9 @@ struct Tick {
 };
 
 /// One peer without device, socket or clock: its copy of the scene, its hand, what it knows of
-/// the others, and the session with them. They share one body of the scene. Call on_datagram() for
-/// what arrives, tick() once per millisecond, and then poll() for each of the others and notice()
-/// until they are empty.
+/// the others, and the session with them. They share the movable bodies of the scene. Call
+/// on_datagram() for what arrives, tick() once per millisecond, and then poll() for each of the
+/// others and notice() until they are empty.
 class Peer {
 public:
     static constexpr base::Duration hands_off_length{std::chrono::seconds{3}};
@@ -122,7 +123,7 @@ public:
     static constexpr int refusals_needed = 3;
     static constexpr base::Duration refusal_every{std::chrono::milliseconds{4}};
 
-    /// The scene must be one that shared_body() and World::freeze() accept.
+    /// The scene must be one that shared_bodies() and World::freeze() accept.
     explicit Peer(const Settings& settings);
 
     /// `from`: which of the others sent it, in the order of the roster.
@@ -143,7 +144,9 @@ public:
     [[nodiscard]] bool finished() const { return leaving_ && byes_left_ == 0; }
 
     [[nodiscard]] const scene::World& world() const { return world_; }
-    /// The shared body in this copy of the scene.
+    /// All of them: every movable body of the scene, by their ids.
+    [[nodiscard]] std::span<const SharedBody> shared() const { return shared_; }
+    /// The first shared body in this copy of the scene.
     [[nodiscard]] scene::BodyState body() const { return world_.body(body_); }
     [[nodiscard]] base::Position position() const { return world_.position(body_); } // of body()
     [[nodiscard]] base::Velocity velocity() const { return world_.velocity(body_); }
@@ -195,33 +198,50 @@ private:
     void note(Phase phase, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
     [[nodiscard]] std::size_t chief() const;
-    void take_body_over();
+    void take_bodies_over();
+    [[nodiscard]] bool is_shared(const wire::BodyState& body) const;
     [[nodiscard]] bool are_others_fresh(base::TimePoint now) const;
     void move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand);
     void keep_within_reach();
-    void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
+    void note_places();
+    void account(const Tick& tick, base::TimePoint now);
+    void account_for(std::size_t body, BaseBodies::Mover mover, const Tick& tick,
+                     base::TimePoint now);
+    void add_push(std::size_t body, const scene::HandTouch& touch);
+    [[nodiscard]] wire::BodyState body_state(std::size_t body) const;
+    [[nodiscard]] BodySet bodies_to_say(bool all, base::TimePoint now) const;
     void say_states(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);
-    [[nodiscard]] bool body_stirs(base::TimePoint now) const;
+    [[nodiscard]] bool body_stirs(std::size_t body, base::TimePoint now) const;
+
+    /// What this hand does to one of the shared bodies.
+    struct Effect {
+        EffectSums sums;
+        std::optional<base::TimePoint> last_touch; // by this hand
+        std::optional<base::TimePoint> last_stir;  // the body was touched or moved
+        base::Position place_before;               // at the start of the tick
+        glm::dquat orientation_before{1.0, 0.0, 0.0, 0.0};
+    };
 
     Settings settings_;
     Circle circle_;
     std::vector<Other> others_; // of this tick, as the algorithm is to see them
-    scene::BodyId body_;        // the shared one
+    std::vector<SharedBody> shared_;
+    scene::BodyId body_; // the first of them
+    /// Moves them, unless they are one without turning: then the algorithm of the settings does.
+    std::optional<BaseBodies> base_bodies_;
     scene::World world_;
     std::optional<FingerFriction> friction_; // where the scene's hands have any
     Intention intention_;                    // of this hand
     double force_max_n_;                     // of the remote hand
     double share_;                           // of the forces on the hand, that may be rendered
     double remote_reach_m_;                  // of what the other side may claim
-    EffectSums effects_;
+    std::vector<Effect> effects_;            // on the shared bodies
     Outbox<Notice, 32> notices_;
     Counters counters_;
 
     Phase phase_ = Phase::waiting;
-    bool body_known_ = true;                    // false: joined late, the others' body not seen yet
-    std::optional<base::TimePoint> last_touch_; // by this hand
-    std::optional<base::TimePoint> last_stir_;  // the body was touched or moved
+    bool body_known_ = true; // false: joined late, the others' bodies not all seen yet
     std::optional<PendingRefusal> pending_refusal_;
     std::optional<wire::ByeReason> refusal_;
     bool leaving_ = false;

@@ -6,6 +6,8 @@
 #include "proto/base/time.hpp"
 #include "proto/wire/message.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -35,18 +37,31 @@ public:
 
     /// nullopt before the first state of the session.
     [[nodiscard]] const std::optional<wire::State>& state() const { return state_; }
-    /// Its body's state, from the newest message that had one.
-    [[nodiscard]] const std::optional<wire::BodyState>& body() const { return body_; }
+    /// A body's state, from the newest message that had it; nullptr: there was none.
+    [[nodiscard]] const wire::BodyState* body(std::uint16_t id) const;
+    /// The same where there is but one.
+    [[nodiscard]] const wire::BodyState* body() const
+    {
+        return count_ == 0 ? nullptr : &bodies_[0];
+    }
+    /// How many bodies it has told of.
+    [[nodiscard]] std::size_t bodies_known() const { return count_; }
+    /// The body that the newest state's hand pushes, by the impulse that it has given last.
+    [[nodiscard]] const wire::BodyState* touched() const;
     [[nodiscard]] std::optional<base::TimePoint> arrived() const { return arrived_; }
 
     /// 1 while fresh, falling to 0 over the fade, 0 when stale or unknown.
     [[nodiscard]] double freshness(base::TimePoint now) const;
 
 private:
+    void take(const wire::State& state);
+
     Staleness staleness_;
     Stale stale_;
     std::optional<wire::State> state_;
-    std::optional<wire::BodyState> body_;
+    std::array<wire::BodyState, wire::bodies_max> bodies_; // the first count_, as they were told of
+    std::size_t count_ = 0;
+    std::size_t touched_ = 0; // of these
     std::optional<base::TimePoint> arrived_;
 };
 

@@ -5,11 +5,28 @@
 #include "proto/base/result.hpp"
 #include "scene/world.hpp"
 
+#include <span>
+#include <vector>
+
 namespace hapnet::peer {
 
-/// The one body of a scene that two peers share; the error says why they cannot. A session shares
-/// exactly one movable body, and one that does not rotate: messages carry its position and
-/// velocity, but no orientation.
+/// One of the bodies that all peers of a session move.
+struct SharedBody {
+    scene::BodyId id = 0;
+    scene::Turning turning = scene::Turning::locked;
+    double reach_m = 0.0; // from its centre of mass to its farthest point
+
+    [[nodiscard]] bool turns() const { return turning != scene::Turning::locked; }
+};
+
+/// The bodies of a scene that a session shares, by their ids: all that are movable, one to
+/// wire::bodies_max of them. The error names what a session cannot have, and the cure.
+[[nodiscard]] base::Result<std::vector<SharedBody>> shared_bodies(const scene::Description& scene);
+
+/// The first of them, which stands for all in the ticks of a record.
 [[nodiscard]] base::Result<scene::BodyId> shared_body(const scene::Description& scene);
+
+/// One body that does not turn, as the paper has it: every algorithm can play it.
+[[nodiscard]] bool is_one_without_turning(std::span<const SharedBody> bodies);
 
 } // namespace hapnet::peer

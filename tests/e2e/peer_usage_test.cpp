@@ -110,8 +110,9 @@ TEST(PeerUsage, RefusesAScenePointingAtTheLineAndAtTheCure)
 {
     expect_refusal(run_peer_with({"--scene", "no/such.toml"}), 2, {"--scene", "no/such.toml"});
     expect_refusal(run_peer_with({"--scene", "stack-10"}), 2,
-                   {"--scene", "one movable body", "this scene has 10"});
-    expect_refusal(run_peer_with({"--scene", "push-6dof"}), 2, {"--scene", "turning = \"locked\""});
+                   {"--scene", "at most 8 movable bodies", "this scene has 10"});
+    expect_refusal(run_peer_with({"--scene", "push-6dof", "--algorithm", "sep"}), 2,
+                   {"--algorithm", "'sep'", "turning = \"locked\""});
     const std::string file = testing::TempDir() + "hapnet-bad-scene.toml";
     std::ofstream{file}
         << "name = \"bad\"\n[[body]]\nsize = \"40mm\"\nmass = \"100g\"\nfricton = 0.3\n";

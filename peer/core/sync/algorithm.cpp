@@ -36,4 +36,25 @@ bool plays_with_many(const Algorithm& algorithm)
            std::holds_alternative<RemoteProxy>(algorithm);
 }
 
+base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const SharedBody> bodies)
+{
+    if (is_one_without_turning(bodies)) return {};
+    const auto* const base = std::get_if<BaseAlgorithm>(&algorithm);
+    if (base == nullptr) {
+        return base::fail(fmt::format(
+            "'{}' is for one body that does not turn: use base, or a scene with one movable body "
+            "that has turning = \"locked\"",
+            algorithm_names.at(algorithm.index())));
+    }
+    BaseOptions rest = base->options(); // but for what these bodies have, too
+    rest.stale = {};
+    rest.let_go_after = {};
+    rest.settle_after = BaseOptions{}.settle_after;
+    rest.settle_within = BaseOptions{}.settle_within;
+    if (rest == BaseOptions{}) return {};
+    return base::fail("bodies that turn, and several, follow the other side as base does by "
+                      "default: leave out all of its keys but stale, let_go_after, settle_after "
+                      "and settle_within");
+}
+
 } // namespace hapnet::peer

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/shared_body.hpp"
 #include "peer/core/sync/base_algorithm.hpp"
 #include "peer/core/sync/dead_reckoning.hpp"
 #include "peer/core/sync/estimator_predictor.hpp"
 #include "peer/core/sync/remote_proxy.hpp"
 #include "proto/base/result.hpp"
 
+#include <span>
 #include <string_view>
 #include <variant>
 
@@ -31,5 +33,10 @@ inline constexpr auto algorithm_names = base::names(
 [[nodiscard]] Stale stale_of(const Algorithm& algorithm);
 /// Whether it can play with more than one other.
 [[nodiscard]] bool plays_with_many(const Algorithm& algorithm);
+
+/// Whether it can play these bodies; the error says what it cannot. Bodies that turn, and several,
+/// are for base alone, with the readings of the paper that they have, too.
+[[nodiscard]] base::Result<void> check_bodies_of(const Algorithm& algorithm,
+                                                 std::span<const SharedBody> bodies);
 
 } // namespace hapnet::peer

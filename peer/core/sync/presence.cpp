@@ -31,7 +31,7 @@ std::optional<Presence::Pose> pose_of(const Situation& situation, bool touching)
         Presence::Pose sum{};
         for (const Other& other : situation.others) {
             const auto& state = other.remote->state();
-            const auto& body = other.remote->body();
+            const wire::BodyState* const body = other.remote->body();
             if (!(other.freshness > 0.0) || !state || !state->touching || !body) continue;
             sum.position.value += body->position.value;
             sum.velocity.value += body->velocity.value;
@@ -43,7 +43,7 @@ std::optional<Presence::Pose> pose_of(const Situation& situation, bool touching)
             return sum;
         }
     }
-    const auto& body = situation.remote.body();
+    const wire::BodyState* const body = situation.remote.body();
     if (!body) return std::nullopt;
     return Presence::Pose{body->position, body->velocity};
 }

@@ -6,6 +6,7 @@
 #include "peer/core/remote.hpp"
 #include "scene/world.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -34,12 +35,13 @@ struct ReceivedState {
 struct Other {
     const Remote* remote = nullptr;
     double freshness = 0.0; // of its state, 0 to 1
+    std::uint16_t id = 0;
 };
 
 /// The input of one tick of an algorithm, besides this peer's hand, which is in the world.
 struct Situation {
     base::TimePoint now;
-    scene::BodyId body = 0;        // the shared one
+    scene::BodyId body = 0;        // the shared one, or the first of them
     std::span<const Other> others; // at least one, in the order of their ids
     const Remote& remote;          // the one with the lowest id of those that are heard
     double freshness = 0.0;        // of its state

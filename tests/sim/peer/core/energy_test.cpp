@@ -73,7 +73,10 @@ class Honest : public testing::TestWithParam<Task> {};
 
 TEST_P(Honest, HandsNeverNeedMoreThanTheBudgetAndKeepTheirBits)
 {
-    for (const char* name : {"base", "dead-reckoning", "sep"}) {
+    // Bodies that turn, and several, are for base alone.
+    const bool is_for_base = GetParam() >= Task::t8;
+    for (const std::string name : {"base", "dead-reckoning", "sep"}) {
+        if (is_for_base && name != "base") continue;
         for (const base::Duration delay : {0ms, 80ms, 160ms}) {
             const Setting setting = playing(GetParam(), delay, peer::algorithm_named(name).value());
             const Played free = played(setting, false);

@@ -129,7 +129,8 @@ TEST(Tasks, HaveNames)
     }
     const auto unknown = task_named("P2");
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().message, "unknown task 'P2': use P1, T1, T2, T3, T4, T5, T6, T7");
+    EXPECT_EQ(unknown.error().message,
+              "unknown task 'P2': use P1, T1, T2, T3, T4, T5, T6, T7, T8, T9, T10");
 }
 
 TEST(TaskP1, LetsTheLeftHandAloneHoldTheCubeWhileTheHandsAreOn)

@@ -46,6 +46,44 @@ TEST(Remote, KeepsTheNewestBodyThroughStatesWithoutOne)
     EXPECT_TRUE(remote.update(state_number(1), start + 2ms)); // numbers start anew
 }
 
+wire::BodyState pushed(std::uint16_t id, std::uint32_t given_uns)
+{
+    return {.body = id,
+            .position = {},
+            .velocity = {},
+            .caused_displacement_um = {},
+            .caused_impulse_uns = {given_uns, 0, 0},
+            .turning = {}};
+}
+
+TEST(Remote, KeepsEachBodyAndKnowsTheOneThatWasPushedLast)
+{
+    Remote remote{{}};
+    wire::State state = state_number(1);
+    state.touching = true;
+    state.bodies.add(pushed(2, 500));
+    state.bodies.add(pushed(5, 0xffff'fff0)); // it grows beyond 2^32
+    remote.update(state, start);
+    EXPECT_EQ(remote.bodies_known(), 2U);
+    state.sequence = 2;
+    state.bodies.clear();
+    state.bodies.add(pushed(2, 510));
+    state.bodies.add(pushed(5, 0x10));
+    remote.update(state, start + 1ms);
+    ASSERT_TRUE(remote.touched());
+    EXPECT_EQ(remote.touched()->body, 5U);
+    EXPECT_EQ(remote.body(2)->caused_impulse_uns[0], 510U);
+    EXPECT_EQ(remote.body(3), nullptr);
+    state.sequence = 3; // too weak a push to count in the sums
+    remote.update(state, start + 2ms);
+    EXPECT_EQ(remote.touched()->body, 5U);
+    state.sequence = 4;
+    state.touching = false;
+    remote.update(state, start + 3ms);
+    EXPECT_EQ(remote.touched(), nullptr);
+    EXPECT_EQ(remote.bodies_known(), 2U);
+}
+
 TEST(Remote, IsFreshFor250MsAfterItsArrivalAndThenFadesIn50Ms)
 {
     Remote remote{{}};

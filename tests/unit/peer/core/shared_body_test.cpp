@@ -2,16 +2,30 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/shared_body.hpp"
 
+#include "peer/core/sync/algorithm.hpp"
+
+#include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace hapnet::peer {
 namespace {
 
 std::string refusal_of(const scene::Description& scene)
 {
-    const auto body = shared_body(scene);
+    const auto body = shared_bodies(scene);
     return body ? "" : body.error().message;
+}
+
+/// The paper's with so many movable bodies, which may all turn.
+scene::Description scene_of(std::size_t movable)
+{
+    scene::Description scene = scene::paper_scene();
+    scene.bodies[0].turning = scene::Turning::free;
+    scene.bodies.insert(scene.bodies.begin(), movable - 1, scene.bodies[0]);
+    return scene;
 }
 
 TEST(SharedBody, IsTheMovableOneWhereverItStandsInTheScene)
@@ -22,54 +36,70 @@ TEST(SharedBody, IsTheMovableOneWhereverItStandsInTheScene)
     EXPECT_EQ(shared_body(scene), 1U);
 }
 
-TEST(SharedBody, IsRefusedWhenThereAreMoreOrNone)
+TEST(SharedBodies, AreAllThatAreMovableByTheirIds)
 {
-    scene::Description scene = scene::paper_scene();
-    scene.bodies.resize(4, scene.bodies[0]);
-    EXPECT_EQ(refusal_of(scene), "a session needs exactly one movable body; this scene has 3");
+    scene::Description scene = scene_of(8);
+    std::swap(scene.bodies[1], scene.bodies[8]); // a fixed one amid them
+    const auto bodies = shared_bodies(scene);
+    ASSERT_TRUE(bodies) << bodies.error().message;
+    std::vector<scene::BodyId> ids;
+    for (const SharedBody& body : *bodies) ids.push_back(body.id);
+    EXPECT_EQ(ids, (std::vector<scene::BodyId>{0, 2, 3, 4, 5, 6, 7, 8}));
+    EXPECT_TRUE(bodies->front().turns());
+    EXPECT_NEAR(bodies->front().reach_m, 0.02 * std::sqrt(3.0), 1e-12);
+    EXPECT_FALSE(is_one_without_turning(*bodies));
+    EXPECT_TRUE(is_one_without_turning(shared_bodies(scene::paper_scene()).value()));
+}
+
+TEST(SharedBodies, AreOneToEight)
+{
+    scene::Description scene = scene_of(10);
+    scene.bodies[8].name = "ninth";
+    EXPECT_EQ(refusal_of(scene), "a session shares at most 8 movable bodies, and this scene has "
+                                 "10: set fixed = true from body 'ninth' on");
     for (auto& body : scene.bodies) body.movable = false;
-    EXPECT_EQ(refusal_of(scene), "a session needs exactly one movable body; this scene has none");
+    EXPECT_EQ(refusal_of(scene), "a session needs a movable body; this scene has none");
     EXPECT_NE(refusal_of(scene::Description{}), "");
 }
 
-TEST(SharedBody, IsRefusedWhenItCanTurn)
+TEST(SharedBodies, MayBeOfAnyShapeInFieldsAndFeelLikeThemselves)
 {
-    for (const auto turning : {scene::Turning::free, scene::Turning::about_y}) {
-        scene::Description scene = scene::paper_scene();
-        scene.bodies[0].turning = turning;
-        EXPECT_NE(refusal_of(scene).find("turning = \"locked\""), std::string::npos);
-    }
-}
-
-TEST(SharedBody, IsRefusedWithBodiesOfSeveralParts)
-{
-    scene::Description scene = scene::paper_scene();
+    scene::Description scene = scene_of(3);
+    scene.bodies[0].shape = scene::Shape::sphere;
     scene.bodies[1].parts.emplace_back();
-    EXPECT_NE(refusal_of(scene).find("several parts"), std::string::npos);
-}
-
-TEST(SharedBody, IsRefusedAmongBodiesThatMoveByThemselves)
-{
-    scene::Description scene = scene::paper_scene();
-    scene.bodies[1].kinematic = true;
-    EXPECT_NE(refusal_of(scene).find("kinematic"), std::string::npos);
-}
-
-TEST(SharedBody, IsRefusedWhereBodiesOrHandsFeelUnlikeTheOthers)
-{
-    scene::Description scene = scene::paper_scene();
-    scene.bodies[1].feel.stiffness_n_per_m = 100.0;
-    EXPECT_NE(refusal_of(scene).find("stiffness"), std::string::npos);
-    scene = scene::paper_scene();
-    scene.own_hands.resize(1);
-    EXPECT_NE(refusal_of(scene).find("stiffness"), std::string::npos);
-}
-
-TEST(SharedBody, IsRefusedInAFieldOfForce)
-{
-    scene::Description scene = scene::paper_scene();
+    scene.bodies[2].feel.stiffness_n_per_m = 100.0;
+    scene.bodies[2].turning = scene::Turning::about_y;
+    scene.hands.static_friction = 0.5;
     scene.fields.resize(1);
-    EXPECT_NE(refusal_of(scene).find("fields"), std::string::npos);
+    EXPECT_EQ(refusal_of(scene), "");
+}
+
+TEST(SharedBodies, DoNotMoveByThemselvesAndHangOnNoJoint)
+{
+    scene::Description scene = scene_of(2);
+    scene.bodies[2].name = "belt";
+    scene.bodies[2].kinematic = true;
+    EXPECT_NE(refusal_of(scene).find("body 'belt' moves by itself"), std::string::npos);
+    EXPECT_NE(refusal_of(scene).find("set fixed = true"), std::string::npos);
+    scene = scene_of(2);
+    scene.bodies[1].name = "door";
+    scene.joints.push_back({.name = "hinge", .body = 1});
+    EXPECT_NE(refusal_of(scene).find("body 'door' hangs on the joint 'hinge'"), std::string::npos);
+}
+
+TEST(SharedBodies, HaveHandsThatAreAlikeAndOneKindOfFriction)
+{
+    scene::Description scene = scene_of(2);
+    scene.own_hands.resize(1);
+    EXPECT_NE(refusal_of(scene).find("all alike"), std::string::npos);
+    scene = scene_of(2);
+    scene.hands.friction = 0.5;
+    EXPECT_NE(refusal_of(scene).find("set static_friction instead"), std::string::npos);
+    scene = scene::paper_scene();
+    scene.hands.friction = 0.5;
+    EXPECT_EQ(refusal_of(scene), "");
+    scene.bodies[1].feel.stiffness_n_per_m = 100.0;
+    EXPECT_NE(refusal_of(scene).find("set static_friction alone"), std::string::npos);
 }
 
 TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
@@ -79,10 +109,28 @@ TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
     EXPECT_NE(refusal_of(scene).find("hand"), std::string::npos);
     scene.hands.count = 1;
     EXPECT_EQ(refusal_of(scene), "");
-    scene.bodies.insert(scene.bodies.begin(), 65'535, scene.bodies[1]);
-    EXPECT_EQ(shared_body(scene), 65'535U);
+    scene.bodies.insert(scene.bodies.begin(), 32'767, scene.bodies[1]);
+    EXPECT_EQ(shared_body(scene), 32'767U);
     scene.bodies.insert(scene.bodies.begin(), scene.bodies[0]);
-    EXPECT_NE(refusal_of(scene).find("65536"), std::string::npos);
+    EXPECT_NE(refusal_of(scene).find("32768"), std::string::npos);
+}
+
+TEST(SharedBodies, ThatTurnOrAreSeveralAreForBaseAsItIsByDefault)
+{
+    const auto one = shared_bodies(scene::paper_scene()).value();
+    const auto several = shared_bodies(scene_of(2)).value();
+    for (const char* name : {"base", "dead-reckoning", "sep"})
+        EXPECT_TRUE(check_bodies_of(algorithm_named(name).value(), one)) << name;
+    EXPECT_TRUE(check_bodies_of(BaseAlgorithm{}, several));
+    for (const char* name : {"dead-reckoning", "sep"}) {
+        const auto checked = check_bodies_of(algorithm_named(name).value(), several);
+        ASSERT_FALSE(checked);
+        EXPECT_NE(checked.error().message.find(name), std::string::npos);
+        EXPECT_NE(checked.error().message.find("use base"), std::string::npos);
+    }
+    EXPECT_TRUE(
+        check_bodies_of(BaseAlgorithm{{.stale = Stale::take, .settle_after = {}}}, several));
+    EXPECT_FALSE(check_bodies_of(BaseAlgorithm{{.follow = Follow::relative}}, several));
 }
 
 TEST(SharedBody, KeepsItsOrientationWhenItIsPlaced)

@@ -182,7 +182,8 @@ TEST(SceneText, EveryBuiltInSceneReadsUnderItsNameAndPrintsAsItself)
         {"conveyor", 10},   {"soft-and-hard", 3}, {"guide", 2},
         {"stick-slip", 3},  {"rolling", 7},       {"door", 2},
         {"drawer", 3},      {"button", 2},        {"carry", 2},
-        {"hammer", 3}};
+        {"hammer", 3},      {"turning", 1},       {"stack-of-three", 3},
+        {"bench", 4}};
     for (const auto& [name, bodies] : expected) {
         const auto scene = load_scene(std::string{name}, {});
         ASSERT_TRUE(scene) << scene.error().message;
