@@ -114,7 +114,8 @@ Trace Play::trace() &&
     trace.begin = l.first + skipped * tick_ - start;
     trace.overlap =
         std::min(1.0, base::to_seconds(common * tick_) / base::to_seconds(first.peer().hands_on()));
-    trace.sides = {std::move(l.samples), std::move(r.samples)};
+    trace.sides[0] = std::move(l.samples);
+    trace.sides[1] = std::move(r.samples);
     return trace;
 }
 

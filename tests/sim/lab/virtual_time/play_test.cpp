@@ -153,7 +153,7 @@ TEST(Play, LosesNoDatagramThatTheEmulatorWouldKeep)
     const auto trace = play(setting);
     ASSERT_TRUE(trace);
     // R's cube is L's of 5 s ago, as long as nothing is missing.
-    const auto& [left, right] = trace->sides;
+    const auto &left = trace->sides[0], &right = trace->sides[1];
     ASSERT_GT(left.size(), 20'000U);
     for (std::size_t i = 10'000; i < left.size(); ++i) {
         ASSERT_NEAR(right[i].body.x(), left[i - 5000].body.x(), 1e-8) << i; // singles on the wire
