@@ -36,7 +36,7 @@ Setting keyed_setting(std::string_view profile)
 
 Status::Key key_of(const VirtualWorld& world, std::size_t side)
 {
-    return *status_of(world.side(side).line, world.now()).key;
+    return *status_of(world.side(side).lines[0], world.now()).key;
 }
 
 bool has_event(const VirtualWorld& world, std::size_t side, Event event)
@@ -62,13 +62,14 @@ public:
         for (const std::size_t side : {0U, 1U}) {
             auto& inbox = inboxes_.at(side);
             while (!inbox.empty() && inbox.front().due <= now_) {
-                players_.at(side).receive(inbox.front().bytes, inbox.front().due);
+                players_.at(side).receive(0, inbox.front().bytes, inbox.front().due);
                 inbox.pop_front();
             }
         }
         for (const std::size_t side : {0U, 1U}) {
             players_.at(side).step(now_);
-            players_.at(side).send_all([&](std::span<const std::byte> bytes, const auto&) {
+            players_.at(side).send_all([&](std::size_t, std::span<const std::byte> bytes,
+                                           const auto&) {
                 inboxes_.at(1 - side).push_back({Bytes{bytes.begin(), bytes.end()}, now_ + 3ms});
                 if (side == 0) seen_.emplace_back(bytes.begin(), bytes.end());
             });
@@ -95,7 +96,9 @@ void attack(Wire& world, int tick)
     constexpr std::size_t victim = 1;
     const std::vector<Bytes>& heard = world.seen();
     auto& player = world.side(victim);
-    const auto give = [&](std::span<const std::byte> bytes) { player.receive(bytes, world.now()); };
+    const auto give = [&](std::span<const std::byte> bytes) {
+        player.receive(0, bytes, world.now());
+    };
     wire::State state;
     state.session = player.peer().session() ? player.peer().session()->number : 1;
     state.sequence = static_cast<std::uint32_t>(tick + 500);
@@ -146,7 +149,7 @@ TEST(KeyedSession, IsNotMovedABitByAFloodOfForgedMessages)
     }
     EXPECT_EQ(attacked.side(1).events, left_alone.side(1).events);
     EXPECT_EQ(std::ranges::count(attacked.side(1).events, Event::hands_off), 1);
-    const Status::Key key = *status_of(attacked.side(1).line, attacked.now()).key;
+    const Status::Key key = *status_of(attacked.side(1).lines[0], attacked.now()).key;
     EXPECT_GT(key.counts.unsealed, 40'000U);
     EXPECT_GT(key.counts.forged + key.counts.unknown_key, 5'000U);
     EXPECT_GT(key.counts.replayed, 5'000U);
@@ -247,10 +250,10 @@ TEST(KeyedSession, IsFoundAgainAfterBothSidesWereLookedForElsewhere)
 {
     VirtualWorld world{keyed_setting("[both]\ndelay = \"20ms\"")};
     bool redirects = false;
-    world.intercept([&](std::size_t to, std::span<const std::byte> bytes, base::TimePoint at) {
+    world.intercept([&](const VirtualWorld::Arrival& arrival) {
         const secure::Place elsewhere{std::byte{0xee}};
-        const secure::Place from = redirects ? elsewhere : lab::virtual_time::place_of(1 - to);
-        world.side(to).receive(bytes, from, at);
+        const auto place = redirects ? elsewhere : lab::virtual_time::place_of(arrival.from);
+        world.side(arrival.to).receive(0, place, arrival.datagram, arrival.at);
     });
     world.run_for(4s);
     redirects = true;
@@ -287,7 +290,7 @@ TEST(KeyedSession, OfDifferentCirclesNeverBegins)
     for (const std::size_t side : {0U, 1U}) {
         EXPECT_TRUE(world.side(side).events.empty());
         EXPECT_EQ(world.side(side).peer().counters().hellos, 0U);
-        EXPECT_EQ(world.side(side).line.news(), News::other_circle);
+        EXPECT_EQ(world.side(side).lines[0].news(), News::other_circle);
     }
 }
 
