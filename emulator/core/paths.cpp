@@ -46,6 +46,7 @@ EmulatedPath& Paths::add(const std::string& name)
                               .start = setup_.start,
                               .limits = setup_.limits,
                               .slab = setup_.slab,
+                              .has_stream_statistics = setup_.has_stream_statistics,
                               .name = name,
                               .changes_max = setup_.changes_max};
     if (setup_.replay) {

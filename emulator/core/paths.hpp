@@ -35,6 +35,7 @@ public:
         std::shared_ptr<Slab> slab{};                 // that all share; null: one for each
         std::shared_ptr<const FatesOfPaths> replay{}; // null: fates are drawn
         bool takes_newcomers = false;                 // paths come later, and have names of clients
+        bool has_stream_statistics = true;            // false: they are not asked for
         std::size_t changes_max = ChangeLog::entries_max; // that each of them keeps
         /// Names of paths that another thread has: what is decided for them counts here, too.
         std::vector<std::string> elsewhere{};

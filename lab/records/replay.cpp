@@ -166,8 +166,8 @@ base::Result<Replayed> replay(const record::Record& record,
                                       message.from));
     }
     if (instead) settings->peer.algorithm = *instead;
-    if (others.size() > 1 && !std::holds_alternative<peer::BaseAlgorithm>(settings->peer.algorithm))
-        return base::fail("more than two peers play with base alone: leave out --algorithm");
+    if (others.size() > 1 && !peer::plays_with_many(settings->peer.algorithm))
+        return base::fail("--algorithm: more than two peers play with base or remote-proxy");
 
     Replayed replayed;
     replayed.algorithm = peer::name_of(settings->peer.algorithm);

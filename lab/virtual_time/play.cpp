@@ -3,8 +3,8 @@
 #include "lab/virtual_time/play.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,11 +12,11 @@ namespace hapnet::lab::virtual_time {
 
 namespace {
 
-/// Two sides that have not begun by then never will: at a loss of 99 % both ways it takes 10 s.
+/// Sides that have not begun by then never will: at a loss of 99 % both ways two take 10 s.
 constexpr base::Duration begins_within{std::chrono::seconds{60}};
 constexpr std::int64_t steps_between_looks = 1024; // at `stop`
 
-/// One side while it was in session with the other: one sample a tick, without gaps.
+/// One side while it was in session: one sample a tick, without gaps.
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
@@ -25,10 +25,15 @@ struct Track {
 /// Whether a link was full, so that a datagram was lost which the emulator would have kept.
 bool has_overflowed(const VirtualWorld& world)
 {
-    const auto overflowed = [&](std::size_t side) {
-        return world.link(side).statistics().dropped_by(emulator::DropCause::queue_full) > 0;
-    };
-    return overflowed(0) || overflowed(1);
+    const std::size_t players = world.setting().players.size();
+    for (std::size_t from = 0; from < players; ++from) {
+        for (std::size_t to = 0; to < players; ++to) {
+            if (from == to) continue;
+            const emulator::Statistics& statistics = world.link(from, to).statistics();
+            if (statistics.dropped_by(emulator::DropCause::queue_full) > 0) return true;
+        }
+    }
+    return false;
 }
 
 bool is_playing(const VirtualPlayer& player) { return player.last().phase == peer::Phase::running; }
@@ -36,7 +41,9 @@ bool is_playing(const VirtualPlayer& player) { return player.last().phase == pee
 /// A session on its way.
 class Play {
 public:
-    explicit Play(VirtualWorld& world) : world_{world}, tick_{world.setting().tick} {}
+    explicit Play(VirtualWorld& world)
+        : world_{world}, tick_{world.setting().tick}, tracks_(world.setting().players.size())
+    {}
 
     /// Until it is over; false when `stop` became true before.
     [[nodiscard]] bool run(const std::atomic<bool>* stop)
@@ -45,7 +52,7 @@ public:
             const bool looks = stop != nullptr && step % steps_between_looks == 0;
             if (looks && stop->load(std::memory_order_relaxed)) return false;
             world_.step();
-            for (const std::size_t side : {0U, 1U}) note(side);
+            for (std::size_t side = 0; side < tracks_.size(); ++side) note(side);
         }
         return true;
     }
@@ -54,10 +61,11 @@ public:
 
 private:
     void note(std::size_t side);
+    [[nodiscard]] bool has_any_session() const;
 
     VirtualWorld& world_;
     base::Duration tick_;
-    std::array<Track, 2> tracks_;
+    std::vector<Track> tracks_; // of each side
     bool over_ = false;
 };
 
@@ -67,8 +75,8 @@ void Play::note(std::size_t side)
     if (player.stepped_at != world_.now()) return; // not its tick
     Track& track = tracks_[side];
     if (!is_playing(player)) {
-        const bool in_vain = !world_.side(0).peer().session() && !world_.side(1).peer().session() &&
-                             world_.now() - VirtualWorld::start > begins_within;
+        const bool in_vain =
+            !has_any_session() && world_.now() - VirtualWorld::start > begins_within;
         over_ = over_ || !track.samples.empty() || in_vain;
         return;
     }
@@ -80,41 +88,68 @@ void Play::note(std::size_t side)
     track.samples.push_back(player.sample());
 }
 
+bool Play::has_any_session() const
+{
+    for (std::size_t side = 0; side < tracks_.size(); ++side) {
+        if (world_.side(side).peer().session()) return true;
+    }
+    return false;
+}
+
+/// From where on a track is read: `tick` samples into it, and `share` of a tick more.
+struct Offset {
+    base::Duration::rep tick = 0;
+    double share = 0.0;
+
+    [[nodiscard]] base::Duration::rep beyond() const { return share > 0.0 ? 1 : 0; }
+};
+
+/// The samples of a track from there on, `count` of them.
+void take(std::vector<Sample>& samples, const Offset& from, base::Duration::rep count)
+{
+    const bool moves = from.tick > 0 || from.share > 0.0;
+    for (base::Duration::rep i = 0; i < count && moves; ++i) {
+        const auto at = static_cast<std::size_t>(from.tick + i);
+        samples[static_cast<std::size_t>(i)] =
+            between(samples[at], samples[at + static_cast<std::size_t>(from.beyond())], from.share);
+    }
+    samples.resize(static_cast<std::size_t>(count));
+}
+
 Trace Play::trace() &&
 {
     Trace trace{.task = world_.setting().task, .tick = tick_};
     trace.simulated = world_.now() - VirtualWorld::start;
-    auto& [l, r] = tracks_;
-    if (l.samples.empty() || r.samples.empty()) return trace;
-    const VirtualPlayer& first = world_.side(0);
-    const base::TimePoint start = first.peer().session()->start - first.clock_ahead;
+    trace.sides.assign(tracks_.size(), {});
+    const auto is_empty = [](const Track& track) { return track.samples.empty(); };
+    if (std::ranges::any_of(tracks_, is_empty)) return trace;
 
-    // L's samples before R began are left out; R's are taken at L's times.
-    const base::Duration wait = std::max(base::Duration{0}, r.first - l.first);
-    const auto skipped = (wait + tick_ - base::Duration{1}) / tick_;
-    const base::Duration into_r = l.first + skipped * tick_ - r.first;
-    const auto size = [](const Track& track) {
-        return static_cast<base::Duration::rep>(track.samples.size());
-    };
-    const auto from = into_r / tick_;
-    const double share =
-        static_cast<double>((into_r % tick_).count()) / static_cast<double>(tick_.count());
-    const auto beyond = share > 0.0 ? 1 : 0;
-    const auto common = std::min(size(l) - skipped, size(r) - from - beyond);
+    // The first side's samples before the last began are left out; the others' are taken at its
+    // times.
+    const base::TimePoint first = tracks_.front().first;
+    const base::TimePoint last = std::ranges::max(tracks_, {}, &Track::first).first;
+    const auto skipped = (last - first + tick_ - base::Duration{1}) / tick_;
+    std::vector<Offset> offsets;
+    auto common = std::numeric_limits<base::Duration::rep>::max();
+    for (const Track& track : tracks_) {
+        const base::Duration into = first + skipped * tick_ - track.first;
+        const Offset& from =
+            offsets.emplace_back(Offset{into / tick_, static_cast<double>((into % tick_).count()) /
+                                                          static_cast<double>(tick_.count())});
+        const auto size = static_cast<base::Duration::rep>(track.samples.size());
+        common = std::min(common, size - from.tick - from.beyond());
+    }
     if (common <= 0) return trace;
 
-    l.samples.erase(l.samples.begin(), l.samples.begin() + skipped);
-    l.samples.resize(static_cast<std::size_t>(common));
-    for (base::Duration::rep i = 0; i < common && (from > 0 || beyond > 0); ++i) {
-        const auto at = static_cast<std::size_t>(from + i);
-        r.samples[static_cast<std::size_t>(i)] =
-            between(r.samples[at], r.samples[at + static_cast<std::size_t>(beyond)], share);
+    for (std::size_t side = 0; side < tracks_.size(); ++side) {
+        take(tracks_[side].samples, offsets[side], common);
+        trace.sides[side] = std::move(tracks_[side].samples);
     }
-    r.samples.resize(static_cast<std::size_t>(common));
-    trace.begin = l.first + skipped * tick_ - start;
-    trace.overlap =
-        std::min(1.0, base::to_seconds(common * tick_) / base::to_seconds(first.peer().hands_on()));
-    trace.sides = {std::move(l.samples), std::move(r.samples)};
+    const VirtualPlayer& player = world_.side(0);
+    const base::TimePoint start = player.peer().session()->start - player.clock_ahead;
+    trace.begin = first + skipped * tick_ - start;
+    trace.overlap = std::min(1.0, base::to_seconds(common * tick_) /
+                                      base::to_seconds(player.peer().hands_on()));
     return trace;
 }
 

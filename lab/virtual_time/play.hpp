@@ -18,7 +18,7 @@ namespace hapnet::lab::virtual_time {
 [[nodiscard]] base::Result<Trace> play(const Setting& setting,
                                        const std::atomic<bool>* stop = nullptr);
 
-/// Plays the first pair of a new world to its end: for players with other devices. nullopt when
+/// Plays the first group of a new world to its end: for players with other devices. nullopt when
 /// `stop` became true meanwhile.
 [[nodiscard]] std::optional<Trace> play_out(VirtualWorld& world,
                                             const std::atomic<bool>* stop = nullptr);

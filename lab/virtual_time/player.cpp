@@ -21,16 +21,29 @@ std::uint16_t tick_rate_hz(base::Duration tick)
     return static_cast<std::uint16_t>(std::min<base::Duration::rep>(rate, UINT16_MAX));
 }
 
+/// Of two, each takes whoever answers.
+peer::Roster roster_of(const Setting& setting, const PlayerId& id)
+{
+    peer::Roster roster;
+    if (setting.players.size() == 2) return roster;
+    roster.others.clear();
+    for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
+        if (seat != id.seat) roster.others.push_back(static_cast<std::uint16_t>(seat + 1));
+    }
+    return roster;
+}
+
 peer::Settings settings_of(const Setting& setting, const PlayerId& id,
                            const device::Capabilities& capabilities)
 {
-    const PlayerSetting& player = setting.players.at(id.side);
+    const PlayerSetting& player = setting.players.at(id.seat);
     peer::Settings settings;
     settings.scene = setting.scene;
     settings.algorithm = player.algorithm;
     settings.tick = setting.tick;
     settings.length = setting.length;
-    settings.introduction = {.id = static_cast<std::uint16_t>(id.side + 1),
+    settings.roster = roster_of(setting, id);
+    settings.introduction = {.id = static_cast<std::uint16_t>(id.seat + 1),
                              .nonce = id.nonce,
                              .scene_hash = scene::hash(setting.scene),
                              .seed = player.seed.value_or(setting.seed).value(),
@@ -42,7 +55,7 @@ peer::Settings settings_of(const Setting& setting, const PlayerId& id,
 
 std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId& id)
 {
-    const PlayerSetting& player = setting.players.at(id.side);
+    const PlayerSetting& player = setting.players.at(id.seat);
     if (player.replay) return std::make_unique<device::Replay>(*player.replay, "a trace");
     return std::make_unique<device::SimulatedOmni>(device::Performer{
         .task = setting.task, .options = setting.task_options, .person = player.person});
@@ -54,7 +67,7 @@ device::Rig rig_of(const Setting& setting, const PlayerId& id)
     device::GovernorLimits limits{.tick = setting.tick};
     if (setting.energy_limit) {
         limits.energy =
-            peer::energy_budget(device->capabilities(), setting.players.at(id.side).algorithm);
+            peer::energy_budget(device->capabilities(), setting.players.at(id.seat).algorithm);
     }
     return {std::move(device), limits};
 }
@@ -70,41 +83,54 @@ secure::Secret secret_of(std::uint64_t circle, std::uint64_t run)
     return secure::Secret{std::span{hash}.first<secure::key_bytes>()};
 }
 
-peer::line::Line line_of(const Setting& setting, const PlayerId& id)
+/// The keys of a circle, which are those of a file for each of its members.
+std::vector<secure::KeyFile> key_files(base::Seed circle, std::size_t players)
 {
-    const std::size_t other = 1 - id.side;
-    const auto& circle = setting.players.at(id.side).circle;
-    if (!circle) return peer::line::Line{place_of(other)};
     secure::prepare();
-    secure::Entropy entropy{secret_of(circle->value(), 0)};
-    const auto files = secure::make_circle("virtual", 2, entropy);
-    const secure::KeyFile& own = files.at(id.side);
+    secure::Entropy entropy{secret_of(circle.value(), 0)};
+    return secure::make_circle("virtual", static_cast<std::uint8_t>(players), entropy);
+}
+
+peer::line::Line sealed_line(const secure::KeyFile& own, const secure::KeyFile::Member& other,
+                             const PlayerId& id, base::Seed circle)
+{
     secure::Association::Config config;
     config.own_id = own.id;
-    config.other_id = own.others.front().id;
+    config.other_id = other.id;
     config.circle = own.circle();
     config.run = id.nonce;
-    config.place = place_of(other);
-    auto seed = secret_of(circle->value(), std::uint64_t{id.nonce} << 1 | id.side);
-    return peer::line::Line{std::make_unique<peer::line::Sealed>(
-        config, own.keys_with(own.others.front()), std::move(seed))};
+    config.place = place_of(other.id - std::size_t{1});
+    // Each line of each run draws its own: ids have 5 bits.
+    const std::uint64_t run = std::uint64_t{id.nonce} << 10 | std::uint64_t{own.id} << 5 | other.id;
+    return peer::line::Line{std::make_unique<peer::line::Sealed>(config, own.keys_with(other),
+                                                                 secret_of(circle.value(), run))};
+}
+
+std::vector<peer::line::Line> lines_of(const Setting& setting, const PlayerId& id)
+{
+    const std::size_t count = setting.players.size();
+    std::vector<peer::line::Line> lines;
+    lines.reserve(count - 1);
+    if (const auto& circle = setting.players.at(id.seat).circle) {
+        const auto files = key_files(*circle, count);
+        const secure::KeyFile& own = files.at(id.seat);
+        for (const auto& other : own.others) lines.push_back(sealed_line(own, other, id, *circle));
+        return lines;
+    }
+    for (std::size_t seat = 0; seat < count; ++seat) {
+        if (seat != id.seat) lines.emplace_back(place_of(seat));
+    }
+    return lines;
 }
 
 } // namespace
 
-secure::Place place_of(std::size_t side)
-{
-    secure::Place place{};
-    place.front() = static_cast<std::byte>(side % 2 + 1);
-    return place;
-}
-
 VirtualPlayer::VirtualPlayer(const Setting& setting, const PlayerId& id)
     : rig{rig_of(setting, id)},
       side{std::make_unique<peer::Side>(settings_of(setting, id, rig.device().capabilities()))},
-      line{line_of(setting, id)},
-      other_place{place_of(1 - id.side)},
-      clock_ahead{setting.players.at(id.side).clock_ahead}
+      lines{lines_of(setting, id)},
+      own_seat{id.seat},
+      clock_ahead{setting.players.at(id.seat).clock_ahead}
 {}
 
 void VirtualPlayer::step(base::TimePoint now)
@@ -113,7 +139,9 @@ void VirtualPlayer::step(base::TimePoint now)
     side->step(now + clock_ahead, rig);
     while (const auto notice = side->notice()) events.push_back(notice->event);
     const base::TimePoint here = now + clock_ahead;
-    line.tick({here, (here + date_ahead).time_since_epoch().count()});
+    // One a tick, and so one multiplication on the curve at most.
+    if (++tended >= lines.size()) tended = 0;
+    lines[tended].tick({here, (here + date_ahead).time_since_epoch().count()});
 }
 
 Sample VirtualPlayer::sample() const

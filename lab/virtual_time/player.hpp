@@ -8,49 +8,62 @@
 #include "peer/core/side.hpp"
 #include "peer/line/line.hpp"
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace hapnet::lab::virtual_time {
 
-/// Which side of a session a player is, and in which run of its program.
+/// Which of the players of a session one is, and in which run of its program.
 struct PlayerId {
-    std::size_t side = 0; // 0: L, with id 1; 1: R, with id 2
+    std::size_t seat = 0; // its id is one more
     std::uint32_t nonce = 1;
 };
 
-/// Where a side is on the network.
-[[nodiscard]] secure::Place place_of(std::size_t side);
+/// Where a player is on the network.
+[[nodiscard]] inline secure::Place place_of(std::size_t seat)
+{
+    secure::Place place{};
+    place.front() = static_cast<std::byte>(seat + 1);
+    return place;
+}
 
-/// One side of a session in virtual time: everything that a peer daemon has but socket, clock,
+/// One player of a session in virtual time: everything that a peer daemon has but socket, clock,
 /// thread and journal.
 class VirtualPlayer {
 public:
     VirtualPlayer(const Setting& setting, const PlayerId& id);
 
-    /// A datagram that reached this machine from there at `arrived`, in the world's time.
-    void receive(std::span<const std::byte> datagram, const secure::Place& from,
+    /// A datagram that reached this machine at `arrived`, in the world's time, from `place`, on the
+    /// line to one of the others.
+    void receive(std::size_t other, const secure::Place& place, std::span<const std::byte> datagram,
                  base::TimePoint arrived)
     {
         const base::TimePoint at = arrived + clock_ahead;
-        if (const auto message = line.open(datagram, from, at)) side->on_datagram(*message, at);
+        if (const auto message = lines[other].open(datagram, place, at))
+            side->on_datagram(*message, at, other);
     }
-    /// The same from the other side.
-    void receive(std::span<const std::byte> datagram, base::TimePoint arrived)
+    /// The same from where that one is.
+    void receive(std::size_t other, std::span<const std::byte> datagram, base::TimePoint arrived)
     {
-        receive(datagram, other_place, arrived);
+        receive(other, place_of(other < own_seat ? other : other + 1), datagram, arrived);
     }
 
     /// One tick of its loop, except for sending.
     void step(base::TimePoint now);
-    /// What it sends in that tick: calls send(bytes, place) for each datagram.
+    /// What it sends in that tick: calls send(other, bytes, place) for each datagram, `other` being
+    /// the number of the line.
     template <typename Send>
     void send_all(Send send)
     {
-        line.send_all([this] { return side->poll(); }, send, stepped_at + clock_ahead);
+        for (std::size_t other = 0; other < lines.size(); ++other) {
+            lines[other].send_all([this, other] { return side->poll(other); },
+                                  [&send, other](std::span<const std::byte> bytes,
+                                                 const auto& place) { send(other, bytes, place); },
+                                  stepped_at + clock_ahead);
+        }
     }
 
     [[nodiscard]] peer::Peer& peer() { return side->peer(); }
@@ -63,12 +76,13 @@ public:
     // Open to tests and benches, which change them.
     device::Rig rig;
     std::unique_ptr<peer::Side> side;
-    peer::line::Line line;
-    secure::Place other_place;
+    std::vector<peer::line::Line> lines; // to the others, in the order of their ids
+    std::size_t own_seat = 0;
     base::Duration clock_ahead{}; // of the world's time
     base::Duration date_ahead{};  // of its wall clock, besides
 
     base::TimePoint stepped_at;      // its last tick, in the world's time
+    std::size_t tended = 0;          // the line whose keys went on last
     std::vector<peer::Event> events; // all so far
 };
 

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "lab/virtual_time/setting.hpp"
 
-#include "emulator/core/profile/timeline.hpp"
+#include "emulator/core/path_name.hpp"
+#include "emulator/core/profile/paths.hpp"
+#include "peer/core/circle.hpp"
 #include "peer/core/shared_body.hpp"
+#include "peer/core/sync/text.hpp"
 #include "scene/world.hpp"
 
 #include <algorithm>
@@ -12,8 +15,64 @@
 
 namespace hapnet::lab::virtual_time {
 
+namespace {
+
+base::Result<void> validate_number(const Setting& setting)
+{
+    const std::size_t count = setting.players.size();
+    if (count < 2 || count > peer::circle_max) {
+        return base::fail(
+            fmt::format("{} players: a session has 2 to {}", count, peer::circle_max));
+    }
+    if (count > setting.scene.hands.count) {
+        return base::fail(fmt::format("the scene '{}' has {} hands, and {} play: choose another "
+                                      "scene, such as carry, or raise count in its [hips]",
+                                      setting.scene.name, setting.scene.hands.count, count));
+    }
+    const auto plays = [](const PlayerSetting& player) {
+        return peer::plays_with_many(player.algorithm);
+    };
+    const auto other = std::ranges::find_if_not(setting.players, plays);
+    if (count > 2 && other != setting.players.end()) {
+        return base::fail(fmt::format("{} is made for two, and {} play: use base or remote-proxy",
+                                      peer::name_of(other->algorithm), count));
+    }
+    return {};
+}
+
+base::Result<void> validate_network(const Setting& setting)
+{
+    const auto links = links_between(setting.players.size());
+    const emulator::PathNames names{.links =
+                                        links.size() == 1 ? std::vector<std::string>{} : links};
+    for (const std::string& path : emulator::paths_in(setting.profile)) {
+        if (names.contains(path)) continue;
+        if (links.size() > 1) return base::fail(names.refusal(path));
+        return base::fail(
+            fmt::format("there is no link {} between two: use both, up or down", path));
+    }
+    if (const auto valid = emulator::validate_timelines(setting.profile); !valid) {
+        const auto& [index, message] = valid.error();
+        return base::fail(fmt::format("change {} of the timeline: {}", index + 1, message));
+    }
+    return {};
+}
+
+} // namespace
+
+std::vector<std::string> links_between(std::size_t players)
+{
+    if (players == 2) return {""};
+    std::vector<std::string> names;
+    for (std::size_t a = 1; a < players; ++a) {
+        for (std::size_t b = a + 1; b <= players; ++b) names.push_back(fmt::format("{}-{}", a, b));
+    }
+    return names;
+}
+
 base::Result<void> validate(const Setting& setting)
 {
+    if (auto number = validate_number(setting); !number) return number;
     const auto bodies = peer::shared_bodies(setting.scene);
     if (!bodies) return tl::unexpected{bodies.error()};
     for (const PlayerSetting& player : setting.players) {
@@ -35,11 +94,7 @@ base::Result<void> validate(const Setting& setting)
         return player.replay && player.replay->empty();
     });
     if (!are_traces) return base::fail("a hand's trace must have at least one row");
-    if (const auto valid = emulator::Timeline::validate(setting.profile); !valid) {
-        const auto& [index, message] = valid.error();
-        return base::fail(fmt::format("change {} of the timeline: {}", index + 1, message));
-    }
-    return {};
+    return validate_network(setting);
 }
 
 } // namespace hapnet::lab::virtual_time

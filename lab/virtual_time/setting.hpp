@@ -13,14 +13,15 @@
 #include "proto/base/time.hpp"
 #include "scene/description.hpp"
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace hapnet::lab::virtual_time {
 
-/// One side of a session in virtual time.
+/// One of the players of a session in virtual time.
 struct PlayerSetting {
     peer::Algorithm algorithm{};
     device::Operator person{};
@@ -28,8 +29,8 @@ struct PlayerSetting {
                                                        // moment, in the order of time
     base::Duration clock_ahead{};                      // of the world's time
     base::Duration phase{};                            // of its ticks, 0 to less than a tick
-    /// The seed that it offers for the hands, as `hapnet-peer --seed` does; L's counts. nullopt:
-    /// the setting's.
+    /// The seed that it offers for the hands, as `hapnet-peer --seed` does; that of the lowest id
+    /// counts. nullopt: the setting's.
     std::optional<base::Seed> seed{};
     /// It seals its messages with the keys of this circle, which follow from the seed; with another
     /// circle's nobody is met. nullopt: without a key.
@@ -44,10 +45,18 @@ struct Setting {
     base::Seed seed{42}; // of the links, whatever the profile says, and of the hands
     base::Duration length{std::chrono::seconds{30}}; // hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
-    emulator::Profile profile{}; // conditions both ways; its timeline counts from the first hello
-    bool energy_limit = false;   // the energy into the hands is limited as the daemons do it
-    std::array<PlayerSetting, 2> players{}; // 0: L, with the lower id; up is from L to R
+    /// Conditions both ways between any two; its timeline counts from the first hello. What it has
+    /// for link "1-2" holds between the players with these ids, who are more than two.
+    emulator::Profile profile{};
+    bool energy_limit = false; // the energy into the hands is limited as the daemons do it
+    /// Two to eight, with the ids 1, 2, ...; the 1st, 3rd, ... acts as L, the others as R. Up is
+    /// from the lower id to the higher.
+    std::vector<PlayerSetting> players = std::vector<PlayerSetting>(2);
 };
+
+/// The links of a session between so many, as `hapnet-emulator --link` calls them: "1-2", "1-3",
+/// "2-3". Of two only: "", the only path.
+[[nodiscard]] std::vector<std::string> links_between(std::size_t players);
 
 /// An error when no session can be played with this setting; its message says what to do.
 [[nodiscard]] base::Result<void> validate(const Setting& setting);

@@ -6,7 +6,6 @@
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
-#include <array>
 #include <chrono>
 #include <vector>
 
@@ -25,14 +24,16 @@ struct Sample {
     bool remote_touching = false; // as this side believes
 };
 
-/// Both sides of a session while both were running, at equal times: sample i of either is i ticks
-/// after the first. It comes from virtual time or from two records; metrics do not know which.
+/// The sides of a session while all were running, at equal times: sample i of each is i ticks
+/// after the first. It comes from virtual time or from records; metrics do not know which.
 struct Trace {
     device::Task task = device::Task::p1;
     base::Duration tick{std::chrono::milliseconds{1}};
-    base::Duration begin{};                     // of sample 0, from the session's start
-    std::array<std::vector<Sample>, 2> sides{}; // 0: L, 1: R; equally long
-    /// The share of the session, 0 to 1, in which both were running; hands off not counted.
+    base::Duration begin{}; // of sample 0, from the session's start
+    /// Two or more, equally long, in the order of their ids: the 1st, 3rd, ... acts as L, the
+    /// others as R.
+    std::vector<std::vector<Sample>> sides = std::vector<std::vector<Sample>>(2);
+    /// The share of the session, 0 to 1, in which all were running; hands off not counted.
     double overlap = 0.0;
     base::Duration simulated{}; // that was played for it, from the first hello; 0 for records
 };

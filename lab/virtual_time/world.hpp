@@ -3,9 +3,11 @@
 #pragma once
 
 #include "emulator/core/emulated_path.hpp"
+#include "emulator/core/paths.hpp"
 #include "lab/virtual_time/player.hpp"
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -14,12 +16,15 @@
 
 namespace hapnet::lab::virtual_time {
 
-/// Pairs of players and the links between them on one timeline, which jumps from deadline to
-/// deadline: to the next tick of any player, or to the next step of a profile. A datagram that is
-/// due between two ticks of its receiver waits in the receiver's socket: it is handed over at the
-/// next tick, stamped with the time at which it was due.
+/// Players in groups of two to eight, each a session, and links between any two of a group, on one
+/// timeline, which jumps from deadline to deadline: to the next tick of any player, or to the next
+/// step of a profile. A datagram that is due between two ticks of its receiver waits in the
+/// receiver's socket: it is handed over at the next tick, stamped with the time at which it was
+/// due.
 ///
-/// Sides are counted through: those of pair p are 2p, its L, and 2p + 1, its R.
+/// The sides, one for each player, are counted through, group after group: those of the first have
+/// the numbers of their seats. Random draws of a link are those of an emulator's with this link:
+/// see links_between().
 class VirtualWorld {
 public:
     /// When every world begins, and the timelines of its profiles.
@@ -28,9 +33,9 @@ public:
     /// cache. Memory for the emulator's own bound would take longer to set up than a session takes.
     static constexpr emulator::QueueLimits few{.datagrams_max = 1024, .bytes_max = 4U << 20};
 
-    /// One pair. The setting must be valid: see validate().
+    /// One group. The setting must be valid: see validate().
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
-    /// One pair for each setting.
+    /// One group for each setting.
     explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
 
     /// To the next deadline, and all that happens then.
@@ -43,13 +48,21 @@ public:
     /// Starts it again as a new run.
     void revive(std::size_t side);
     [[nodiscard]] bool is_alive(std::size_t side) const { return sides_[side].player.has_value(); }
-    /// Nothing passes between the sides of a pair while it is true.
-    void cut(bool is_cut, std::size_t pair = 0) { pairs_[pair].is_cut = is_cut; }
+    /// Nothing passes between two sides of a group while it is true.
+    void cut(std::size_t a, std::size_t b, bool is_cut);
+    /// The same between a side and all others of its group.
+    void isolate(std::size_t side, bool is_cut);
 
+    /// A datagram that a link has carried from one side to another.
+    struct Arrival {
+        std::size_t from = 0;
+        std::size_t to = 0;
+        std::span<const std::byte> datagram;
+        base::TimePoint at;
+    };
     /// Somebody between the links and the sides, who is called with each datagram in the place of
     /// the side that it is for, and gives that side what he wants: VirtualPlayer::receive().
-    using Interceptor = std::function<void(std::size_t to, std::span<const std::byte> datagram,
-                                           base::TimePoint arrived)>;
+    using Interceptor = std::function<void(const Arrival& arrival)>;
     void intercept(Interceptor interceptor) { interceptor_ = std::move(interceptor); }
 
     [[nodiscard]] VirtualPlayer& side(std::size_t index) { return *sides_[index].player; }
@@ -57,15 +70,17 @@ public:
     {
         return *sides_[index].player;
     }
-    [[nodiscard]] const Setting& setting(std::size_t pair = 0) const
+    [[nodiscard]] const Setting& setting(std::size_t group = 0) const
     {
-        return pairs_[pair].setting;
+        return groups_[group].setting;
     }
     [[nodiscard]] base::TimePoint now() const { return now_; }
     [[nodiscard]] std::size_t sides() const { return sides_.size(); }
-    [[nodiscard]] const emulator::Link& link(std::size_t from) const
+    /// From a side to another one of its group.
+    [[nodiscard]] const emulator::Link& link(std::size_t from, std::size_t to) const
     {
-        return pairs_[from / 2].path.link(direction_of(from));
+        const Way& way = ways_[way_between(from, to)];
+        return way.path->link(way.direction);
     }
 
 private:
@@ -77,31 +92,51 @@ private:
     /// The part of a side that outlives a killed player.
     struct Side {
         std::optional<VirtualPlayer> player;
-        std::vector<Passing> undelayed;
+        std::size_t group = 0;
+        std::size_t first_out = 0;      // of the ways from it: one to each of the others
+        std::vector<std::size_t> ins{}; // the ways to it, by the seats from which they come
         base::TimePoint next_tick;
         base::Duration tick;
     };
-    struct Pair {
-        Setting setting;
-        emulator::EmulatedPath path;
-        std::uint32_t next_nonce = 100;
+    /// From one side of a group to another.
+    struct Way {
+        emulator::EmulatedPath* path;
+        emulator::Direction direction;
+        std::size_t from = 0;
+        secure::Place begin{}; // where that side is
+        secure::Place end{};   // where the other is
+        std::size_t line = 0;  // of the other, to this one
         bool is_cut = false;
+        std::vector<Passing> undelayed{};
+    };
+    struct Group {
+        Setting setting;
+        emulator::Paths paths;
+        std::size_t first_side = 0;
+        std::size_t size = 0; // sides
+        std::uint32_t next_nonce = 100;
     };
 
     void add(const Setting& setting, emulator::QueueLimits limits);
-    /// Of what a side sends.
-    [[nodiscard]] static emulator::Direction direction_of(std::size_t side)
+    void add_ways(Group& group);
+    [[nodiscard]] std::size_t seat_of(std::size_t side) const
     {
-        return side % 2 == 0 ? emulator::Direction::up : emulator::Direction::down;
+        return side - groups_[sides_[side].group].first_side;
+    }
+    [[nodiscard]] std::size_t way_between(std::size_t from, std::size_t to) const
+    {
+        const std::size_t seat = seat_of(to);
+        return sides_[from].first_out + (to < from ? seat : seat - 1);
     }
     [[nodiscard]] base::TimePoint next_deadline() const;
     void deliver(std::size_t to);
-    void hand_over(std::size_t to, std::span<const std::byte> datagram, base::TimePoint arrived);
+    void hand_over(std::size_t to, const Way& way, const emulator::Datagram& datagram);
     void play(std::size_t side);
 
     base::TimePoint now_ = start;
-    std::vector<Pair> pairs_;
-    std::vector<Side> sides_; // two of each pair
+    std::vector<Group> groups_;
+    std::vector<Side> sides_; // of all groups
+    std::vector<Way> ways_;
     Interceptor interceptor_;
 };
 

@@ -35,7 +35,7 @@ Each task ends with 3 s hands off, within --duration (half of it when that is be
 need the same task and scene; the shortest --duration counts, from their common start. A peer waits
 for the others without a limit.
 
-Algorithms (docs/design/algorithms.md; two peers may use different ones, more play with base):
+Algorithms (docs/design/algorithms.md; two peers may use different ones):
   base            the paper's: forces add up where both push; where one pushes, its report holds
   dead-reckoning  the same, with the other peer's cube extrapolated to now
   sep             the same, with the other hand's force and position predicted

@@ -190,9 +190,9 @@ base::Result<void> check_circle(const Options& options)
                                       "another one",
                                       options.id));
     }
-    if (!std::holds_alternative<BaseAlgorithm>(options.algorithm)) {
+    if (!plays_with_many(options.algorithm)) {
         return base::fail(fmt::format("--algorithm {} is for two peers: more than two play with "
-                                      "base alone",
+                                      "base or remote-proxy",
                                       name_of(options.algorithm)));
     }
     if (options.scene.hands.count >= all) return {};

@@ -63,10 +63,11 @@ public:
 private:
     void play(std::size_t side)
     {
-        for (const Bytes& datagram : inboxes_.at(side)) players_.at(side).receive(datagram, now_);
+        for (const Bytes& datagram : inboxes_.at(side))
+            players_.at(side).receive(0, datagram, now_);
         inboxes_.at(side).clear();
         players_.at(side).step(now_);
-        players_.at(side).send_all([&](std::span<const std::byte> bytes, const auto&) {
+        players_.at(side).send_all([&](std::size_t, std::span<const std::byte> bytes, const auto&) {
             inboxes_.at(1 - side).emplace_back(bytes.begin(), bytes.end());
             if (side == 0) newest_.assign(bytes.begin(), bytes.end());
         });
@@ -179,7 +180,7 @@ std::vector<double> times_of_a_forgery(int count)
         forged.back() = static_cast<std::byte>(i);
         forged[9] = static_cast<std::byte>(i / 7 + 100); // of its number: far ahead
         const std::int64_t begin = clock_ns();
-        pair.measured().receive(forged, pair.now());
+        pair.measured().receive(0, forged, pair.now());
         times.push_back(static_cast<double>(clock_ns() - begin));
     }
     return times;

@@ -312,7 +312,7 @@ void Play::let_die()
 void Play::judge(std::size_t index)
 {
     if (!world_.is_alive(index)) return;
-    const auto& link = world_.link(index).statistics();
+    const auto& link = world_.link(index, 1 - index).statistics();
     if (link.received + link.duplicated != link.delivered + link.dropped_total() + link.in_flight) {
         complain("link of side {}: its counters do not add up", index);
     }

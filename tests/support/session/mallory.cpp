@@ -35,8 +35,9 @@ constexpr std::size_t sequence_at = 8;
 Mallory::Mallory(lab::virtual_time::VirtualWorld& world, base::Seed seed, const Habits& habits)
     : world_{world}, habits_{habits}, draw_{seed.stream("mallory")}
 {
-    world_.intercept([this](std::size_t to, std::span<const std::byte> datagram,
-                            base::TimePoint arrived) { on_arrival(to, datagram, arrived); });
+    world_.intercept([this](const lab::virtual_time::VirtualWorld::Arrival& arrival) {
+        on_arrival(arrival.to, arrival.datagram, arrival.at);
+    });
 }
 
 void Mallory::on_arrival(std::size_t to, std::span<const std::byte> datagram,
@@ -90,11 +91,11 @@ void Mallory::give_from(std::size_t to, std::span<const std::byte> datagram,
     lab::virtual_time::VirtualPlayer& victim = world_.side(to);
     const base::TimePoint at = arrived + victim.clock_ahead;
     const std::uint64_t taken = allocations();
-    const auto message = victim.line.open(datagram, from, at);
+    const auto message = victim.lines[0].open(datagram, from, at);
     if (allocations() != taken) breach_ = "opening a datagram takes memory";
     if (!message) return;
     ++let_in_.at(to);
-    if (victim.line.is_sealed()) audit(to, datagram);
+    if (victim.lines[0].is_sealed()) audit(to, datagram);
     victim.side->on_datagram(*message, at);
 }
 
@@ -171,7 +172,7 @@ void Mallory::splice(std::size_t to)
 void Mallory::forge(std::size_t to)
 {
     if (!world_.is_alive(to)) return;
-    if (world_.side(to).line.is_sealed() && happens(0.7)) return forge_sealed(to);
+    if (world_.side(to).lines[0].is_sealed() && happens(0.7)) return forge_sealed(to);
     forge_plain(to);
 }
 

@@ -147,13 +147,13 @@ TEST(Play, LosesNoDatagramThatTheEmulatorWouldKeep)
     VirtualWorld small{setting};
     small.run_for(35s);
     const auto full = [](const VirtualWorld& world) {
-        return world.link(0).statistics().dropped_by(emulator::DropCause::queue_full);
+        return world.link(0, 1).statistics().dropped_by(emulator::DropCause::queue_full);
     };
     EXPECT_GT(full(small), 0U) << "5 s of states are more than it holds";
     const auto trace = play(setting);
     ASSERT_TRUE(trace);
     // R's cube is L's of 5 s ago, as long as nothing is missing.
-    const auto& [left, right] = trace->sides;
+    const auto &left = trace->sides[0], &right = trace->sides[1];
     ASSERT_GT(left.size(), 20'000U);
     for (std::size_t i = 10'000; i < left.size(); ++i) {
         ASSERT_NEAR(right[i].body.x(), left[i - 5000].body.x(), 1e-8) << i; // singles on the wire

@@ -65,7 +65,8 @@ TEST(VirtualWorld, ChangesTheLinksAtTheTimesOfTheProfileAlsoBetweenTicks)
     setting.profile.timeline = {change};
     VirtualWorld world{setting};
     const auto delay_of = [&](std::size_t from) {
-        return std::get<emulator::ConstantLaw>(world.link(from).conditions().delay.law).value;
+        return std::get<emulator::ConstantLaw>(world.link(from, 1 - from).conditions().delay.law)
+            .value;
     };
     world.run_for(2s);
     EXPECT_EQ(delay_of(0), 20ms);
@@ -83,12 +84,12 @@ TEST(VirtualWorld, FollowsARampMillisecondByMillisecond)
     setting.profile.timeline = {change};
     VirtualWorld world{setting};
     world.run_for(1500ms);
-    const auto& law = world.link(1).conditions().delay.law;
+    const auto& law = world.link(1, 0).conditions().delay.law;
     EXPECT_EQ(std::get<emulator::ConstantLaw>(law).value, 50ms);
 }
 
-/// Of both sides of pair 0, over 4 s.
-std::uint64_t hash_of_pair_0(VirtualWorld& world, const auto& disturb)
+/// Of both sides of the first group, over 4 s.
+std::uint64_t hash_of_the_first(VirtualWorld& world, const auto& disturb)
 {
     sim::Hash hash;
     for (base::TimePoint next = world.now(); world.now() < VirtualWorld::start + 4s;) {
@@ -102,7 +103,7 @@ std::uint64_t hash_of_pair_0(VirtualWorld& world, const auto& disturb)
     return hash.value();
 }
 
-TEST(VirtualWorld, KeepsPairsFromEachOther)
+TEST(VirtualWorld, KeepsGroupsFromEachOther)
 {
     const Setting one = under(Task::t3, {.loss = {emulator::RandomLoss{20_percent}},
                                          .delay = emulator::constant(20ms),
@@ -113,20 +114,20 @@ TEST(VirtualWorld, KeepsPairsFromEachOther)
 
     VirtualWorld alone{one};
     const auto nothing = [](VirtualWorld&) {};
-    const std::uint64_t expected = hash_of_pair_0(alone, nothing);
+    const std::uint64_t expected = hash_of_the_first(alone, nothing);
 
     const std::array both{one, other};
     VirtualWorld together{both};
-    EXPECT_EQ(hash_of_pair_0(together, nothing), expected);
+    EXPECT_EQ(hash_of_the_first(together, nothing), expected);
     EXPECT_EQ(together.side(3).last().phase, peer::Phase::running);
 
     VirtualWorld troubled{both};
     const auto trouble = [](VirtualWorld& world) {
         const base::Duration at = world.now() - VirtualWorld::start;
-        world.cut(at > 1s && at < 2s, 1);
+        world.cut(2, 3, at > 1s && at < 2s);
         if (at > 3s && world.is_alive(2)) world.kill(2);
     };
-    EXPECT_EQ(hash_of_pair_0(troubled, trouble), expected);
+    EXPECT_EQ(hash_of_the_first(troubled, trouble), expected);
     EXPECT_FALSE(troubled.is_alive(2));
 }
 

@@ -149,7 +149,7 @@ Suffered suffered(const Attack& attack, Task task, bool limited)
     World world{setting};
     run_until_started(world);
     world.run_for(1500ms);
-    world.cut(true); // from now on only the forged remote is heard
+    world.cut(0, 1, true); // from now on only the forged remote is heard
     Player& victim = world.side(0);
     auto sequence = static_cast<std::uint32_t>(victim.peer().counters().states) + 10;
     // Apart from the governor's own figures.
@@ -160,7 +160,7 @@ Suffered suffered(const Attack& attack, Task task, bool limited)
         wire::State state = forged(attack, victim, tick);
         state.sequence = ++sequence;
         state.sent = world.now();
-        victim.receive(wire::encode(state).bytes(), world.now());
+        victim.receive(0, wire::encode(state).bytes(), world.now());
         const base::Force held = victim.told();
         world.step();
         const base::Position hip = victim.side->sample().hip;

@@ -85,7 +85,7 @@ std::string words_for(const Setting& s)
 void expect_invariants(const World& world)
 {
     for (const std::size_t i : {0U, 1U}) {
-        const auto& link = world.link(i).statistics();
+        const auto& link = world.link(i, 1 - i).statistics();
         ASSERT_EQ(link.received + link.duplicated,
                   link.delivered + link.dropped_total() + link.in_flight);
         ASSERT_LE(link.in_flight, 2000U); // 0.6 s at most, of a message or two each millisecond

@@ -100,12 +100,12 @@ INSTANTIATE_TEST_SUITE_P(OfSide, Death, testing::Values(0, 1));
 TEST(Cut, FadesBothForcesToZeroAndHeals)
 {
     World world = squeezing();
-    world.cut(true);
+    world.cut(0, 1, true);
     expect_fade(world, 0);
     EXPECT_EQ(world.side(1).told(), base::Force{});
     EXPECT_TRUE(told(world.side(1), Event::lost));
     const auto session = world.side(0).peer().session()->number;
-    world.cut(false);
+    world.cut(0, 1, false);
     world.run_for(delay + 2ms);
     for (const std::size_t i : {0U, 1U}) {
         EXPECT_TRUE(told(world.side(i), Event::back)) << i;
@@ -125,10 +125,10 @@ TEST(Cut, FadesBothForcesToZeroAndHeals)
 TEST(Cut, BeforeTheStartOnlyDelaysIt)
 {
     World world{under(Task::t3, {.delay = emulator::constant(delay)})};
-    world.cut(true);
+    world.cut(0, 1, true);
     world.run_for(5s);
     EXPECT_EQ(world.side(0).last().phase, Phase::waiting);
-    world.cut(false);
+    world.cut(0, 1, false);
     world.run_for(2s);
     EXPECT_EQ(world.side(0).last().phase, Phase::running);
     EXPECT_EQ(world.side(1).last().phase, Phase::running);

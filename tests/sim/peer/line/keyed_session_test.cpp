@@ -37,7 +37,7 @@ Setting keyed_setting(std::string_view profile)
 
 Status::Key key_of(const VirtualWorld& world, std::size_t side)
 {
-    return *status_of(world.side(side).line, world.now()).key;
+    return *status_of(world.side(side).lines[0], world.now()).key;
 }
 
 bool has_event(const VirtualWorld& world, std::size_t side, Event event)
@@ -63,7 +63,7 @@ public:
     void give(std::size_t side, std::span<const std::byte> bytes)
     {
         const std::uint64_t before = test::multiplications();
-        players_.at(side).receive(bytes, now_);
+        players_.at(side).receive(0, bytes, now_);
         multiplied_.at(side) += test::multiplications() - before;
     }
 
@@ -82,7 +82,8 @@ public:
             const std::uint64_t before = test::multiplications();
             players_.at(side).step(now_);
             multiplied_.at(side) += test::multiplications() - before;
-            players_.at(side).send_all([&](std::span<const std::byte> bytes, const auto&) {
+            players_.at(side).send_all([&](std::size_t, std::span<const std::byte> bytes,
+                                           const auto&) {
                 inboxes_.at(1 - side).push_back({Bytes{bytes.begin(), bytes.end()}, now_ + 3ms});
                 if (side == 0) seen_.emplace_back(bytes.begin(), bytes.end());
             });
@@ -180,7 +181,7 @@ TEST(KeyedSession, IsNotMovedABitByAFloodOfForgedMessages)
     }
     EXPECT_EQ(attacked.side(1).events, left_alone.side(1).events);
     EXPECT_EQ(std::ranges::count(attacked.side(1).events, Event::hands_off), 1);
-    const Status::Key key = *status_of(attacked.side(1).line, attacked.now()).key;
+    const Status::Key key = *status_of(attacked.side(1).lines[0], attacked.now()).key;
     EXPECT_GT(key.counts.unsealed, 40'000U);
     EXPECT_GT(key.counts.forged + key.counts.unknown_key, 5'000U);
     EXPECT_GT(key.counts.replayed, 5'000U);
@@ -280,10 +281,10 @@ TEST(KeyedSession, IsFoundAgainAfterBothSidesWereLookedForElsewhere)
 {
     VirtualWorld world{keyed_setting("[both]\ndelay = \"20ms\"")};
     bool redirects = false;
-    world.intercept([&](std::size_t to, std::span<const std::byte> bytes, base::TimePoint at) {
+    world.intercept([&](const VirtualWorld::Arrival& arrival) {
         const secure::Place elsewhere{std::byte{0xee}};
-        const secure::Place from = redirects ? elsewhere : lab::virtual_time::place_of(1 - to);
-        world.side(to).receive(bytes, from, at);
+        const auto place = redirects ? elsewhere : lab::virtual_time::place_of(arrival.from);
+        world.side(arrival.to).receive(0, place, arrival.datagram, arrival.at);
     });
     world.run_for(4s);
     redirects = true;
@@ -370,7 +371,7 @@ TEST(KeyedSession, OfDifferentCirclesNeverBegins)
     for (const std::size_t side : {0U, 1U}) {
         EXPECT_TRUE(world.side(side).events.empty());
         EXPECT_EQ(world.side(side).peer().counters().hellos, 0U);
-        EXPECT_EQ(world.side(side).line.news(), News::other_circle);
+        EXPECT_EQ(world.side(side).lines[0].news(), News::other_circle);
     }
 }
 
