@@ -13,7 +13,7 @@
 namespace hapnet::lab::records {
 
 enum class ClockMethod : std::uint8_t {
-    same_boot, ///< one machine, one CLOCK_MONOTONIC: nothing to convert
+    same_boot, ///< one machine, one CLOCK_BOOTTIME: nothing to convert
     echo,      ///< two clocks, compared by the echoes in the messages
 };
 

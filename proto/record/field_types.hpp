@@ -108,7 +108,7 @@ struct FieldType<base::Duration> {
 
 template <>
 struct FieldType<base::TimePoint> {
-    static constexpr std::string_view type = "i64", unit = "ns of CLOCK_MONOTONIC";
+    static constexpr std::string_view type = "i64", unit = "ns of CLOCK_BOOTTIME";
     static constexpr std::size_t bytes = 8;
     static void put(base::ByteWriter& out, base::TimePoint value)
     {

@@ -181,7 +181,7 @@ TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)
     ASSERT_EQ(fields.size(), 24);
     EXPECT_EQ(fields[1],
               nlohmann::json::parse(
-                  R"({"name":"due","type":"i64","offset":9,"unit":"ns of CLOCK_MONOTONIC"})"));
+                  R"({"name":"due","type":"i64","offset":9,"unit":"ns of CLOCK_BOOTTIME"})"));
     EXPECT_EQ(fields[15], nlohmann::json::parse(
                               R"({"name":"remote","type":"f64[3]","offset":181,"unit":"N"})"));
     EXPECT_EQ(fields[5]["values"][3], "hands_off");
@@ -203,6 +203,12 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
     other = ours;
     other["schema"]["tick"]["fields"][0]["offset"] = 2;
     EXPECT_EQ(parse_header(other.dump()).error().message, "its schema is not that of version 2");
+    other = ours; // as older records say it
+    other["schema"]["tick"]["fields"][1]["unit"] = "ns of CLOCK_MONOTONIC";
+    EXPECT_TRUE(parse_header(other.dump()));
+    other = ours;
+    other["schema"]["tick"]["fields"] = 1;
+    EXPECT_FALSE(parse_header(other.dump()));
     other = ours;
     other["config"] = 1;
     EXPECT_FALSE(parse_header(other.dump()));
