@@ -17,7 +17,8 @@ double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * 
 
 } // namespace
 
-EnergyGuard::EnergyGuard(const EnergyLimits& limits, base::Duration tick) : limits_{limits}
+EnergyGuard::EnergyGuard(const EnergyLimits& limits, base::Duration tick)
+    : limits_{limits}, tick_s_{base::to_seconds(tick)}
 {
     base::ensure(limits.power_max_w > 0.0 && limits.work_max_j > 0.0 && tick > base::Duration{0});
     steps_used_ =
@@ -70,12 +71,22 @@ void EnergyGuard::close_piece()
     lowest_before_j_ = *std::min_element(lowest_.begin(), lowest_.end());
 }
 
+/// What the next tick may have for the mean of 5 ms to stay within the limit. What the hand got in
+/// the ticks before counts as it was measured, not as it was estimated.
+double EnergyGuard::power_left_w() const
+{
+    const Step& leaves = steps_[next_step_];
+    const double before_s = lately_.seconds - leaves.seconds;
+    const double before_j = lately_.work_j - leaves.work_j;
+    return (limits_.power_max_w * (before_s + tick_s_) - before_j) / tick_s_;
+}
+
 base::Force EnergyGuard::allow(const base::Force& wanted, const base::Velocity& reported)
 {
     const double lowest_j = std::min(lowest_now_j_, lowest_before_j_);
     const double left_j = limits_.work_max_j - (figures_.net_j - lowest_j);
     if (left_j <= 0.0) return {};
-    const double power_w = std::min(limits_.power_max_w, left_j / reserve_s);
+    const double power_w = std::min({limits_.power_max_w, left_j / reserve_s, power_left_w()});
     // A filtered velocity is smoother, the difference of places is newer.
     glm::dvec3 velocity = reported.value;
     if (lately_.seconds > 0.0) {

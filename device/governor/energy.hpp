@@ -78,6 +78,7 @@ private:
     static constexpr std::size_t pieces = 100;
     static constexpr std::size_t steps_max = 50;
 
+    [[nodiscard]] double power_left_w() const;
     void add(const Step& step);
     void close_piece();
     [[nodiscard]] base::Force without_push(const base::Force& wanted, const glm::dvec3& velocity,
@@ -85,6 +86,7 @@ private:
 
     EnergyLimits limits_;
     EnergyFigures figures_;
+    double tick_s_;
     bool placed_ = false;
     base::Position hip_;
 

@@ -43,6 +43,17 @@ nlohmann::json description_of(const Layout& layout)
               {base::described_name<SessionRow>, schema_of<SessionRow>()}}}};
 }
 
+/// What decides how rows are read: a unit is for people, and its words may become better.
+nlohmann::json without_units(nlohmann::json schema)
+{
+    for (auto& row : schema) {
+        if (!row.is_object() || !row.contains("fields")) continue;
+        for (auto& field : row["fields"])
+            if (field.is_object()) field.erase("unit");
+    }
+    return schema;
+}
+
 } // namespace
 
 std::string header_line(const nlohmann::json& config, const Layout& layout)
@@ -91,7 +102,7 @@ base::Result<Header> parse_header(std::string_view line)
                 fmt::format("expected a JSON line with \"{}\":{}", key, ours[key].dump()));
         }
     }
-    if (layout.version > 2 && found("schema") != ours["schema"])
+    if (layout.version > 2 && without_units(found("schema")) != without_units(ours["schema"]))
         return base::fail(fmt::format("its schema is not that of version {}", layout.version));
     if (!found("config").is_object())
         return base::fail("expected an object \"config\" in its header");

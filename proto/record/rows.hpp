@@ -30,7 +30,7 @@ constexpr auto names_of(base::Tag<Phase> /*enum*/)
 }
 using base::name_of;
 
-/// One tick of the haptic loop. Times are this peer's CLOCK_MONOTONIC, lengths SI.
+/// One tick of the haptic loop. Times are this peer's CLOCK_BOOTTIME, lengths SI.
 struct TickRow {
     std::uint64_t tick = 0;
     /// When the loop was to wake.

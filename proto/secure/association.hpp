@@ -30,12 +30,12 @@ struct Moment {
 /// call of tick() takes at most one multiplication on the curve. All memory is there from the
 /// beginning, whatever comes.
 ///
-/// When both begin at the same time, the lower id does not answer at first. After half a second
-/// without a response it does, as perhaps only the other's messages get through, and goes on asking.
-/// The higher id then decides which of two keys counts: it keeps one, and the lower id both. The
-/// responder goes on with the old key until something opens under the new one; the initiator says
-/// something under it until it is answered. A key is for one run of each side, so it names their
-/// session.
+/// When both begin at the same time, the lower id does not answer at first. After half a second it
+/// does, as perhaps only the other's messages get through, and goes on asking. The higher id then
+/// decides which of two keys counts: it keeps one, and the lower id both. The responder goes on
+/// with the old key until something opens under the new one; the initiator says something under
+/// it until it is answered. A key is for one run of each side, so it
+/// names their session.
 class Association {
 public:
     static constexpr base::Duration silence{std::chrono::seconds{1}};

@@ -42,7 +42,7 @@ struct RecordedPlay {
 /// One thing that the device was told: bytes as they go through a pipe.
 struct Told {
     double newtons = 0.0;
-    std::int64_t at_ns = 0; // CLOCK_MONOTONIC
+    std::int64_t at_ns = 0; // CLOCK_BOOTTIME
     bool motors_on = false;
     bool by_halt = false;
     bool is_trouble = false; // nothing was told: here the trouble begins

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Two peers with keys, each in a network of its own, as in two buildings: they meet over a
-# path that loses and delays, and one that would listen where nobody can reach it says so. Root plays
-# it as an ordinary user, where the system lets it.
+# Two peers with keys, each in a network of its own, as in two buildings: they meet over a path
+# that loses and delays, and one that would listen where nobody can reach it says so. Root plays it
+# as an ordinary user, where the system lets it.
 # Usage: keyed_session_test.sh FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
 
@@ -59,6 +59,7 @@ export listen=${cure#use --listen }
     fail "the session did not end well"
 for id in 1 2; do
     jq -e '.secure.agreed and .secure.handshakes == 1 and .messages.states_received > 2000 and
-           ([.secure["forged", "unsealed", "unknown_key", "other_circle", "misnamed"]] | add) == 0' \
-        "$folder/$id.json" >/dev/null || fail "peer $id: $(jq -c '[.secure, .messages]' "$folder/$id.json")"
+           ([.secure["forged", "unsealed", "unknown_key", "other_circle", "misnamed"]] | add) == 0
+        ' "$folder/$id.json" >/dev/null ||
+        fail "peer $id: $(jq -c '[.secure, .messages]' "$folder/$id.json")"
 done

@@ -27,8 +27,8 @@ enum class Seal : std::uint8_t { none, keys };
 /// 300 ms; the work into the hands within its budget; each message that a side was given in exactly
 /// one of its counters; and, with the attacker gone and the path healed, copies that agree to
 /// 0.1 mm within 1.2 s of hands off. With keys also: nothing is accepted that the other side has
-/// not sealed for this run, nothing twice, opening takes no memory, and a side multiplies on the curve
-/// at most once in a tick.
+/// not sealed for this run, nothing twice, opening takes no memory, and a side multiplies on the
+/// curve at most once in a tick.
 [[nodiscard]] AttackedSession play_attacked(std::uint64_t seed, Seal seal);
 
 } // namespace hapnet::test

@@ -86,6 +86,23 @@ TEST(EnergyGuard, TakesFromAPushOnlyWhatIsTooMuchAndOnlyAlongTheMotion)
     EXPECT_NEAR(0.3 * left.x() + mobility * (left.x() * left.x() + 1.0), 0.5, tiny);
 }
 
+TEST(EnergyGuard, KeepsTheMeanPowerOfAHandThatIsLighterThanItIsTakenFor)
+{
+    for (const double kg : {0.03, 0.1}) {
+        EnergyGuard guard{{.power_max_w = 0.5, .work_max_j = 10.0}, 1ms};
+        guard.pass({}, {}, 0ms);
+        double x = 0.0, metres_per_s = 0.0;
+        for (int tick = 0; tick < 200; ++tick) {
+            const base::Force force = guard.allow(along_x(3.3), {}); // its device reports no motion
+            metres_per_s += 1e-3 * force.x() / kg;
+            x += 1e-3 * metres_per_s;
+            guard.pass(force, {{x, 0.0, 0.0}}, 1ms);
+        }
+        EXPECT_GT(guard.figures().power_max_w, 0.4) << kg;
+        EXPECT_LT(guard.figures().power_max_w, kg < 0.1 ? 0.58 : 0.53) << kg;
+    }
+}
+
 TEST(EnergyGuard, GivesNothingOnceTheWorkIsUsedUpUntilItIsFiveSecondsOld)
 {
     EnergyGuard guard = at_rest();

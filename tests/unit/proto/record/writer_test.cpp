@@ -206,6 +206,12 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
     other = ours;
     other["schema"]["tick"]["fields"][0]["offset"] = 2;
     EXPECT_EQ(parse_header(other.dump()).error().message, "its schema is not that of version 3");
+    other = ours; // in other words for people
+    other["schema"]["tick"]["fields"][1]["unit"] = "ns of CLOCK_MONOTONIC";
+    EXPECT_TRUE(parse_header(other.dump()));
+    other = ours;
+    other["schema"]["tick"]["fields"] = 1;
+    EXPECT_FALSE(parse_header(other.dump()));
     other = ours;
     other["message_row_bytes"] = 860;
     EXPECT_EQ(parse_header(other.dump()).error().message,
