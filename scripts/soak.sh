@@ -16,7 +16,8 @@ emulator:
   3. floods of three times what the emulator can take beside a stream of 1 kHz,
      and of frames between two commands, both ways at once: each packet is in one counter,
   4. each row of the table of jitter and order at 1 kHz for 20 s, against 'predict',
-  5. 28 links and then 64 clients on two threads, for N minutes each: as 2;
+  5. 28 links and then 64 clients on two threads, for N minutes each: nothing is allocated after
+     the start, nothing is lost that is not counted;
 scene:
   6. 1 000 000 random scenes under the laws of energy, momentum and force, from SEED on
      (default 0), on two processes: about an hour; and how often guards acted in them,

@@ -64,8 +64,9 @@ std::string line(std::int64_t seconds, const Memory& memory)
                        memory.data);
 }
 
-void expect_flat(const std::vector<Memory>& memory, std::int64_t growth_max_kib)
+void expect_flat(const std::vector<Memory>& memory)
 {
+    constexpr std::int64_t growth_max_kib = 1024;
     const std::size_t warm = std::min<std::size_t>(60, memory.size() / 5);
     ASSERT_GE(warm, 5U) << "too short to say anything: at least 25 s";
     const Memory& first = memory[warm - 1];

@@ -35,7 +35,7 @@ struct Memory {
 /// Expects that nothing grows after the first minute, or fifth when that is shorter: by then each
 /// change was made and the queues have been as long as they become. `memory`: at the end of each
 /// second.
-void expect_flat(const std::vector<Memory>& memory, std::int64_t growth_max_kib = 1024);
+void expect_flat(const std::vector<Memory>& memory);
 
 /// Both ends of an emulator, on a thread of its own: every millisecond each end sends a share of
 /// the rate to the emulator, A one by one and B merged where the kernel can (UDP_SEGMENT), and
