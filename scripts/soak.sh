@@ -8,6 +8,7 @@
 set -euo pipefail
 
 usage="usage: scripts/soak.sh [emulator|scene|session|stop] [--quick] [--minutes N] [--first SEED]
+                       [--peers N]
 Installs what is missing, builds the release preset, and runs, without a subject all of
 emulator:
   1. every law of delay and loss over 10 000 000 virtual datagrams,
@@ -27,6 +28,8 @@ session:
      reached a side, over drawn networks and under an attacker who owns the path: forces, energy
      and counters in each millisecond, with keys what is accepted, and whether the copies agree
      afterwards; a seed that fails is printed with the command that repeats it;
+     with --peers N (2 to 8) instead 1000 sessions of N peers, half of them with keys, over links
+     that lose up to 30 %, in which one peer after the other is killed and started again;
 stop:
   9. 100 signals to a daemon in the middle of a push, whose stderr, stdout and record nobody reads:
      zero force two turns of the loop later at most, within 5 ms at p99, and gone within a second:
@@ -54,6 +57,7 @@ session_packets=100000000
 stops=100
 kills=200
 first=0
+peers=
 subject=all
 while (($# > 0)); do
     case $1 in
@@ -65,6 +69,10 @@ while (($# > 0)); do
     --first)
         [[ ${2:-} =~ ^[0-9]{1,15}$ ]] || refuse "--first: a seed, a whole number"
         first=$2 && shift 2
+        ;;
+    --peers)
+        [[ ${2:-} =~ ^[2-8]$ ]] || refuse "--peers: a number from 2 to 8"
+        peers=$2 && shift 2
         ;;
     --minutes)
         [[ ${2:-} =~ ^[1-9][0-9]{0,4}$ ]] || refuse "--minutes: a whole number, 1 or more"
@@ -145,12 +153,17 @@ run_scenes() {
 # run_sessions: half of them without keys and half with, side by side.
 run_sessions() {
     local half=$((sessions / 2)) packets_each=$((session_packets / 2)) started=$SECONDS
-    local verdict=passed
-    echo "== sessions under attack from seed $first on, $half without keys and $half with"
-    build/release/bin/soak_session keys "$first" "$half" "$packets_each" \
+    local verdict=passed kind="under attack" options=()
+    if [[ -n $peers ]]; then
+        kind="of $peers peers"
+        packets_each=0
+        options=(--peers "$peers")
+    fi
+    echo "== sessions $kind from seed $first on, $half without keys and $half with"
+    build/release/bin/soak_session keys "$first" "$half" "$packets_each" "${options[@]}" \
         >build/soak/sessions-keys.log &
     local other=$!
-    build/release/bin/soak_session none "$first" "$half" "$packets_each" |
+    build/release/bin/soak_session none "$first" "$half" "$packets_each" "${options[@]}" |
         tee build/soak/sessions-none.log || verdict=FAILED
     wait "$other" || verdict=FAILED
     cat build/soak/sessions-keys.log

@@ -23,6 +23,16 @@ std::vector<SearchRange> ranges_of(const Limits& limits)
     return ranges;
 }
 
+std::vector<Party> parties_of(const Experiment& experiment)
+{
+    std::vector<Party> parties;
+    for (const std::uint32_t peers : experiment.peers) {
+        if (experiment.scenes.empty()) parties.push_back({.peers = peers});
+        for (std::size_t i = 0; i < experiment.scenes.size(); ++i) parties.push_back({peers, i});
+    }
+    return parties;
+}
+
 std::string_view name_of(const Kind& kind)
 {
     return std::visit([]<typename One>(const One&) { return base::described_name<One>; }, kind);

@@ -9,6 +9,7 @@
 #include "lab/metrics/criteria.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/time.hpp"
+#include "scene/description.hpp"
 
 #include <array>
 #include <chrono>
@@ -27,7 +28,7 @@ struct NamedAlgorithm {
     peer::Algorithm algorithm{};
 };
 
-/// Whose hands play L and R.
+/// Whose hands play those that act as L and as R.
 struct Hands {
     device::Operator left{};
     device::Operator right{};
@@ -37,6 +38,20 @@ struct Hands {
 
 /// "nominal", or "relaxed/firm" when they differ.
 [[nodiscard]] std::string name_of(const Hands& hands);
+
+/// A scene under the name that the experiment gives it.
+struct NamedScene {
+    std::string name;
+    scene::Description scene{};
+};
+
+/// How many play together, and in which of the experiment's scenes.
+struct Party {
+    std::uint32_t peers = 2;
+    std::optional<std::size_t> scene{}; // nullopt: each task's own
+
+    friend bool operator==(const Party&, const Party&) = default;
+};
 
 /// How far an impairment is searched: upward from `from` in steps to `to` or the first failure,
 /// then by bisection to `resolution`.
@@ -137,9 +152,14 @@ struct Experiment {
     std::uint32_t first_seed = 1;
     std::vector<NamedAlgorithm> algorithms{};
     std::vector<device::Task> tasks{};
+    std::vector<std::uint32_t> peers{2};
+    std::vector<NamedScene> scenes{}; // none: each task's own
     Hands hands{};
     bool energy_limit = false;
     emulator::Path path{}; // the conditions that all sessions have in common
 };
+
+/// Every number of peers in every scene.
+[[nodiscard]] std::vector<Party> parties_of(const Experiment& experiment);
 
 } // namespace hapnet::lab::experiment

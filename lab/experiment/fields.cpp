@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/experiment/fields.hpp"
 
+#include "peer/core/circle.hpp"
+#include "scene/text/text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <spdlog/fmt/fmt.h>
@@ -16,6 +19,7 @@ using base::Node;
 using base::Reading;
 
 constexpr std::int64_t search_levels_max = 1000;
+constexpr base::Count peers_format{2, peer::circle_max};
 
 /// A list of different texts, at least one; or one text alone.
 std::vector<std::string> read_texts(const Node& node, Reading& reading)
@@ -118,6 +122,49 @@ std::string TaskNames::describe() const
 {
     return fmt::format("a list of different tasks, or one: `\"{}\"`",
                        fmt::join(base::names_of_enum<device::Task>, "\"`, `\""));
+}
+
+void PeerCounts::read(const Node& node, std::vector<std::uint32_t>& target, Reading& reading) const
+{
+    if (!std::holds_alternative<Node::List>(node.value)) {
+        target.assign(1, 0);
+        return peers_format.read(node, target.front(), reading);
+    }
+    base::List<base::Count>{peers_format, 1}.read(node, target, reading);
+    for (auto count = target.begin(); count != target.end(); ++count) {
+        if (std::find(target.begin(), count, *count) == count) continue;
+        reading.complain(node.place, fmt::format("{} is there already", *count));
+    }
+}
+
+std::string PeerCounts::print(const std::vector<std::uint32_t>& counts) const
+{
+    if (counts.size() == 1) return peers_format.print(counts.front());
+    return base::List<base::Count>{peers_format}.print(counts);
+}
+
+std::string PeerCounts::describe() const
+{
+    return peers_format.describe() + ", or a list of different ones";
+}
+
+void SceneNames::read(const Node& node, std::vector<NamedScene>& target, Reading& reading) const
+{
+    target.clear();
+    for (std::string& name : read_texts(node, reading)) {
+        auto scene =
+            scene::load_scene(name, [&](const std::string& file) { return reading.open(file); });
+        if (!scene) return reading.complain(node.place, scene.error().message);
+        target.push_back({std::move(name), *std::move(scene)});
+    }
+}
+
+std::string SceneNames::print(const std::vector<NamedScene>& scenes) const
+{
+    std::vector<std::string> names;
+    for (const NamedScene& named : scenes) names.push_back(named.name);
+    if (names.size() == 1) return base::quoted(names.front());
+    return base::List<base::Text>{}.print(names);
 }
 
 void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const

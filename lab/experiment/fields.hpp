@@ -34,6 +34,25 @@ struct TaskNames {
     [[nodiscard]] std::string describe() const;
 };
 
+/// Different numbers of peers, or one.
+struct PeerCounts {
+    void read(const base::Node& node, std::vector<std::uint32_t>& target,
+              base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<std::uint32_t>& counts) const;
+    [[nodiscard]] std::string describe() const;
+};
+
+/// Different scenes, or one: built-in ones by their names, or files.
+struct SceneNames {
+    void read(const base::Node& node, std::vector<NamedScene>& target,
+              base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<NamedScene>& scenes) const;
+    [[nodiscard]] std::string describe() const
+    {
+        return "the name of a built-in scene, a file, or a list of different ones";
+    }
+};
+
 /// One operator for both, or a list of two: L and R.
 struct HandsFormat {
     void read(const base::Node& node, Hands& target, base::Reading& reading) const;
@@ -174,6 +193,9 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "built-in ones, or those of `[algorithm.NAME]`")
             .always(),
         base::field("tasks", &Experiment::tasks, TaskNames{}, "what the hands play").required(),
+        base::field("peers", &Experiment::peers, PeerCounts{}, "how many play together"),
+        base::field("scene", &Experiment::scenes, SceneNames{},
+                    "where they play; without it each task has its own"),
         base::field("hands", &Experiment::hands, HandsFormat{}, "whose hands play").always(),
         base::field("energy_limit", &Experiment::energy_limit,
                     "limits the energy into each hand as hapnet-peer does"));

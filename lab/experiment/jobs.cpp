@@ -27,16 +27,25 @@ struct SessionJobs {
              std::uint32_t rows_per_s_of_first_seed) const
     {
         for (std::size_t i = 0; i < experiment.algorithms.size(); ++i) {
-            for (const device::Task task : tasks) {
-                for (std::uint32_t seed = experiment.first_seed;
-                     seed < seeds_end(experiment, experiment.seeds); ++seed) {
-                    auto spec = make_session_spec(
-                        experiment, {experiment.algorithms[i], experiment.hands, task, seed}, path);
-                    const bool is_first = seed == experiment.first_seed;
-                    spec.rows_per_s = is_first ? rows_per_s_of_first_seed : 0;
-                    jobs.emplace_back(SessionJob{i, task, std::move(spec)});
+            for (const Party& party : parties_of(experiment)) {
+                for (const device::Task task : tasks) {
+                    add_seeds({experiment.algorithms[i], experiment.hands, task,
+                               experiment.first_seed, party},
+                              i, path, rows_per_s_of_first_seed);
                 }
             }
+        }
+    }
+
+private:
+    void add_seeds(SessionCase one, std::size_t algorithm, const emulator::Path& path,
+                   std::uint32_t rows_per_s_of_first_seed) const
+    {
+        for (; one.seed < seeds_end(experiment, experiment.seeds); ++one.seed) {
+            auto spec = make_session_spec(experiment, one, path);
+            const bool is_first = one.seed == experiment.first_seed;
+            spec.rows_per_s = is_first ? rows_per_s_of_first_seed : 0;
+            jobs.emplace_back(SessionJob{algorithm, one.task, std::move(spec), one.party});
         }
     }
 };
@@ -60,7 +69,8 @@ struct MakeJobs {
         if (!limits.sensitivity) return;
         for_each_search(limits, limits.sensitivity->tasks, [&](const SearchJob& job) {
             for (const Hands& hands : limits.sensitivity->hands) {
-                jobs.emplace_back(SensitivityJob{job.algorithm, job.task, job.range, hands});
+                jobs.emplace_back(
+                    SensitivityJob{job.algorithm, job.task, job.range, job.party, hands});
             }
         });
     }
@@ -68,12 +78,13 @@ struct MakeJobs {
     {
         for (std::size_t i = 0; i < experiment.algorithms.size(); ++i) {
             const device::Task task = experiment.tasks.front();
+            const Party party = parties_of(experiment).front();
             auto spec = make_session_spec(
                 experiment,
-                {experiment.algorithms[i], experiment.hands, task, experiment.first_seed},
+                {experiment.algorithms[i], experiment.hands, task, experiment.first_seed, party},
                 experiment.path);
             spec.rows_per_s = trajectories.rows_per_s;
-            jobs.emplace_back(SessionJob{i, task, std::move(spec)});
+            jobs.emplace_back(SessionJob{i, task, std::move(spec), party});
         }
     }
     void operator()(const ImpairmentGrid& plane) const
@@ -99,7 +110,9 @@ private:
     {
         for (std::size_t i = 0; i < experiment.algorithms.size(); ++i) {
             for (const SearchRange& range : ranges_of(limits)) {
-                for (const device::Task task : tasks) use({i, task, range});
+                for (const Party& party : parties_of(experiment)) {
+                    for (const device::Task task : tasks) use({i, task, range, party});
+                }
             }
         }
     }
@@ -173,7 +186,8 @@ struct RunJob {
     base::Result<JobResult> operator()(const SearchJob& job) const
     {
         LevelJudge levels{experiment,
-                          {experiment.algorithms[job.algorithm], experiment.hands, job.task},
+                          {experiment.algorithms[job.algorithm], experiment.hands, job.task,
+                           experiment.first_seed, job.party},
                           job.range.impairment,
                           play};
         const auto limit = find_limit(job.range, [&](ImpairmentLevel level) {
@@ -187,7 +201,8 @@ struct RunJob {
     {
         const Sensitivity& sensitivity = *std::get<Limits>(experiment.kind).sensitivity;
         LevelJudge levels{experiment,
-                          {experiment.algorithms[job.algorithm], job.hands, job.task},
+                          {experiment.algorithms[job.algorithm], job.hands, job.task,
+                           experiment.first_seed, job.party},
                           job.range.impairment,
                           play};
         SensitivityResult result;

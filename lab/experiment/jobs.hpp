@@ -21,6 +21,7 @@ struct SessionJob {
     std::size_t algorithm = 0; // of the experiment's
     device::Task task{};
     SessionSpec spec{};
+    Party party{};
 };
 
 /// One limit.
@@ -28,6 +29,7 @@ struct SearchJob {
     std::size_t algorithm = 0;
     device::Task task{};
     SearchRange range{};
+    Party party{};
 };
 
 /// The same limit for these hands, and by each order of the filter.
@@ -35,6 +37,7 @@ struct SensitivityJob {
     std::size_t algorithm = 0;
     device::Task task{};
     SearchRange range{};
+    Party party{};
     Hands hands{};
 };
 

@@ -3,6 +3,7 @@
 #include "emulator/core/profile/text.hpp"
 #include "lab/experiment/fields.hpp"
 #include "lab/experiment/patch.hpp"
+#include "lab/experiment/session_spec.hpp"
 #include "lab/experiment/text.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/built_in.hpp"
@@ -88,6 +89,35 @@ void read_kind(TableReader& table, Kind& kind)
     std::visit(read, kind);
 }
 
+/// Whether the results of the kind tell several numbers of peers, or scenes, apart.
+bool has_parties(const Kind& kind)
+{
+    return std::holds_alternative<Limits>(kind) || std::holds_alternative<ImpairmentGrid>(kind);
+}
+
+/// Complains of those that cannot play.
+void check_parties(const Experiment& experiment, base::Place place, Reading& reading)
+{
+    const auto parties = parties_of(experiment);
+    if (!has_parties(experiment.kind) && (parties.size() > 1 || experiment.peers.front() != 2)) {
+        return reading.complain(place, fmt::format("kind {} takes one scene and two peers: use "
+                                                   "limits or plane",
+                                                   name_of(experiment.kind)));
+    }
+    for (const Party& party : parties) {
+        for (const NamedAlgorithm& algorithm : experiment.algorithms) {
+            for (const device::Task task : experiment.tasks) {
+                const auto spec = make_session_spec(
+                    experiment, {algorithm, experiment.hands, task, 1, party}, experiment.path);
+                const auto valid = validate(spec.setting);
+                if (valid) continue;
+                return reading.complain(place, fmt::format("{}, {} peers: {}", name_of(task),
+                                                           party.peers, valid.error().message));
+            }
+        }
+    }
+}
+
 Experiment read_experiment(const Node& document, Reading& reading)
 {
     TableReader table{std::get<Node::Table>(document.value), document.place, reading};
@@ -98,6 +128,10 @@ Experiment read_experiment(const Node& document, Reading& reading)
     read_path(table, experiment.path);
     read_kind(table, experiment.kind);
     table.finish();
+    const Node* peers = table.find("peers");
+    const Node* scene = table.find("scene");
+    if (reading.is_good() && (peers != nullptr || scene != nullptr))
+        check_parties(experiment, peers != nullptr ? peers->place : scene->place, reading);
     return experiment;
 }
 
@@ -110,11 +144,12 @@ base::Result<Experiment> read_tree(const Node& document, Reading reading)
 
 /// The first setting with which the text is no experiment any more is the one to complain of.
 base::Result<Experiment> complain_of_settings(Node document, const Overrides& overrides,
+                                              const base::OpenFile& open,
                                               base::Result<Experiment> experiment)
 {
     for (const std::string& setting : overrides.settings) {
         overlay(document, *setting_table(setting));
-        auto adjusted = read_tree(document, Reading{"--set " + setting, {}, false});
+        auto adjusted = read_tree(document, Reading{"--set " + setting, open, false});
         if (!adjusted) return adjusted;
     }
     return experiment;
@@ -123,7 +158,7 @@ base::Result<Experiment> complain_of_settings(Node document, const Overrides& ov
 } // namespace
 
 base::Result<Experiment> parse_experiment(std::string_view text, const std::string& source,
-                                          const Overrides& overrides)
+                                          const Overrides& overrides, const base::OpenFile& open)
 {
     const auto parts = base::parse_text(text, source, [](const Node& whole, Reading& reading) {
         Node rest = whole;
@@ -136,7 +171,7 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
     auto [document, quick] = *parts;
     Node quick_document = document;
     overlay(quick_document, quick);
-    if (auto read = read_tree(quick_document, Reading{source}); !read) return read;
+    if (auto read = read_tree(quick_document, Reading{source, open}); !read) return read;
     if (overrides.quick) document = std::move(quick_document);
     Node adjusted = document;
     for (const std::string& setting : overrides.settings) {
@@ -146,11 +181,11 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
         }
         overlay(adjusted, *table);
     }
-    auto experiment = read_tree(adjusted, Reading{source});
+    auto experiment = read_tree(adjusted, Reading{source, open});
     if (experiment || overrides.settings.empty()) return experiment;
-    auto plain = read_tree(document, Reading{source});
+    auto plain = read_tree(document, Reading{source, open});
     if (!plain) return plain;
-    return complain_of_settings(std::move(document), overrides, std::move(experiment));
+    return complain_of_settings(std::move(document), overrides, open, std::move(experiment));
 }
 
 base::Result<Experiment> load_experiment(const std::string& file_or_name,
@@ -158,7 +193,7 @@ base::Result<Experiment> load_experiment(const std::string& file_or_name,
 {
     const auto found = base::find_text(file_or_name, built_in_experiments(), "an experiment", open);
     if (!found) return tl::unexpected{found.error()};
-    return parse_experiment(found->text, found->source, overrides);
+    return parse_experiment(found->text, found->source, overrides, open);
 }
 
 } // namespace hapnet::lab::experiment

@@ -43,16 +43,18 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     SessionSpec spec;
     virtual_time::Setting& setting = spec.setting;
     setting.task = one.task;
-    setting.scene = scene_for(one.task);
+    const auto& scene = one.party.scene;
+    setting.scene = scene ? experiment.scenes[*scene].scene : scene_for(one.task);
     setting.seed = base::Seed{one.seed};
     setting.length = experiment.duration;
     setting.tick = experiment.tick;
     setting.energy_limit = experiment.energy_limit;
     setting.profile.path = path;
-    setting.players[0].algorithm = one.algorithm.algorithm;
-    setting.players[0].person = one.hands.left;
-    setting.players[1].algorithm = one.algorithm.algorithm;
-    setting.players[1].person = one.hands.right;
+    setting.players.resize(one.party.peers);
+    for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
+        setting.players[seat].algorithm = one.algorithm.algorithm;
+        setting.players[seat].person = seat % 2 == 0 ? one.hands.left : one.hands.right;
+    }
     return spec;
 }
 
@@ -67,15 +69,18 @@ SessionSpec perfect_twin(const SessionSpec& spec)
 std::string key_of(const SessionSpec& spec, std::string_view program)
 {
     const virtual_time::Setting& setting = spec.setting;
-    const auto left = player_text(setting.players[0]);
-    const auto right = player_text(setting.players[1]);
-    const auto label = fmt::format("{} {} {}/{} seed {} {}", name_of(setting.task),
-                                   peer::name_of(setting.players[0].algorithm),
-                                   setting.players[0].person.name, setting.players[1].person.name,
+    std::string persons;
+    std::string players;
+    for (const virtual_time::PlayerSetting& player : setting.players) {
+        persons += (persons.empty() ? "" : "/") + player.person.name;
+        players += player_text(player) + '\n';
+    }
+    const auto label = fmt::format("{} {} {} seed {} {}", name_of(setting.task),
+                                   peer::name_of(setting.players.front().algorithm), persons,
                                    setting.seed.value(), base::to_text(setting.length));
-    const auto all = fmt::format(
-        "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", label, program, setting.tick.count(), spec.rows_per_s,
-        emulator::to_text(setting.profile), left, right, scene::to_text(setting.scene));
+    const auto all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}{}\n", label, program, setting.tick.count(),
+                                 spec.rows_per_s, emulator::to_text(setting.profile), players,
+                                 scene::to_text(setting.scene));
     // Without a limit the key is the one that sessions had before there was one.
     const std::string_view limit = setting.energy_limit ? "energy_limit = true\n" : "";
     return fmt::format("{} {:016x}", label, hash_of(all + std::string{limit}));

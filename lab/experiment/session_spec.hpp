@@ -35,6 +35,7 @@ struct SessionCase {
     const Hands& hands;
     device::Task task{};
     std::uint32_t seed = 1;
+    Party party{};
 };
 
 [[nodiscard]] SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,

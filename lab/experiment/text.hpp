@@ -22,9 +22,12 @@ struct Overrides {
 };
 
 /// Reads an experiment. Errors begin with "SOURCE:LINE:COLUMN: ", or with "--set KEY=VALUE: " when
-/// it is a setting that the text does not bear, and say what would be right.
-[[nodiscard]] base::Result<Experiment>
-parse_experiment(std::string_view text, const std::string& source, const Overrides& overrides = {});
+/// it is a setting that the text does not bear, and say what would be right. Scenes that it names
+/// by their files are asked from `open`; without it that is an error.
+[[nodiscard]] base::Result<Experiment> parse_experiment(std::string_view text,
+                                                        const std::string& source,
+                                                        const Overrides& overrides = {},
+                                                        const base::OpenFile& open = {});
 
 /// The experiment as TOML with every parameter of its algorithms: it reads back as the same
 /// experiment.

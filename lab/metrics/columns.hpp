@@ -21,7 +21,7 @@ struct Columns {
     std::vector<double> push;       // the length of the contact force
     std::vector<double> work;       // that the hand did on the device from this tick to the next
     std::vector<std::uint8_t> touching; // or holding
-    std::vector<std::uint8_t> follows;  // only the other side touches
+    std::vector<std::uint8_t> follows;  // only others touch
 };
 
 [[nodiscard]] Columns columns_of(std::span<const virtual_time::Sample> side);

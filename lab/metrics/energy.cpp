@@ -7,15 +7,18 @@
 
 namespace hapnet::lab::metrics {
 
-std::optional<double> energy_taken_of(std::span<const double> left_work,
-                                      std::span<const double> right_work)
+std::optional<double> energy_taken_of(std::span<const std::span<const double>> work_of_hands)
 {
-    const std::size_t count = std::min(left_work.size(), right_work.size());
+    if (work_of_hands.empty()) return std::nullopt;
+    std::size_t count = work_of_hands.front().size();
+    for (const auto& work : work_of_hands) count = std::min(count, work.size());
     if (count == 0) return std::nullopt;
     double energy = 0.0;
     double least = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-        energy += left_work[i] + right_work[i];
+        double of_tick = 0.0;
+        for (const auto& work : work_of_hands) of_tick += work[i];
+        energy += of_tick;
         least = std::min(least, energy);
     }
     return std::max(0.0, -least);

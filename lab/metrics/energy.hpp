@@ -7,12 +7,12 @@
 
 namespace hapnet::lab::metrics {
 
-/// The most energy, in joules, that two hands have together got out of their devices beyond what
-/// they had put in until then: max(0, -min E), E the running sum of `work` of both, from 0. What
+/// The most energy, in joules, that all hands have together got out of their devices beyond what
+/// they had put in until then: max(0, -min E), E the running sum of the work of all, from 0. What
 /// the system between them makes up, which a passive one does not; the energy stored in springs
-/// counts as put in. One device alone may well give what the other hand put in elsewhere.
+/// counts as put in. One device alone may well give what another hand put in elsewhere.
 /// nullopt when there is no sample.
-[[nodiscard]] std::optional<double> energy_taken_of(std::span<const double> left_work,
-                                                    std::span<const double> right_work);
+[[nodiscard]] std::optional<double>
+energy_taken_of(std::span<const std::span<const double>> work_of_hands);
 
 } // namespace hapnet::lab::metrics

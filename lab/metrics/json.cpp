@@ -51,6 +51,7 @@ constexpr auto fields_of(base::Tag<Metrics>)
         field("stiffness_n_per_m", &Metrics::stiffness_n_per_m),
         field("force_discrepancy", &Metrics::force_discrepancy),
         field("discrepancy_m", &Metrics::discrepancy_m),
+        field("turned_apart_rad", &Metrics::turned_apart_rad),
         field("force_vibration_n", &Metrics::force_vibration_n),
         field("felt_vibration_n", &Metrics::felt_vibration_n),
         field("contact_lost", &Metrics::contact_lost), field("force_steps", &Metrics::force_steps),

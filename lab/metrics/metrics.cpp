@@ -9,10 +9,12 @@
 #include "lab/metrics/energy.hpp"
 #include "lab/metrics/exercise.hpp"
 #include "lab/metrics/stiffness.hpp"
+#include "lab/metrics/worse.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <vector>
 
@@ -31,7 +33,7 @@ constexpr double fallen_m = 0.025; // half the height to which the body is lifte
 /// A trace as columns, and where its samples stand in time.
 struct TraceColumns {
     Exercise exercise;
-    std::array<Columns, 2> sides;
+    std::vector<Columns> sides;
     double tick_s = 0.001;
     double begin_s = 0.0;
 
@@ -60,13 +62,52 @@ struct TraceColumns {
     }
 };
 
+/// Of the pair of sides whose mean is largest; `distance(a, b, i)` is that of two at sample i.
+template <typename Distance>
+std::optional<Spread> widest_spread(std::size_t sides, std::size_t count, const Distance& distance)
+{
+    std::optional<Spread> widest;
+    std::vector<double> distances(count);
+    for (std::size_t a = 0; a < sides; ++a) {
+        for (std::size_t b = a + 1; b < sides; ++b) {
+            for (std::size_t i = 0; i < count; ++i) distances[i] = distance(a, b, i);
+            const auto spread = spread_of(distances);
+            if (!widest || (spread && !(spread->mean <= widest->mean))) widest = spread;
+        }
+    }
+    return widest;
+}
+
 std::optional<Spread> body_discrepancy(const TraceColumns& columns)
 {
-    std::vector<double> distances(columns.count());
-    for (std::size_t i = 0; i < distances.size(); ++i) {
-        distances[i] = std::abs(columns.sides[0].body_x[i] - columns.sides[1].body_x[i]);
-    }
-    return spread_of(distances);
+    return widest_spread(
+        columns.sides.size(), columns.count(), [&](std::size_t a, std::size_t b, std::size_t i) {
+            return std::abs(columns.sides[a].body_x[i] - columns.sides[b].body_x[i]);
+        });
+}
+
+/// The angle of the rotation from one orientation to the other, 0 to pi.
+double angle_between(const glm::dquat& a, const glm::dquat& b)
+{
+    // By the imaginary part also where the angle is small, and with q and -q alike.
+    const glm::dquat turn = glm::conjugate(a) * b;
+    const double sine = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
+    return 2.0 * std::atan2(sine, std::abs(turn.w));
+}
+
+std::optional<Spread> turned_apart(const virtual_time::Trace& trace)
+{
+    const auto turns = [](const std::vector<virtual_time::Sample>& side) {
+        return std::ranges::any_of(side, [&](const virtual_time::Sample& sample) {
+            return sample.orientation != side.front().orientation;
+        });
+    };
+    if (std::ranges::none_of(trace.sides, turns)) return std::nullopt;
+    return widest_spread(trace.sides.size(), trace.sides.front().size(),
+                         [&](std::size_t a, std::size_t b, std::size_t i) {
+                             return angle_between(trace.sides[a][i].orientation,
+                                                  trace.sides[b][i].orientation);
+                         });
 }
 
 std::optional<double> path_rms(const TraceColumns& columns, const Columns& side)
@@ -97,25 +138,31 @@ std::optional<double> contact_lost(const TraceColumns& columns, const Columns& s
 void measure_side(const TraceColumns& columns, std::size_t index, Metrics& metrics)
 {
     const Columns& side = columns.sides[index];
+    const std::size_t role = index % 2; // L or R
+    const auto note = [role]<typename Value>(BySide<Value>& of_roles,
+                                             const std::optional<Value>& value) {
+        of_roles[role] = worse(of_roles[role], value);
+    };
     const Cutoff above{vibration_above_hz, columns.tick_s};
     const auto body_x = std::span{side.body_x}.subspan(columns.steady());
     const auto force = std::span{side.hand_force}.subspan(columns.steady());
     const auto follows = std::span{side.follows}.subspan(columns.steady());
-    metrics.body_vibration_m[index] = vibration_of(
-        body_x, columns.exercise.by_turns ? follows : std::span<const std::uint8_t>{}, above);
-    metrics.force_vibration_n[index] = vibration_of(force, {}, above);
-    metrics.felt_vibration_n[index] =
-        band_vibration_of(force, above, {felt_below_hz, columns.tick_s});
-    metrics.contact_lost[index] = contact_lost(columns, side);
-    metrics.force_steps[index] = force_steps_of(force, columns.tick_s);
+    note(metrics.body_vibration_m,
+         vibration_of(body_x, columns.exercise.by_turns ? follows : std::span<const std::uint8_t>{},
+                      above));
+    note(metrics.force_vibration_n, vibration_of(force, {}, above));
+    note(metrics.felt_vibration_n,
+         band_vibration_of(force, above, {felt_below_hz, columns.tick_s}));
+    note(metrics.contact_lost, contact_lost(columns, side));
+    note(metrics.force_steps, force_steps_of(force, columns.tick_s));
     if (const auto stop = columns.exercise.stopped_at_m) {
         double farthest = *stop;
         for (const double x : body_x) farthest = std::max(farthest, x);
-        metrics.overshoot_m[index] = farthest - *stop;
+        note(metrics.overshoot_m, std::optional{farthest - *stop});
     }
     if (!columns.exercise.along_path) return;
-    metrics.drag_n[index] = drag_of(side, columns.tick_s);
-    metrics.path_rms_m[index] = path_rms(columns, side);
+    note(metrics.drag_n, drag_of(side, columns.tick_s));
+    note(metrics.path_rms_m, path_rms(columns, side));
 }
 
 void measure_presses(const TraceColumns& columns, Metrics& metrics)
@@ -149,7 +196,7 @@ std::optional<double> drops(const TraceColumns& columns)
             return std::any_of(heights.begin(), heights.end(),
                                [](double height) { return height < fallen_m; });
         };
-        if (falls(columns.sides[0]) || falls(columns.sides[1])) count += 1.0;
+        if (std::ranges::any_of(columns.sides, falls)) count += 1.0;
     }
     return count;
 }
@@ -158,23 +205,30 @@ std::optional<double> drops(const TraceColumns& columns)
 
 Metrics metrics_of(const virtual_time::Trace& trace)
 {
-    base::ensure(trace.sides[0].size() == trace.sides[1].size());
-    const TraceColumns columns{.exercise = exercise_of(trace.task),
-                               .sides = {columns_of(trace.sides[0]), columns_of(trace.sides[1])},
-                               .tick_s = base::to_seconds(trace.tick),
-                               .begin_s = base::to_seconds(trace.begin)};
+    base::ensure(trace.sides.size() >= 2);
+    TraceColumns columns{.exercise = exercise_of(trace.task),
+                         .sides = {},
+                         .tick_s = base::to_seconds(trace.tick),
+                         .begin_s = base::to_seconds(trace.begin)};
+    for (const auto& side : trace.sides) {
+        base::ensure(side.size() == trace.sides.front().size());
+        columns.sides.push_back(columns_of(side));
+    }
     Metrics metrics{.task = trace.task,
                     .scored_s = static_cast<double>(columns.count()) * columns.tick_s};
     if (columns.count() == 0) return metrics;
-    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+    std::vector<std::span<const double>> work;
+    for (std::size_t side = 0; side < columns.sides.size(); ++side) {
         measure_side(columns, side, metrics);
+        work.emplace_back(columns.sides[side].work);
     }
     if (columns.exercise.presses) measure_presses(columns, metrics);
     if (!columns.exercise.lifted.empty()) metrics.drops = drops(columns);
-    const auto& [left, right] = columns.sides;
+    const Columns &left = columns.sides[0], &right = columns.sides[1];
     if (columns.exercise.presses) metrics.force_discrepancy = force_discrepancy_of(left, right);
     metrics.discrepancy_m = body_discrepancy(columns);
-    metrics.energy_taken_j = energy_taken_of(left.work, right.work);
+    metrics.turned_apart_rad = turned_apart(trace);
+    metrics.energy_taken_j = energy_taken_of(work);
     if (columns.exercise.taps) metrics.response_s = response_of(left, right, columns.tick_s);
     return metrics;
 }

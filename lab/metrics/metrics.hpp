@@ -14,7 +14,8 @@
 
 namespace hapnet::lab::metrics {
 
-/// Of L and of R.
+/// Of L and of R. Among more than two hands, the larger value of the hands that act as L, and of
+/// those that act as R.
 template <typename Value>
 using BySide = std::array<std::optional<Value>, 2>;
 
@@ -27,17 +28,21 @@ inline constexpr std::size_t judged_press = 1; // of them
 /// docs/design/metrics.md says what each can tell and what not.
 struct Metrics {
     device::Task task = device::Task::p1;
-    double scored_s = 0.0; // how long both sides were running
+    double scored_s = 0.0; // how long all sides were running
 
     /// A: root mean square of the body's x above 20 Hz, metres; in a task by turns only while the
     /// side follows.
     BySide<ByOrder> body_vibration_m{};
     /// B: by the frequency of pressing (press_hertz) and the side that presses, N/m.
     std::array<BySide<double>, press_hertz.size()> stiffness_n_per_m{};
-    /// C: mean ||F_L| - |F_R|| over the mean force, at equal times.
+    /// C: mean ||F_L| - |F_R|| over the mean force, at equal times; of the first two hands.
     std::optional<double> force_discrepancy{};
-    /// D: |x_L - x_R| of the body at equal times, metres.
+    /// D: |x_L - x_R| of the body at equal times, metres. Among more than two copies: of the two
+    /// that are farthest apart in the mean.
     std::optional<Spread> discrepancy_m{};
+    /// D of a body that turns: the angle between its orientations in two copies at equal times,
+    /// radians; of the two that are farthest apart in the mean. nullopt when no copy turns.
+    std::optional<Spread> turned_apart_rad{};
     /// E: root mean square of the force on the hand in x above 20 Hz, newtons.
     BySide<ByOrder> force_vibration_n{};
     /// E between 20 and 300 Hz. Not weighted by how well a stylus transmits: no table of that was

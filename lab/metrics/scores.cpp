@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/scores.hpp"
 
+#include "lab/metrics/worse.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <cmath>
@@ -26,26 +27,10 @@ ByOrder excess(const ByOrder& value, const ByOrder& reference)
             .fourth = excess(value.fourth, reference.fourth)};
 }
 
-double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
-
-ByOrder larger(const ByOrder& a, const ByOrder& b)
-{
-    return {.first = larger(a.first, b.first),
-            .second = larger(a.second, b.second),
-            .fourth = larger(a.fourth, b.fourth)};
-}
-
-ForceSteps larger(const ForceSteps& a, const ForceSteps& b)
-{
-    return {.largest_n = larger(a.largest_n, b.largest_n),
-            .reversals = larger(a.reversals, b.reversals)};
-}
-
 template <typename Value>
-std::optional<Value> worse(const BySide<Value>& sides)
+std::optional<Value> worse_side(const BySide<Value>& sides)
 {
-    if (!sides[0] || !sides[1]) return sides[0] ? sides[0] : sides[1];
-    return larger(*sides[0], *sides[1]);
+    return worse(sides[0], sides[1]);
 }
 
 /// Side by side against the perfect network; nullopt where either has none.
@@ -101,23 +86,24 @@ Scores scores_of(const Metrics& impaired, const Metrics& perfect)
         .task = impaired.task,
         .scored_share = perfect.scored_s > 0.0 ? impaired.scored_s / perfect.scored_s : 0.0,
         .vibration_m =
-            worse(against(impaired.body_vibration_m, perfect.body_vibration_m, in_quadrature)),
+            worse_side(against(impaired.body_vibration_m, perfect.body_vibration_m, in_quadrature)),
         .force_discrepancy = impaired.force_discrepancy,
         .force_discrepancy_added =
             difference(impaired.force_discrepancy, perfect.force_discrepancy),
         .discrepancy_m = impaired.discrepancy_m,
-        .force_vibration_n = worse(impaired.force_vibration_n),
-        .force_vibration_added_n =
-            worse(against(impaired.force_vibration_n, perfect.force_vibration_n, in_quadrature)),
-        .felt_vibration_n = worse(impaired.felt_vibration_n),
-        .contact_lost = worse(against(impaired.contact_lost, perfect.contact_lost, minus)),
-        .force_steps = worse(impaired.force_steps),
+        .turned_apart_rad = impaired.turned_apart_rad,
+        .force_vibration_n = worse_side(impaired.force_vibration_n),
+        .force_vibration_added_n = worse_side(
+            against(impaired.force_vibration_n, perfect.force_vibration_n, in_quadrature)),
+        .felt_vibration_n = worse_side(impaired.felt_vibration_n),
+        .contact_lost = worse_side(against(impaired.contact_lost, perfect.contact_lost, minus)),
+        .force_steps = worse_side(impaired.force_steps),
         .energy_taken_j = impaired.energy_taken_j,
-        .drag_n = worse(against(impaired.drag_n, perfect.drag_n, minus)),
-        .path_rms_m = worse(impaired.path_rms_m),
-        .path_rms_ratio = worse(against(impaired.path_rms_m, perfect.path_rms_m, ratio_of)),
+        .drag_n = worse_side(against(impaired.drag_n, perfect.drag_n, minus)),
+        .path_rms_m = worse_side(impaired.path_rms_m),
+        .path_rms_ratio = worse_side(against(impaired.path_rms_m, perfect.path_rms_m, ratio_of)),
         .drops = impaired.drops,
-        .overshoot_m = worse(impaired.overshoot_m),
+        .overshoot_m = worse_side(impaired.overshoot_m),
         .response_added_s = difference(impaired.response_s, perfect.response_s),
         .similarity = impaired.similarity};
     for (std::size_t i = 0; i < press_hertz.size(); ++i) {

@@ -13,7 +13,7 @@ namespace hapnet::lab::metrics {
 /// what the network did. SI units; of the side that is worse off.
 struct Scores {
     device::Task task = device::Task::p1;
-    /// How long both sides were running, of what it was on the perfect network.
+    /// How long all sides were running, of what it was on the perfect network.
     double scored_share = 0.0;
 
     /// A: sqrt(a^2 - a0^2), a the vibration, a0 that on the perfect network; 0 when it is less.
@@ -26,6 +26,7 @@ struct Scores {
     std::optional<double> force_discrepancy_added{};
     /// D as measured.
     std::optional<Spread> discrepancy_m{};
+    std::optional<Spread> turned_apart_rad{};
     /// E as measured, and in excess of the perfect network's as A.
     std::optional<ByOrder> force_vibration_n{};
     std::optional<ByOrder> force_vibration_added_n{};

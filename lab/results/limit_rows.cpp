@@ -3,6 +3,7 @@
 #include "lab/results/limit_rows.hpp"
 
 #include "lab/results/paper.hpp"
+#include "lab/results/party_columns.hpp"
 #include "lab/results/summary.hpp"
 
 #include <tuple>
@@ -16,7 +17,11 @@ struct TaskLimit {
     std::string_view algorithm;
     experiment::Impairment impairment{};
     std::string_view task;
+    experiment::Party party{};
     experiment::Limit limit{};
+
+    /// As the paper plays.
+    [[nodiscard]] bool is_usual() const { return party == experiment::Party{}; }
 };
 
 /// Less, and found rather than not.
@@ -37,9 +42,9 @@ std::vector<TaskLimit> limits_of(const experiment::Experiment& experiment,
         if (job == nullptr) continue;
         const std::string_view algorithm = experiment.algorithms[job->algorithm].name;
         const experiment::Limit& limit = std::get<experiment::SearchResult>(results[i]).limit;
-        limits.push_back({algorithm, job->range.impairment, name_of(job->task), limit});
+        limits.push_back({algorithm, job->range.impairment, name_of(job->task), job->party, limit});
         if (!worst || is_worse(limit, worst->limit)) {
-            worst = TaskLimit{algorithm, job->range.impairment, worst_task, limit};
+            worst = TaskLimit{algorithm, job->range.impairment, worst_task, job->party, limit};
         }
         if (job->task != experiment.tasks.back()) continue;
         limits.push_back(*worst);
@@ -62,7 +67,7 @@ std::optional<FoundLimit> base_of(const std::vector<TaskLimit>& limits, const Ta
 {
     for (const TaskLimit& other : limits) {
         if (other.algorithm == "base" && other.impairment == like.impairment &&
-            other.task == like.task) {
+            other.task == like.task && other.party == like.party) {
             return in_unit(other.limit);
         }
     }
@@ -77,15 +82,19 @@ std::vector<LimitRow> make_limit_rows(const experiment::Experiment& experiment,
     std::vector<LimitRow> rows;
     const auto limits = limits_of(experiment, results);
     for (const TaskLimit& one : limits) {
-        rows.push_back({.algorithm = std::string{one.algorithm},
-                        .impairment = std::string{name_of(one.impairment)},
-                        .task = std::string{one.task},
-                        .limit = in_units(one.limit.level),
-                        .bound = bound_of(one.limit),
-                        .unit = std::string{unit_of(one.impairment)},
-                        .paper_limit = paper_limit(one.algorithm, one.impairment),
-                        .status = limit_status(one.algorithm, one.impairment, in_unit(one.limit),
-                                               base_of(limits, one))});
+        LimitRow row{.algorithm = std::string{one.algorithm},
+                     .impairment = std::string{name_of(one.impairment)},
+                     .task = std::string{one.task},
+                     .limit = in_units(one.limit.level),
+                     .bound = bound_of(one.limit),
+                     .unit = std::string{unit_of(one.impairment)}};
+        if (one.is_usual()) {
+            row.paper_limit = paper_limit(one.algorithm, one.impairment);
+            row.status = limit_status(one.algorithm, one.impairment, in_unit(one.limit),
+                                      base_of(limits, one));
+        }
+        note_party(experiment, one.party, row);
+        rows.push_back(std::move(row));
     }
     return rows;
 }
@@ -111,6 +120,7 @@ std::vector<CurveRow> make_curve_rows(const experiment::Experiment& experiment,
                             .unit = std::string{unit_of(impairment)},
                             .seed = point.seed,
                             .judged = judged});
+            note_party(experiment, job->party, rows.back());
         }
     }
     return rows;
@@ -135,6 +145,7 @@ std::vector<SensitivityRow> make_sensitivity_rows(const experiment::Experiment& 
                             .limit = in_units(limits[order].level),
                             .bound = bound_of(limits[order]),
                             .unit = std::string{unit_of(job->range.impairment)}});
+            note_party(experiment, job->party, rows.back());
         }
     }
     return rows;

@@ -110,6 +110,8 @@ base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
     const auto person = peer.at<std::string>("/operator_toml");
     const auto profile = emulator.at<std::string>("/profile");
     virtual_time::Setting setting;
+    const Json others = session.files.peer.value("others", Json::array());
+    setting.players.resize(std::max<std::size_t>(others.size(), 1) + 1);
     setting.length = base::from_seconds(peer.at<double>("/duration_s"));
     setting.seed = base::Seed{emulator.at<std::uint64_t>("/seed")};
     setting.players[0].seed = base::Seed{peer.at<std::uint64_t>("/session/seed")};

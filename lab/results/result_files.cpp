@@ -6,7 +6,9 @@
 #include "lab/metrics/calibration.hpp"
 #include "lab/results/limit_rows.hpp"
 #include "lab/results/paper.hpp"
+#include "lab/results/party_columns.hpp"
 #include "lab/results/summary.hpp"
+#include "proto/base/math.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
@@ -21,6 +23,7 @@ struct Group {
     device::Task task{};
     std::vector<metrics::Scores> scores{};
     std::string_view rows{}; // of the first seed
+    experiment::Party party{};
 };
 
 /// The results of single sessions, by algorithm and task; each point of a grid begins anew.
@@ -34,7 +37,7 @@ std::vector<Group> groups_of(const experiment::Experiment& experiment,
         const auto& result = std::get<experiment::SessionResult>(results[i]);
         if (job.spec.setting.seed.value() == experiment.first_seed) {
             groups.push_back(
-                {experiment.algorithms[job.algorithm].name, job.task, {}, result.rows});
+                {experiment.algorithms[job.algorithm].name, job.task, {}, result.rows, job.party});
         }
         groups.back().scores.push_back(scores_of(result.metrics, result.perfect));
     }
@@ -101,6 +104,8 @@ TaskRow task_row(const Group& group, const Summary& summary, const metrics::Crit
                 .tier = judged.tier,
                 .limited_by = summary.limited_by};
     if (summary.typical_m) row.std_mm = 1e3 * summary.typical_m->std;
+    if (summary.turned_apart_max_rad)
+        row.turned_apart_deg = *summary.turned_apart_max_rad * (360.0 / base::two_pi);
     return row;
 }
 
@@ -140,6 +145,8 @@ struct ResultsOf {
                 table.push_back(table1_row(group, summary, base_mm));
             } else {
                 tasks.push_back(task_row(group, summary, criteria));
+                if (group.party.scene)
+                    tasks.back().scene = experiment.scenes[*group.party.scene].name;
             }
             files.push_back({fmt::format("replay/{}-{}.csv", group.algorithm, name_of(group.task)),
                              fmt::format("{}\n{}", base::csv_header<ReplayRow>(), group.rows)});
@@ -182,13 +189,14 @@ struct ResultsOf {
         std::vector<QosRow> rows;
         for (std::size_t i = 0; i < groups.size(); ++i) {
             const experiment::GridPoint& point = points[i / groups_per_point];
-            rows.push_back(
-                {.algorithm = std::string{groups[i].algorithm},
-                 .task = std::string{name_of(groups[i].task)},
-                 .delay_ms = in_units(point.delay),
-                 .jitter_ms = in_units(point.jitter),
-                 .loss_percent = in_units(point.loss),
-                 .judged = make_judged(summarize(groups[i].scores, criteria), criteria)});
+            QosRow& row = rows.emplace_back(
+                QosRow{.algorithm = std::string{groups[i].algorithm},
+                       .task = std::string{name_of(groups[i].task)},
+                       .delay_ms = in_units(point.delay),
+                       .jitter_ms = in_units(point.jitter),
+                       .loss_percent = in_units(point.loss),
+                       .judged = make_judged(summarize(groups[i].scores, criteria), criteria)});
+            note_party(experiment, groups[i].party, row);
         }
         return std::vector<File>{{"qos.csv", base::csv_text(rows)}};
     }

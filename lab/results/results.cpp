@@ -3,6 +3,7 @@
 #include "lab/results/results.hpp"
 
 #include "lab/records/recorded_trace.hpp"
+#include "lab/results/party_columns.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
@@ -74,7 +75,13 @@ template <auto rows>
 Outcome add_rows(const File& file, Results& results)
 {
     using Row = typename std::remove_reference_t<decltype(results.*rows)>::value_type;
-    return append(results.*rows, base::read_csv<Row>(file.text, file.path));
+    auto read = base::read_csv<Row>(file.text, file.path);
+    if constexpr (requires(Row row) { row.peers; }) {
+        // A page compares parties as it compares algorithms.
+        for (std::size_t i = 0; read && i < read->size(); ++i)
+            (*read)[i].algorithm = algorithm_and_party((*read)[i]);
+    }
+    return append(results.*rows, std::move(read));
 }
 
 constexpr std::array kinds{FileKind{"manifest.json", add_run},

@@ -20,6 +20,10 @@ namespace hapnet::lab::results {
 // Names end with the unit. What a task does not exercise is nullopt. Each struct is written and
 // read by the description of its fields: base::csv_text() and base::read_csv().
 
+/// How many played, and where: columns of a table in which that is not two in the task's own scene.
+inline constexpr base::Spare<base::Count> peers_column{};
+inline constexpr base::Spare<base::Text> scene_column{};
+
 /// How a result stands to what the paper says.
 enum class Claim : std::uint8_t { none, calibrated, met, missed };
 constexpr auto names_of(base::Tag<Claim>) { return base::names("", "calibrated", "met", "missed"); }
@@ -83,6 +87,8 @@ struct TaskRow {
     std::optional<double> energy_mj{};
     metrics::Tier tier{};
     std::string limited_by;
+    std::optional<double> turned_apart_deg{}; // the largest; where the body turns
+    std::optional<std::string> scene{};
 };
 constexpr auto fields_of(base::Tag<TaskRow>)
 {
@@ -100,7 +106,10 @@ constexpr auto fields_of(base::Tag<TaskRow>)
         base::field("force_step_n", &Row::force_step_n, ten_thousandths),
         base::field("drag_n", &Row::drag_n, ten_thousandths),
         base::field("energy_mj", &Row::energy_mj, thousandths), base::field("tier", &Row::tier),
-        base::field("limited_by", &Row::limited_by));
+        base::field("limited_by", &Row::limited_by),
+        base::field("turned_apart_deg", &Row::turned_apart_deg,
+                    base::Spare<base::Decimals>{thousandths}),
+        base::field("scene", &Row::scene, scene_column));
 }
 
 /// In limits.csv, where the limit of the worst of the tasks stands.
@@ -116,18 +125,21 @@ struct LimitRow {
     std::string unit;
     std::optional<double> paper_limit{};
     LimitStatus status{};
+    std::optional<std::uint32_t> peers{};
+    std::optional<std::string> scene{};
 
     [[nodiscard]] bool is_open() const { return bound == Bound::open; }
 };
 constexpr auto fields_of(base::Tag<LimitRow>)
 {
     using Row = LimitRow;
-    return base::fields("limits", base::field("algorithm", &Row::algorithm),
-                        base::field("impairment", &Row::impairment),
-                        base::field("task", &Row::task), base::field("limit", &Row::limit),
-                        base::field("bound", &Row::bound), base::field("unit", &Row::unit),
-                        base::field("paper_limit", &Row::paper_limit),
-                        base::field("status", &Row::status));
+    return base::fields(
+        "limits", base::field("algorithm", &Row::algorithm),
+        base::field("impairment", &Row::impairment), base::field("task", &Row::task),
+        base::field("limit", &Row::limit), base::field("bound", &Row::bound),
+        base::field("unit", &Row::unit), base::field("paper_limit", &Row::paper_limit),
+        base::field("status", &Row::status), base::field("peers", &Row::peers, peers_column),
+        base::field("scene", &Row::scene, scene_column));
 }
 
 /// Of limits_by_convention.csv: how sensitive a limit is to the filter and to the hands.
@@ -140,18 +152,21 @@ struct SensitivityRow {
     double limit = 0.0;
     Bound bound{};
     std::string unit;
+    std::optional<std::uint32_t> peers{};
+    std::optional<std::string> scene{};
 
     [[nodiscard]] bool is_open() const { return bound == Bound::open; }
 };
 constexpr auto fields_of(base::Tag<SensitivityRow>)
 {
     using Row = SensitivityRow;
-    return base::fields("limits by convention", base::field("algorithm", &Row::algorithm),
-                        base::field("impairment", &Row::impairment),
-                        base::field("task", &Row::task),
-                        base::field("filter_order", &Row::filter_order),
-                        base::field("hand", &Row::hand), base::field("limit", &Row::limit),
-                        base::field("bound", &Row::bound), base::field("unit", &Row::unit));
+    return base::fields(
+        "limits by convention", base::field("algorithm", &Row::algorithm),
+        base::field("impairment", &Row::impairment), base::field("task", &Row::task),
+        base::field("filter_order", &Row::filter_order), base::field("hand", &Row::hand),
+        base::field("limit", &Row::limit), base::field("bound", &Row::bound),
+        base::field("unit", &Row::unit), base::field("peers", &Row::peers, peers_column),
+        base::field("scene", &Row::scene, scene_column));
 }
 
 /// By what a session is judged.
@@ -181,6 +196,8 @@ struct CurveRow {
     std::string unit;
     std::uint32_t seed = 0;
     Judged judged{};
+    std::optional<std::uint32_t> peers{};
+    std::optional<std::string> scene{};
 };
 constexpr auto fields_of(base::Tag<CurveRow>)
 {
@@ -189,7 +206,8 @@ constexpr auto fields_of(base::Tag<CurveRow>)
                         base::field("impairment", &Row::impairment),
                         base::field("task", &Row::task), base::field("level", &Row::level),
                         base::field("unit", &Row::unit), base::field("seed", &Row::seed),
-                        base::part(&Row::judged));
+                        base::part(&Row::judged), base::field("peers", &Row::peers, peers_column),
+                        base::field("scene", &Row::scene, scene_column));
 }
 
 /// Of qos.csv: a point of the grid of delay, jitter and loss.
@@ -200,6 +218,8 @@ struct QosRow {
     double jitter_ms = 0.0;
     double loss_percent = 0.0;
     Judged judged{};
+    std::optional<std::uint32_t> peers{};
+    std::optional<std::string> scene{};
 };
 constexpr auto fields_of(base::Tag<QosRow>)
 {
@@ -207,7 +227,9 @@ constexpr auto fields_of(base::Tag<QosRow>)
     return base::fields("qos", base::field("algorithm", &Row::algorithm),
                         base::field("task", &Row::task), base::field("delay_ms", &Row::delay_ms),
                         base::field("jitter_ms", &Row::jitter_ms),
-                        base::field("loss_percent", &Row::loss_percent), base::part(&Row::judged));
+                        base::field("loss_percent", &Row::loss_percent), base::part(&Row::judged),
+                        base::field("peers", &Row::peers, peers_column),
+                        base::field("scene", &Row::scene, scene_column));
 }
 
 /// Of trajectories.csv: Fig. 7.

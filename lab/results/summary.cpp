@@ -73,9 +73,10 @@ std::optional<metrics::Spread> mean_spread(std::span<const metrics::Scores> all)
 
 Summary summarize(std::span<const metrics::Scores> scores, const metrics::Criteria& criteria)
 {
-    Summary summary{mean_spread(scores), {}, {}, worst_of(scores)};
+    Summary summary{.typical_m = mean_spread(scores), .worst = worst_of(scores)};
     for (const metrics::Scores& one : scores) {
         if (one.discrepancy_m) raise(summary.discrepancy_max_m, one.discrepancy_m->max);
+        if (one.turned_apart_rad) raise(summary.turned_apart_max_rad, one.turned_apart_rad->max);
         if (one.force_steps) raise(summary.force_step_n, one.force_steps->largest_n);
     }
     const metrics::Judgement judgement = judge(summary.worst, criteria);

@@ -17,9 +17,10 @@ struct Summary {
         typical_m{}; // the means over the seeds of the discrepancy's figures
     std::optional<double> discrepancy_max_m{}; // the largest of any seed
     std::optional<double> force_step_n{};      // as well
-    metrics::Scores worst{};                   // in every respect as bad as that of the worst seed
-    metrics::Tier tier = metrics::Tier::good;  // of the worst
-    std::string limited_by{};                  // what keeps it from the next tier
+    std::optional<double> turned_apart_max_rad{};
+    metrics::Scores worst{};                  // in every respect as bad as that of the worst seed
+    metrics::Tier tier = metrics::Tier::good; // of the worst
+    std::string limited_by{};                 // what keeps it from the next tier
 };
 
 /// A task's scores by seed; at least one.

@@ -5,6 +5,7 @@
 #include "device/replay/replay.hpp"
 #include "device/simulated/omni.hpp"
 #include "peer/core/energy_budget.hpp"
+#include "peer/core/shared_body.hpp"
 #include "proto/base/bytes.hpp"
 #include "proto/secure/key_file.hpp"
 
@@ -27,6 +28,7 @@ peer::Roster roster_of(const Setting& setting, const PlayerId& id)
     peer::Roster roster;
     if (setting.players.size() == 2) return roster;
     roster.others.clear();
+    roster.wait_for = setting.wait_for;
     for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
         if (seat != id.seat) roster.others.push_back(static_cast<std::uint16_t>(seat + 1));
     }
@@ -91,6 +93,14 @@ std::vector<secure::KeyFile> key_files(base::Seed circle, std::size_t players)
     return secure::make_circle("virtual", static_cast<std::uint8_t>(players), entropy);
 }
 
+constexpr glm::dquat unturned{1.0, 0.0, 0.0, 0.0};
+
+bool can_body_turn(const scene::Description& scene)
+{
+    const auto shared = peer::shared_body(scene);
+    return shared && scene.bodies.at(*shared).turning != scene::Turning::locked;
+}
+
 peer::line::Line sealed_line(const secure::KeyFile& own, const secure::KeyFile::Member& other,
                              const PlayerId& id, base::Seed circle)
 {
@@ -130,7 +140,8 @@ VirtualPlayer::VirtualPlayer(const Setting& setting, const PlayerId& id)
       side{std::make_unique<peer::Side>(settings_of(setting, id, rig.device().capabilities()))},
       lines{lines_of(setting, id)},
       own_seat{id.seat},
-      clock_ahead{setting.players.at(id.seat).clock_ahead}
+      clock_ahead{setting.players.at(id.seat).clock_ahead},
+      can_turn{can_body_turn(setting.scene)}
 {}
 
 void VirtualPlayer::step(base::TimePoint now)
@@ -149,6 +160,7 @@ Sample VirtualPlayer::sample() const
     const peer::Tick& tick = side->tick();
     return {.body = peer().position(),
             .body_velocity = peer().velocity(),
+            .orientation = can_turn ? peer().body().orientation : unturned,
             .hip = side->sample().hip,
             .hip_velocity = side->sample().velocity,
             .on_hand = side->told(),

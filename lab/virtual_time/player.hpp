@@ -81,6 +81,7 @@ public:
     base::Duration clock_ahead{}; // of the world's time
     base::Duration date_ahead{};  // of its wall clock, besides
 
+    bool can_turn = false;           // the shared body
     base::TimePoint stepped_at;      // its last tick, in the world's time
     std::size_t tended = 0;          // the line whose keys went on last
     std::vector<peer::Event> events; // all so far

@@ -24,6 +24,9 @@ base::Result<void> validate_number(const Setting& setting)
         return base::fail(
             fmt::format("{} players: a session has 2 to {}", count, peer::circle_max));
     }
+    if (setting.wait_for > count) {
+        return base::fail(fmt::format("{} are waited for, and {} play", setting.wait_for, count));
+    }
     if (count > setting.scene.hands.count) {
         return base::fail(fmt::format("the scene '{}' has {} hands, and {} play: choose another "
                                       "scene, such as carry, or raise count in its [hips]",

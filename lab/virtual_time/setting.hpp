@@ -14,6 +14,7 @@
 #include "scene/description.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,8 @@ struct Setting {
     /// Two to eight, with the ids 1, 2, ...; the 1st, 3rd, ... acts as L, the others as R. Up is
     /// from the lower id to the higher.
     std::vector<PlayerSetting> players = std::vector<PlayerSetting>(2);
+    /// So many of more than two must hear each other before they start; 0: all. Others join.
+    std::size_t wait_for = 0;
 };
 
 /// The links of a session between so many, as `hapnet-emulator --link` calls them: "1-2", "1-3",

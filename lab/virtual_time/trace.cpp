@@ -11,6 +11,8 @@ Sample between(const Sample& earlier, const Sample& later, double share)
     const auto go = [share](auto& from, const auto& to) { from = from + share * (to - from); };
     go(sample.body, later.body);
     go(sample.body_velocity, later.body_velocity);
+    if (earlier.orientation != later.orientation)
+        sample.orientation = glm::slerp(earlier.orientation, later.orientation, share);
     go(sample.hip, later.hip);
     go(sample.hip_velocity, later.hip_velocity);
     go(sample.on_hand, later.on_hand);

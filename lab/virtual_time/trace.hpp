@@ -7,6 +7,7 @@
 #include "proto/base/time.hpp"
 
 #include <chrono>
+#include <glm/gtc/quaternion.hpp>
 #include <vector>
 
 namespace hapnet::lab::virtual_time {
@@ -15,7 +16,8 @@ namespace hapnet::lab::virtual_time {
 struct Sample {
     base::Position body; // the shared body, after the tick
     base::Velocity body_velocity;
-    base::Position hip; // as the device told it
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // of the body, where it can turn
+    base::Position hip;                         // as the device told it
     base::Velocity hip_velocity;
     base::Force on_hand; // what the device was told, after the governor
     base::Force on_body; // by this side's hand

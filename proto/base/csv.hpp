@@ -46,6 +46,13 @@ struct Decimals : Number {
     }
 };
 
+/// The format of a column that stands in a table only where one of its lines has something in it.
+/// Its member is an optional.
+template <typename Format>
+struct Spare : Format {
+    static constexpr bool is_spare = true;
+};
+
 // How a value stands in a cell: a number that is not finite, and an optional without a value, is
 // empty. For types of one's own, beside them: overloads of cell_of(value) and read_cell(cell,
 // value).
@@ -138,6 +145,58 @@ bool read_cell_into(std::string_view cell, Value& value)
 
 } // namespace detail
 
+namespace detail {
+
+template <typename Format>
+concept IsSpare = requires
+{
+    requires Format::is_spare;
+};
+
+/// Which of the columns a table of these values has.
+template <Described T>
+[[nodiscard]] std::vector<bool> columns_for(const std::vector<T>& values)
+{
+    std::vector<bool> shown;
+    const auto look = [&](const T& value, bool is_first) {
+        std::size_t column = 0;
+        for_each_field(
+            [&]<typename Member>(const auto& field, const Member& member) {
+                using Format = std::remove_cvref_t<decltype(field.format)>;
+                if (is_first) shown.push_back(!IsSpare<Format>);
+                if constexpr (is_optional<Member>) {
+                    if (member) shown[column] = true;
+                }
+                ++column;
+            },
+            value);
+    };
+    look(T{}, true);
+    for (const T& value : values) look(value, false);
+    return shown;
+}
+
+/// The texts of the columns that are shown, with commas; text(field, member) gives each.
+template <Described T, typename TextOf>
+[[nodiscard]] std::string csv_cells(const T& value, const std::vector<bool>& shown,
+                                    const TextOf& text)
+{
+    std::string line;
+    bool is_first = true;
+    std::size_t column = 0;
+    for_each_field(
+        [&](const auto& field, const auto& member) {
+            if (!shown[column++]) return;
+            if (!is_first) line += ',';
+            is_first = false;
+            line += text(field, member);
+        },
+        value);
+    return line;
+}
+
+} // namespace detail
+
 /// `a,b,c`, without a line's end.
 template <Described T>
 [[nodiscard]] std::string csv_header()
@@ -165,12 +224,17 @@ template <Described T>
     return line;
 }
 
-/// Header and lines.
+/// Header and lines, without the spare columns that no value fills.
 template <Described T>
 [[nodiscard]] std::string csv_text(const std::vector<T>& values)
 {
-    std::string text = csv_header<T>() + '\n';
-    for (const T& value : values) text += csv_line(value) + '\n';
+    const std::vector<bool> shown = detail::columns_for(values);
+    const auto key = [](const auto& field, const auto&) { return std::string{field.key}; };
+    const auto cell = [](const auto& field, const auto& member) {
+        return detail::cell_text(field.format, member);
+    };
+    std::string text = detail::csv_cells(T{}, shown, key) + '\n';
+    for (const T& value : values) text += detail::csv_cells(value, shown, cell) + '\n';
     return text;
 }
 
@@ -191,7 +255,9 @@ template <Described T>
                 using Member = std::remove_cvref_t<decltype(member)>;
                 const auto& columns = table->columns;
                 const auto column = std::find(columns.begin(), columns.end(), field.key);
+                using Format = std::remove_cvref_t<decltype(field.format)>;
                 if (column == columns.end()) {
+                    if (detail::IsSpare<Format>) return;
                     return complain(1, fmt::format("expected a column '{}'", field.key));
                 }
                 const auto& cell = line.cells[static_cast<std::size_t>(column - columns.begin())];

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_session none|keys FIRST COUNT [DATAGRAMS]: plays the attacked sessions of the seeds FIRST ..
-// FIRST + COUNT - 1, without or with keys, and of more seeds until so many datagrams have reached
-// their sides. Prints every seed in which an invariant broke, and at the end what was played. Exits
-// 0 when none did.
+// soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N]: plays the attacked sessions of the
+// seeds FIRST .. FIRST + COUNT - 1, without or with keys, and of more seeds until so many datagrams
+// have reached their sides; with --peers instead sessions of N peers, one of whom is dead now and
+// then. Prints every seed in which an invariant broke, and at the end what was played. Exits 0 when
+// none did.
 #include "tests/support/session/attacked_session.hpp"
+#include "tests/support/session/troubled_group.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -31,14 +33,36 @@ void report(const Tally& tally)
     std::fflush(stdout);
 }
 
+/// What is judged of either kind of session.
+hapnet::test::AttackedSession play(std::uint64_t seed, std::size_t peers, hapnet::test::Seal seal)
+{
+    if (peers == 0) return hapnet::test::play_attacked(seed, seal);
+    const auto group = hapnet::test::play_troubled_group(seed, peers, seal);
+    return {.complaint = group.complaint, .datagrams = group.datagrams, .compared = group.compared};
+}
+
+/// The number after --peers, taken out of the arguments; 0: it is not there.
+std::size_t taken_peers(std::vector<std::string>& arguments)
+{
+    const auto option = std::ranges::find(arguments, "--peers");
+    if (arguments.end() - option < 2) return 0;
+    const auto peers = std::strtoull((option + 1)->c_str(), nullptr, 10);
+    arguments.erase(option, option + 2);
+    return peers;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
-    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    const std::size_t peers = taken_peers(arguments);
     const bool keys = !arguments.empty() && arguments[0] == "keys";
-    if (arguments.size() < 3 || arguments.size() > 4 || (!keys && arguments[0] != "none")) {
-        fmt::print(stderr, "usage: soak_session none|keys FIRST COUNT [DATAGRAMS]\n");
+    const bool are_known = arguments.size() >= 3 && arguments.size() <= 4 &&
+                           (keys || arguments[0] == "none") && peers != 1 && peers <= 8;
+    if (!are_known) {
+        fmt::print(stderr,
+                   "usage: soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers 2..8]\n");
         return 2;
     }
     const auto seal = keys ? hapnet::test::Seal::keys : hapnet::test::Seal::none;
@@ -49,15 +73,16 @@ int main(int argc, char** argv)
     Tally tally;
     for (std::uint64_t seed = number(1); tally.played < number(2) || tally.datagrams < number(3);
          ++seed) {
-        const auto session = hapnet::test::play_attacked(seed, seal);
+        const auto session = play(seed, peers, seal);
         ++tally.played;
         tally.compared += session.compared ? 1 : 0;
         tally.datagrams += session.datagrams;
         tally.work_5s_max_j = std::max(tally.work_5s_max_j, session.work_5s_max_j);
         if (session.complaint) {
             ++tally.broken;
-            fmt::print("  seed {}: {} (repeat it: build/release/bin/soak_session {} {} 1)\n", seed,
-                       *session.complaint, arguments[0], seed);
+            fmt::print("  seed {}: {} (repeat it: build/release/bin/soak_session {} {} 1{})\n",
+                       seed, *session.complaint, arguments[0], seed,
+                       peers == 0 ? std::string{} : fmt::format(" --peers {}", peers));
         }
         if (tally.played % often == 0) report(tally);
     }

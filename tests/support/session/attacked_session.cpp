@@ -3,6 +3,7 @@
 #include "tests/support/session/attacked_session.hpp"
 
 #include "tests/support/multiplications.hpp"
+#include "tests/support/session/draws.hpp"
 #include "tests/support/session/mallory.hpp"
 #include "tests/support/session/work_of_5s.hpp"
 
@@ -35,25 +36,6 @@ constexpr double work_max_j = 0.15;
 constexpr double agreement_m = 0.1e-3;
 // The 1 m that a remote side may claim, and then a push of 3.3 N against 10 N s/m for all of 9 s.
 constexpr double cube_within_m = 1.0 + 0.33 * 9.0;
-
-/// Draws, each its own, in the order of the calls.
-class Draws {
-public:
-    explicit Draws(base::Seed seed) : draw_{seed.stream("attacked session")} {}
-
-    [[nodiscard]] double share() { return draw_.uniform(next_++); }
-    [[nodiscard]] bool one_in(std::uint32_t of) { return draw_.below(of, next_++) == 0; }
-    [[nodiscard]] std::size_t below(std::uint32_t bound) { return draw_.below(bound, next_++); }
-    [[nodiscard]] base::Duration up_to(base::Duration most)
-    {
-        const double drawn = share();
-        return base::from_seconds(drawn * base::to_seconds(most));
-    }
-
-private:
-    base::RandomStream draw_;
-    std::uint64_t next_ = 0;
-};
 
 /// Delay to 2 s, loss to 99.9 %, bursts, copies, damage.
 emulator::Conditions drawn_conditions(Draws& draw)
@@ -213,7 +195,7 @@ private:
 };
 
 Play::Play(std::uint64_t seed, Seal seal)
-    : draw_{base::Seed{seed}},
+    : draw_{base::Seed{seed}, "attacked session"},
       attack_{2s + draw_.up_to(attack_max - 2s)},
       world_{drawn_setting(base::Seed{seed}, draw_, attack_, seal),
              {.datagrams_max = 16'384, .bytes_max = 16U << 20}},

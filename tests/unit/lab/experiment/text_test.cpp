@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 // What an experiment's text says, and what is said of texts that are none.
 #include "lab/experiment/criteria_text.hpp"
+#include "lab/experiment/jobs.hpp"
 #include "lab/experiment/text.hpp"
+#include "scene/text/text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +39,7 @@ void expect_words(const std::string& text, std::initializer_list<std::string_vie
 
 TEST(ExperimentText, EveryBuiltInExperimentReadsBackAsItIsPrinted)
 {
-    ASSERT_EQ(built_in_experiments().size(), 7U);
+    ASSERT_EQ(built_in_experiments().size(), 8U);
     for (const auto& built_in : built_in_experiments()) {
         for (const bool quick : {false, true}) {
             const auto read = parse_experiment(built_in.text, "it", {quick, {}});
@@ -70,6 +72,49 @@ velocity = "sender"
     EXPECT_EQ(again->hands, read->hands);
     expect_words(to_text(*again), {"velocity = \"sender\"", "[algorithm.\"mine\"]"});
     EXPECT_EQ(to_text(*again), to_text(*read));
+}
+
+TEST(ExperimentText, HasPeersAndScenesAsAxesOfAPlane)
+{
+    const std::string plane = "kind = \"plane\"\ntasks = \"T7\"\nalgorithms = \"base\"\nseeds = 1\n"
+                              "peers = [2, 5]\nscene = [\"carry\", \"mine.toml\"]\n[plane]\n"
+                              "delay = [\"0ms\", \"40ms\"]\njitter = [\"0ms\"]\nloss = [\"0%\"]\n";
+    const auto open = [](const std::string& name) -> base::Result<std::string> {
+        if (name != "mine.toml") return base::fail(name);
+        auto mine = *scene::load_scene("carry", {});
+        mine.bodies.front().mass_kg = 0.2;
+        return scene::to_text(mine);
+    };
+    const auto read = parse_experiment(plane, "it", {}, open);
+    ASSERT_TRUE(read) << read.error().message;
+    const auto jobs = make_jobs(*read);
+    ASSERT_EQ(jobs.size(), 8U);
+    const auto& last = std::get<SessionJob>(jobs.back());
+    EXPECT_EQ(last.spec.setting.players.size(), 5U);
+    EXPECT_EQ(last.spec.setting.scene.bodies.front().mass_kg, 0.2);
+    const auto again = parse_experiment(to_text(*read), "again", {}, open);
+    ASSERT_TRUE(again) << again.error().message << to_text(*read);
+    EXPECT_EQ(to_text(*again), to_text(*read));
+    expect_words(to_text(*read), {"peers = [2, 5]", "scene = [\"carry\", \"mine.toml\"]"});
+}
+
+TEST(ExperimentText, SaysWhoCannotPlay)
+{
+    const std::string plane = "kind = \"plane\"\ntasks = \"T7\"\nalgorithms = "
+                              "\"base\"\n[plane]\ndelay = [\"0ms\"]\njitter = [\"0ms\"]\n"
+                              "loss = [\"0%\"]\n";
+    const auto says = [&](std::vector<std::string> settings) { return complaint(plane, settings); };
+    EXPECT_EQ(says({"tasks=T7", "algorithms=base", "peers=8"}), "");
+    expect_words(says({"tasks=T3", "algorithms=base", "peers=3"}),
+                 {"T3, 3 peers", "the scene 'paper' has 2 hands"});
+    EXPECT_EQ(says({"tasks=T3", "algorithms=base", "peers=3", "scene=carry"}), "");
+    expect_words(says({"tasks=T7", "algorithms=[\"base\", \"sep\"]", "peers=3"}),
+                 {"sep is made for two", "use base"});
+    expect_words(says({"tasks=T7", "algorithms=base", "peers=9"}), {"peers", "2", "8"});
+    expect_words(says({"tasks=T7", "algorithms=base", "peers=[3, 3]"}), {"3 is there already"});
+    expect_words(says({"tasks=T7", "scene=nowhere"}), {"nowhere", "carry"});
+    expect_words(complaint("kind = \"table1\"\ntasks = \"T7\"\nalgorithms = \"base\"\npeers = 3\n"),
+                 {"kind table1 takes one scene and two peers"});
 }
 
 TEST(ExperimentText, QuickCountsOnlyWhenItIsAskedFor)

@@ -5,17 +5,28 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace hapnet::lab::metrics {
 namespace {
 
-TEST(EnergyTaken, IsTheDeepestDeficitOfBothTogether)
+std::optional<double> taken(const std::vector<std::vector<double>>& work)
+{
+    const std::vector<std::span<const double>> hands{work.begin(), work.end()};
+    return energy_taken_of(hands);
+}
+
+TEST(EnergyTaken, IsTheDeepestDeficitOfAllTogether)
 {
     // Alone the right hand has got 3 J; together they have got 1 J, after the second tick.
-    EXPECT_EQ(energy_taken_of(std::vector{1.0, 1.0, 2.0}, std::vector{0.0, -3.0, 0.0}), 1.0);
-    EXPECT_EQ(energy_taken_of(std::vector{1.0, -0.5}, std::vector{0.0, 0.0}), 0.0);
-    EXPECT_FALSE(energy_taken_of({}, {}));
+    EXPECT_EQ(taken({{1.0, 1.0, 2.0}, {0.0, -3.0, 0.0}}), 1.0);
+    EXPECT_EQ(taken({{1.0, -0.5}, {0.0, 0.0}}), 0.0);
+    EXPECT_FALSE(taken({{}, {}}));
+    EXPECT_FALSE(taken({}));
+    // A third hand had put in what the right one got.
+    EXPECT_EQ(taken({{1.0, 1.0, 2.0}, {0.0, -3.0, 0.0}, {0.0, 0.75, 0.0}}), 0.25);
 }
 
 TEST(EnergyTaken, OfASampledSpringIsWhatItsSamplingMakesUp)
@@ -31,7 +42,7 @@ TEST(EnergyTaken, OfASampledSpringIsWhatItsSamplingMakesUp)
     // The force of a tick is that of its beginning: a tick of pressing stores half of 500 N/m *
     // (50 um)^2 too little, one of releasing gives back as much too much.
     const double made_up = 200 * 0.5 * 500.0 * 0.00005 * 0.00005;
-    EXPECT_NEAR(*energy_taken_of(columns.work, std::vector<double>(201, 0.0)), made_up, 1e-12);
+    EXPECT_NEAR(*taken({columns.work, std::vector<double>(201, 0.0)}), made_up, 1e-12);
 }
 
 } // namespace

@@ -112,6 +112,36 @@ TEST(Metrics, SayHowFarABodyIsBeyondTheStaticCube)
     EXPECT_FALSE(metrics_of(resting(Task::t2, 2000)).overshoot_m[0]);
 }
 
+TEST(Metrics, OfMoreThanTwoAreThoseOfTheWorstPairAndOfTheWorstOfARole)
+{
+    virtual_time::Trace trace = resting(Task::t7, 2000);
+    trace.sides.resize(4, trace.sides.front());
+    for (std::size_t i = 0; i < 2000; ++i) {
+        trace.sides[1][i].body.value.x = 0.001;
+        trace.sides[3][i].body.value.x = -0.002;
+        trace.sides[2][i].on_hand.value.x = i % 2 == 0 ? 0.1 : -0.1;
+    }
+    const Metrics metrics = metrics_of(trace);
+    EXPECT_NEAR(metrics.discrepancy_m->mean, 0.003, 1e-15);
+    EXPECT_NEAR(metrics.force_steps[0]->largest_n, 0.2, 1e-15); // the third acts as the first
+    EXPECT_EQ(metrics.force_steps[1]->largest_n, 0.0);
+    EXPECT_FALSE(metrics.turned_apart_rad);
+}
+
+TEST(Metrics, OfABodyThatTurnsSayTheAngleBetweenItsCopies)
+{
+    virtual_time::Trace trace = resting(Task::t3, 1000);
+    for (std::size_t i = 500; i < 1000; ++i) {
+        trace.sides[0][i].orientation = glm::dquat{std::cos(0.05), 0.0, std::sin(0.05), 0.0};
+        trace.sides[1][i].orientation = glm::dquat{-1.0, 0.0, 0.0, 0.0}; // not turned
+    }
+    const auto apart = metrics_of(trace).turned_apart_rad;
+    ASSERT_TRUE(apart);
+    EXPECT_NEAR(apart->max, 0.1, 1e-15);
+    EXPECT_NEAR(apart->mean, 0.05, 1e-12);
+    EXPECT_EQ(apart->min, 0.0);
+}
+
 TEST(Metrics, TakeTheTasksToDoWhatTheirScriptsDo)
 {
     for (const Task task : device::all_tasks) {

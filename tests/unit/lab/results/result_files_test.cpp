@@ -3,6 +3,7 @@
 // The files of an experiment whose sessions follow a known law.
 #include "lab/experiment/text.hpp"
 #include "lab/results/result_files.hpp"
+#include "lab/results/results.hpp"
 #include "lab/results/rows.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
@@ -72,6 +73,45 @@ TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
               "dead-reckoning,delay,T3,200,>,ms,150,predicted-missed\n"
               "dead-reckoning,delay,worst,93,=,ms,150,predicted-missed\n");
     EXPECT_FALSE(files.contains("limits_by_convention.csv"));
+}
+
+TEST(Results, OfSeveralNumbersOfPeersStandBesideEachOther)
+{
+    const auto experiment = experiment_of(R"(
+kind = "limits"
+title = "many"
+seeds = 1
+algorithms = "base"
+tasks = "T7"
+peers = [2, 3]
+[limit.delay]
+to = "50ms"
+step = "50ms"
+resolution = "1ms"
+)");
+    const auto files = results(experiment, [](const experiment::SessionSpec& spec) {
+        experiment::PlayedSession played = known_session(spec);
+        const bool is_far = delay_ms(spec) > 20.0;
+        if (spec.setting.players.size() == 3 && is_far)
+            played.metrics.body_vibration_m[0]->first = 1.0;
+        return base::Result<experiment::PlayedSession>{played};
+    });
+    // What the paper says holds for two.
+    EXPECT_EQ(files.at("limits.csv"),
+              "algorithm,impairment,task,limit,bound,unit,paper_limit,status,peers\n"
+              "base,delay,T7,50,>,ms,160,predicted-missed,2\n"
+              "base,delay,worst,50,>,ms,160,predicted-missed,2\n"
+              "base,delay,T7,20,=,ms,,,3\n"
+              "base,delay,worst,20,=,ms,,,3\n");
+    const std::string& curves = files.at("curves.csv");
+    EXPECT_EQ(curves.substr(0, curves.find('\n')),
+              "algorithm,impairment,task,level,unit,seed,mean_mm,vibration_mm,stiffness_ratio,"
+              "force_vibration_n,tier,peers");
+    const std::vector<File> folder{{"limits.csv", files.at("limits.csv")}, {"curves.csv", curves}};
+    const auto read = read_results(folder);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->limits.front().algorithm, "base, 2 peers");
+    EXPECT_EQ(read->limits.back().algorithm, "base, 3 peers");
 }
 
 TEST(Results, ACellStopsAtItsFirstFailingSeedInSeedOrder)

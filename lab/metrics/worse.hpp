@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/high_pass.hpp"
+#include "lab/metrics/steps.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace hapnet::lab::metrics {
+
+// Of two values of one metric the larger, which is the worse. A number that is not finite is worse
+// than any: it fails where it is judged.
+
+[[nodiscard]] inline double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
+
+[[nodiscard]] inline ByOrder larger(const ByOrder& a, const ByOrder& b)
+{
+    return {.first = larger(a.first, b.first),
+            .second = larger(a.second, b.second),
+            .fourth = larger(a.fourth, b.fourth)};
+}
+
+[[nodiscard]] inline ForceSteps larger(const ForceSteps& a, const ForceSteps& b)
+{
+    return {.largest_n = larger(a.largest_n, b.largest_n),
+            .reversals = larger(a.reversals, b.reversals)};
+}
+
+/// The only one that there is, or the larger.
+template <typename Value>
+[[nodiscard]] std::optional<Value> worse(const std::optional<Value>& a,
+                                         const std::optional<Value>& b)
+{
+    if (!a || !b) return a ? a : b;
+    return larger(*a, *b);
+}
+
+} // namespace hapnet::lab::metrics
