@@ -116,6 +116,7 @@ nlohmann::ordered_json json_of(const DirectionOfRun& run, base::Duration budget)
               {"bytes_in", s.bytes_in},
               {"bytes_out", s.bytes_out},
               {"ce_in", s.ce_in},
+              {"ce_marked", s.ce_marked},
               {"ce_out", s.ce_out},
               {"dropped", dropped},
               {"lateness_us", json_of(s.lateness)},

@@ -130,7 +130,7 @@ std::vector<Condition> listed_conditions()
         {"corrupt", "SHARE", words<&Corruption::share>()},
         {"reorder", "TABLE", words<&Reordering::share>(": '{ share = \"1%\", displacement = 3 }'")},
         {"rate", "RATE", words<&Rate::bits_per_second>(queue)},
-        {"queue", "LAW", words<&QueueControl::law>(": drop-tail, codel or pie")},
+        {"queue", "LAW", words<&QueueControl::law>(": drop-tail, codel, pie or fq-codel")},
         {"mtu", "SIZE", words<&Mtu::bytes_max>()},
     };
 }

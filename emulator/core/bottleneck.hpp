@@ -4,6 +4,7 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/datagram.hpp"
+#include "emulator/core/queue/fair_queue.hpp"
 #include "emulator/core/queue/manager.hpp"
 #include "emulator/core/ring.hpp"
 #include "proto/base/ensure.hpp"
@@ -12,14 +13,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <optional>
 
 namespace hapnet::emulator {
 
-/// A line that sends one datagram after another at a rate, or as a trace allows it, with a
-/// drop-tail queue before it. Exact: n of b bits that follow each other take ceil(n b / rate), to
-/// the nanosecond, and a change of the rate in the midst of one counts the bits that were already
-/// sent.
+/// A line that sends one datagram after another at a rate, or as a trace allows it, with a queue
+/// before it, or with one for each flow. Exact: n of b bits that follow each other take ceil(n b /
+/// rate), to the nanosecond, and a change of the rate in the midst of one counts the bits that were
+/// already sent.
 class Bottleneck {
 public:
     Bottleneck(const Rate& rate, std::size_t datagrams_max, base::TimePoint start = {},
@@ -30,71 +33,94 @@ public:
           is_managed_{manager.is_on()},
           queue_{datagrams_max},
           start_{start}
-    {}
+    {
+        make_fair(manager.control());
+    }
 
     [[nodiscard]] bool is_on() const { return is_on_; }
-    [[nodiscard]] bool is_idle() const { return queue_.empty(); }
+    [[nodiscard]] bool is_idle() const { return queue_.empty() && evicted_.empty(); }
+    /// Whether it wants to know of what flow a datagram is.
+    [[nodiscard]] bool is_fair() const { return fair_ != nullptr; }
 
     /// Whether a payload of so many bytes would find room at the end of the queue. What is being
-    /// sent does not count.
+    /// sent does not count. Where each flow has a queue, the longest one makes room.
     [[nodiscard]] bool has_room(std::size_t payload_bytes) const
     {
         if (queue_.empty()) return true;
-        return !queue_.full() &&
-               waiting_bytes_ + payload_bytes + rate_.overhead_bytes <= rate_.queue_bytes_max;
+        const std::size_t others = is_fair() ? 0 : waiting_bytes_;
+        return !queue_.is_full_with(queue_.size() + waiting_turns()) &&
+               others + payload_bytes + rate_.overhead_bytes <= rate_.queue_bytes_max;
     }
 
-    /// Why the queue drops a datagram that arrives; nullopt: it takes it.
-    [[nodiscard]] std::optional<DropCause> refuses(const Datagram& datagram)
+    /// Why the queue drops a datagram that arrives; nullopt: it takes it, and may mark it.
+    [[nodiscard]] std::optional<DropCause> refuses(Datagram& datagram)
     {
         if (!has_room(datagram.size())) return DropCause::rate_queue_full;
         if (!is_managed_) return std::nullopt;
         const QueueControl& control = manager_.control();
-        const bool are_too_many = control.packets_max > 0 && queue_.size() > control.packets_max;
+        const bool are_too_many =
+            !is_fair() && control.packets_max > 0 && queue_.size() > control.packets_max;
         const bool is_too_long = control.time_max > base::Duration{0} &&
                                  is_busy_beyond(datagram.arrival + control.time_max);
         if (are_too_many || is_too_long) return DropCause::rate_queue_full;
-        if (manager_.drops_arrival(datagram.number, datagram.arrival, waiting_bytes_)) {
-            return DropCause::rate_queue_law;
-        }
+        const auto verdict = manager_.judge_arrival(datagram, waiting_bytes_);
+        if (verdict == QueueVerdict::drop) return DropCause::rate_queue_law;
+        if (verdict == QueueVerdict::mark) datagram.marks = datagram.marks.with_congestion();
         return std::nullopt;
     }
 
     /// Takes a datagram that arrives now, not before the last one. Ensures that there is room.
-    void push(const Datagram& datagram, const Fate& fate)
+    /// `flow`: a hash of its flow, if it is_fair().
+    void push(const Datagram& datagram, const Fate& fate, std::uint32_t flow = 0)
     {
-        base::ensure(!queue_.full());
-        const std::size_t line_bytes = datagram.size() + rate_.overhead_bytes;
+        base::ensure(!queue_.is_full_with(queue_.size() + waiting_turns()));
+        const Queued entry{datagram, fate, datagram.size() + rate_.overhead_bytes};
         const bool was_idle = queue_.empty();
-        queue_.push({datagram, fate, line_bytes});
-        if (!was_idle) {
-            waiting_bytes_ += line_bytes;
-            return;
+        if (was_idle && rate_.trace && !trace_start_) {
+            trace_start_ = begin_of_trace(datagram.arrival);
         }
-        if (rate_.trace && !trace_start_) trace_start_ = begin_of_trace(datagram.arrival);
-        next_head(datagram.arrival, 0, true);
+        waiting_bytes_ += entry.line_bytes;
+        if (is_fair() && is_on_) {
+            fair_->push(entry, flow);
+        } else {
+            queue_.push(entry);
+        }
+        if (was_idle) {
+            next_head(datagram.arrival, 0, true);
+        } else if (is_fair()) {
+            make_room(datagram.arrival);
+        }
     }
 
     /// When the one that is being sent will have left; nullopt when idle, or when the line will
     /// never send it.
-    [[nodiscard]] std::optional<base::TimePoint> next_sent() const { return next_sent_; }
+    [[nodiscard]] std::optional<base::TimePoint> next_sent() const
+    {
+        return evicted_.empty() ? next_sent_ : std::optional{evicted_.front().datagram.due};
+    }
 
     /// The next that has left by `now`; due: when its last bit had left. What is left over when the
     /// rate is taken away leaves at once, also by the time of an arrival just before that. What the
-    /// law of the queue drops comes here, too, at the time at which the line was free for it.
+    /// law of the queue drops comes here, too, at the time at which the line was free for it, and
+    /// at once what had to make room.
     [[nodiscard]] std::optional<Queued> pop(base::TimePoint now)
     {
+        if (!evicted_.empty()) {
+            const Queued evicted = evicted_.front();
+            evicted_.pop_front();
+            return evicted;
+        }
         if (!next_sent_ || (is_on_ && *next_sent_ > now)) return std::nullopt;
         const auto at = *next_sent_;
         Queued sent = queue_.pop();
         sent.datagram.due = at;
         sent.begun = begun_;
-        sent.is_dropped_by_law = is_head_dropped_;
         next_sent_.reset();
-        if (!queue_.empty()) {
-            waiting_bytes_ -= queue_.front().line_bytes;
-            next_head(at, spare_, !is_head_dropped_);
-        } else if (is_head_dropped_) {
+        if (!queue_.empty() || waiting_turns() > 0) {
+            next_head(at, spare_, !sent.dropped);
+        } else if (is_fair()) {
+            fair_->on_empty(at);
+        } else if (sent.dropped) {
             manager_.on_empty(at);
         }
         return sent;
@@ -112,20 +138,61 @@ public:
         if (rate.trace != rate_.trace) trace_start_.reset();
         rate_ = rate;
         is_on_ = rate.is_on();
+        make_fair(control);
         if (queue_.empty()) return;
         if (rate_.trace && !trace_start_) trace_start_ = begin_of_trace(since_);
-        if (!is_head_dropped_) plan(0);
+        if (!queue_.front().dropped) plan(0);
     }
 
 private:
-    /// The line is free for the front: it sends it unless the law of the queue drops it.
+    [[nodiscard]] std::size_t waiting_turns() const { return is_fair() ? fair_->size() : 0; }
+
+    /// Gives each flow a queue, or none. What waits in those that are there is served first then.
+    void make_fair(const QueueControl& control)
+    {
+        const bool is_to_be = control.law == QueueLaw::fq_codel;
+        const bool stays = is_fair() && is_to_be && control.flows == fair_->flows() && is_on_;
+        if (stays) return fair_->change(control);
+        if (is_fair()) {
+            for (const Queued& entry : fair_->take_all()) queue_.push(entry);
+            fair_.reset();
+        }
+        if (is_to_be) fair_ = std::make_unique<FairQueue>(control);
+    }
+
+    /// Drops from the longest queues what is too much for all of them (RFC 8290, section 4.1).
+    void make_room(base::TimePoint now)
+    {
+        const std::uint32_t most = manager_.control().packets_max;
+        const auto is_too_much = [&] {
+            return waiting_bytes_ > rate_.queue_bytes_max ||
+                   (most > 0 && queue_.size() - 1 + waiting_turns() > most);
+        };
+        while (is_too_much() && waiting_turns() > 0) {
+            for (Queued& entry : fair_->take_from_longest()) {
+                waiting_bytes_ -= entry.line_bytes;
+                entry.dropped = DropCause::rate_queue_full;
+                entry.datagram.due = now;
+                evicted_.push_back(entry);
+            }
+        }
+    }
+
+    /// The line is free for the front, or for the flow whose turn it is: it sends it unless the
+    /// law of the queue drops it.
     void next_head(base::TimePoint now, Work spare, bool is_first)
     {
-        const Queued& head = queue_.front();
-        is_head_dropped_ =
-            is_managed_ && is_on_ &&
-            manager_.drops_head({now - head.datagram.arrival, waiting_bytes_, is_first}, now);
-        if (!is_head_dropped_) return begin(now, spare);
+        const bool is_judged = queue_.empty();
+        if (is_judged) queue_.push(fair_->next(now));
+        Queued& head = queue_.front();
+        waiting_bytes_ -= head.line_bytes;
+        if (!is_judged && is_managed_ && is_on_) {
+            const auto verdict = manager_.judge_head(
+                {now - head.datagram.arrival, waiting_bytes_, is_first}, head.datagram.marks, now);
+            head.is_marked = verdict == QueueVerdict::mark;
+            if (verdict == QueueVerdict::drop) head.dropped = DropCause::rate_queue_law;
+        }
+        if (!head.dropped) return begin(now, spare);
         begun_ = since_ = now;
         next_sent_ = now;
         spare_ = spare;
@@ -204,8 +271,9 @@ private:
     bool is_on_;
     QueueManager manager_;
     bool is_managed_;
-    bool is_head_dropped_ = false; // the front leaves next, and unsent
-    Ring<Queued> queue_;           // the front is being sent
+    Ring<Queued> queue_;              // the front is being sent, or leaves next, and unsent
+    std::unique_ptr<FairQueue> fair_; // what waits behind these, if each flow has a queue
+    std::deque<Queued> evicted_;      // had to make room
     std::size_t waiting_bytes_ = 0;
     Work work_ = 0; // of the front at since_
     base::TimePoint since_{};

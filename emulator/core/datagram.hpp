@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace hapnet::emulator {
@@ -51,9 +52,10 @@ struct Datagram {
 struct Queued {
     Datagram datagram; // due: when its last bit left the bottleneck, or its own time without others
     Fate fate;         // dropped: it only takes time in the bottleneck, its bytes are gone
-    std::size_t line_bytes = 0;     // that the bottleneck has to send
-    base::TimePoint begun{};        // when it began to send it
-    bool is_dropped_by_law = false; // by the law of the queue, instead of being sent
+    std::size_t line_bytes = 0;         // that the bottleneck has to send
+    base::TimePoint begun{};            // when it began to send it
+    bool is_marked = false;             // by the law of the queue
+    std::optional<DropCause> dropped{}; // by the queue, instead of being sent
 };
 
 } // namespace hapnet::emulator

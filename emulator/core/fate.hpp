@@ -27,7 +27,7 @@ enum class DropCause : std::uint8_t {
     outage,           //
     mtu,              // larger than the configured path carries
     rate_queue_full,  // the queue of the configured rate
-    rate_queue_law,   // the law of that queue, CoDel or PIE
+    rate_queue_law,   // the law of that queue, such as CoDel
     replay_ended,     // more datagrams than the fates that are replayed
     queue_full,       // our own bound: too much in flight
     no_destination,   // the other side was not known yet when it arrived

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/link.hpp"
 
+#include "emulator/core/frame.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -26,6 +28,12 @@ void apply(const Flips& flips, std::span<std::byte> bytes)
     }
 }
 
+/// A datagram without an envelope is of its path's only flow.
+std::uint32_t flow_in(const Datagram& datagram)
+{
+    return datagram.envelope_bytes > 0 ? flow_of(datagram.bytes) : 0;
+}
+
 } // namespace
 
 Link::Link(const Conditions& conditions, const Setup& setup)
@@ -48,25 +56,28 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     advance(last_arrival_);
     const Packet packet{statistics_.received, bytes.size() - headers.envelope_bytes,
                         last_arrival_ - setup_.start};
-    const Datagram datagram{.envelope_bytes = headers.envelope_bytes,
-                            .marks = headers.marks,
-                            .number = packet.number,
-                            .arrival = last_arrival_,
-                            .due = last_arrival_,
-                            .bytes = bytes};
+    Datagram datagram{.envelope_bytes = headers.envelope_bytes,
+                      .marks = headers.marks,
+                      .number = packet.number,
+                      .arrival = last_arrival_,
+                      .due = last_arrival_,
+                      .bytes = bytes};
     Fate fate = fate_of(packet);
     if (!has_destination) fate = without_destination(fate);
     Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
     statistics_.bytes_in += packet.bytes;
     if (headers.marks.is_congested()) ++statistics_.ce_in;
-    if (bottleneck_.is_on() && fate.drop != DropCause::mtu) refuse_or_pass(datagram, admission);
+    const std::uint32_t flow = bottleneck_.is_fair() ? flow_in(datagram) : 0;
+    if (bottleneck_.is_on() && fate.drop != DropCause::mtu) {
+        refuse_or_pass(datagram, flow, admission);
+    }
     if (!admission.drop) {
         if (passes_untouched(fate)) {
             admission.departure = datagram;
             last_due_ = std::max(last_due_, last_arrival_);
             ++statistics_.in_flight;
-        } else if (!hold(datagram, fate)) {
+        } else if (!hold(datagram, flow, fate)) {
             admission.drop = DropCause::queue_full;
         }
     }
@@ -82,12 +93,15 @@ Fate Link::fate_of(const Packet& packet)
 
 /// Drops it if the queue of the rate does not take it. What will be lost behind the bottleneck
 /// takes its time there all the same; what is too large for the path never comes to it.
-void Link::refuse_or_pass(const Datagram& datagram, Admission& admission)
+void Link::refuse_or_pass(Datagram& datagram, std::uint32_t flow, Admission& admission)
 {
+    const base::IpMarks before = datagram.marks;
     if (const auto refused = bottleneck_.refuses(datagram)) {
         admission.drop = refused;
     } else if (admission.fate.drop) {
-        bottleneck_.push(datagram, admission.fate);
+        bottleneck_.push(datagram, admission.fate, flow);
+    } else if (datagram.marks != before) {
+        ++statistics_.ce_marked;
     }
 }
 
@@ -98,7 +112,7 @@ bool Link::passes_untouched(const Fate& fate) const
            line_.size() == 0 && displaced_.empty();
 }
 
-bool Link::hold(Datagram datagram, const Fate& fate)
+bool Link::hold(Datagram datagram, std::uint32_t flow, const Fate& fate)
 {
     const auto stored = store(datagram);
     if (!stored) return false;
@@ -107,7 +121,7 @@ bool Link::hold(Datagram datagram, const Fate& fate)
         ++statistics_.corrupted;
     }
     if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
-        bottleneck_.push(datagram, fate);
+        bottleneck_.push(datagram, fate, flow);
     } else {
         schedule(datagram, fate);
     }
@@ -215,16 +229,22 @@ void Link::move_on(base::TimePoint now)
     });
 }
 
-/// It has left the bottleneck, or the law of its queue has dropped it.
+/// It has left the bottleneck, or its queue has dropped it.
 void Link::on_passed(const Queued& passed)
 {
-    if (!passed.is_dropped_by_law) {
-        statistics_.sojourn.add(passed.begun - passed.datagram.arrival);
-        if (!passed.fate.drop) schedule(passed.datagram, passed.fate);
-    } else if (!passed.fate.drop) { // else it was counted when it arrived
-        ++statistics_.dropped_by(DropCause::rate_queue_law);
+    if (!passed.dropped) statistics_.sojourn.add(passed.begun - passed.datagram.arrival);
+    if (passed.fate.drop) return; // it was counted when it arrived
+    if (passed.dropped) {
+        ++statistics_.dropped_by(*passed.dropped);
         release(passed.datagram);
+        return;
     }
+    Datagram datagram = passed.datagram;
+    if (passed.is_marked && !datagram.marks.is_congested()) {
+        datagram.marks = datagram.marks.with_congestion();
+        ++statistics_.ce_marked;
+    }
+    schedule(datagram, passed.fate);
 }
 
 std::optional<base::TimePoint> Link::next_deadline() const

@@ -88,10 +88,10 @@ public:
 
 private:
     [[nodiscard]] Fate fate_of(const Packet& packet);
-    void refuse_or_pass(const Datagram& datagram, Admission& admission);
+    void refuse_or_pass(Datagram& datagram, std::uint32_t flow, Admission& admission);
     void on_passed(const Queued& passed);
     [[nodiscard]] bool passes_untouched(const Fate& fate) const;
-    [[nodiscard]] bool hold(Datagram datagram, const Fate& fate);
+    [[nodiscard]] bool hold(Datagram datagram, std::uint32_t flow, const Fate& fate);
     [[nodiscard]] std::optional<std::span<std::byte>> store(Datagram& datagram);
     void release(const Datagram& datagram);
     void schedule(Datagram datagram, const Fate& fate);

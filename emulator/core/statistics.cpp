@@ -31,6 +31,7 @@ void Statistics::add(const Statistics& other)
     reordered += other.reordered;
     in_flight += other.in_flight;
     ce_in += other.ce_in;
+    ce_marked += other.ce_marked;
     ce_out += other.ce_out;
     bytes_in += other.bytes_in;
     bytes_out += other.bytes_out;

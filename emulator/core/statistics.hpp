@@ -21,6 +21,7 @@ struct Statistics {
     std::uint64_t reordered = 0; // left after one with a higher number had left (RFC 4737)
     std::uint64_t in_flight = 0; // waiting to leave
     std::uint64_t ce_in = 0;     // of `received`: marked CE (RFC 3168) when it came
+    std::uint64_t ce_marked = 0; // marked CE by the law of a queue
     std::uint64_t ce_out = 0;    // of `delivered`: marked CE when it left
     std::uint64_t bytes_in = 0;  // payload of `received`
     std::uint64_t bytes_out = 0; // payload of `delivered`

@@ -81,6 +81,18 @@ std::string queue_in_words(const QueueControl& queue)
         text = fmt::format("queue PIE (RFC 8033): drops arriving datagrams so that they wait {}",
                            target(std::chrono::milliseconds{15}));
     }
+    if (queue.law == QueueLaw::fq_codel) {
+        text = fmt::format("queue FQ-CoDel (RFC 8290): each flow has a queue, which drops at its "
+                           "head when datagrams have waited more than {} for {}",
+                           target(std::chrono::milliseconds{5}), in_ms(queue.interval));
+    }
+    if (queue.law != QueueLaw::drop_tail && queue.is_marking) {
+        text += "; marks ECN-capable ones instead";
+    }
+    if (queue.mark_above) {
+        text += fmt::format("; marks ECN-capable ones that have waited more than {}",
+                            in_ms(*queue.mark_above));
+    }
     if (queue.packets_max > 0) text += fmt::format("; at most {} wait", queue.packets_max);
     if (queue.time_max > base::Duration{0}) {
         text += fmt::format("; none waits longer than {}", in_ms(queue.time_max));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/queue/control.hpp"
 #include "proto/base/time.hpp"
 
 #include <cmath>
@@ -11,8 +12,9 @@
 
 namespace hapnet::emulator {
 
-/// Controlled delay (RFC 8289, section 5): drops at the head of the queue once datagrams have
-/// waited longer than the target for an interval, and then ever more often until they do not.
+/// Controlled delay (RFC 8289, section 5.5): drops at the head of the queue once datagrams have
+/// waited longer than the target for an interval, and then ever more often until they do not. What
+/// can be marked is marked instead, and then sent, as Linux does it (codel_impl.h).
 ///
 /// Each time the line is free, show it the datagram at the head, and as long as it drops, the next.
 class Codel {
@@ -27,27 +29,29 @@ public:
         base::Duration waited{};
         std::size_t bytes_behind = 0; // in the queue
         bool is_first = false;        // of those shown at this moment
+        bool is_markable = false;     // instead of dropped
     };
 
-    [[nodiscard]] bool drops(const Head& head, base::TimePoint now)
+    [[nodiscard]] QueueVerdict judge(const Head& head, base::TimePoint now)
     {
         const bool may_drop = has_waited_long(head, now);
-        if (!head.is_first) return drops_another(may_drop, now);
+        if (!head.is_first) return judge_another(may_drop, head.is_markable, now);
         if (is_dropping_) {
             is_dropping_ = may_drop;
-            if (!is_dropping_ || now < drop_next_) return false;
-            ++count_;
-            return true;
+            return is_dropping_ ? act(head.is_markable, now) : QueueVerdict::pass;
         }
-        begins_ = may_drop;
-        return may_drop;
+        begins_ = may_drop && !head.is_markable;
+        if (!may_drop) return QueueVerdict::pass;
+        if (begins_) return QueueVerdict::drop;
+        begin(now);
+        return QueueVerdict::mark;
     }
 
     /// The one before was dropped, and there is none behind it.
     void on_empty(base::TimePoint now)
     {
         first_above_.reset();
-        static_cast<void>(drops_another(false, now));
+        static_cast<void>(judge_another(false, false, now));
     }
 
     void change(base::Duration target, base::Duration interval)
@@ -70,18 +74,26 @@ private:
         return now >= *first_above_;
     }
 
-    [[nodiscard]] bool drops_another(bool may_drop, base::TimePoint now)
+    [[nodiscard]] QueueVerdict judge_another(bool may_drop, bool is_markable, base::TimePoint now)
     {
         if (begins_) {
             begin(now);
-            return false;
+            return QueueVerdict::pass;
         }
         is_dropping_ = may_drop;
-        if (!may_drop) return false;
+        if (!may_drop) return QueueVerdict::pass;
         drop_next_ = after(drop_next_);
-        if (now < drop_next_) return false;
+        return act(is_markable, now);
+    }
+
+    /// The time of the next drop may have come. After a mark none follows at this moment.
+    [[nodiscard]] QueueVerdict act(bool is_markable, base::TimePoint now)
+    {
+        if (now < drop_next_) return QueueVerdict::pass;
         ++count_;
-        return true;
+        if (!is_markable) return QueueVerdict::drop;
+        drop_next_ = after(drop_next_);
+        return QueueVerdict::mark;
     }
 
     /// Begins to drop, as often as it did at last if that was not long ago.

@@ -14,10 +14,17 @@ base::Result<void> validate(const QueueControl& queue)
         {require(!has_target || *queue.target > zero, "target must be more than 0"),
          require(!has_target || *queue.target <= longest_delay, "target must be at most 1000000s"),
          require(!has_target || queue.law != QueueLaw::drop_tail,
-                 "target belongs to codel or pie: drop-tail aims at nothing"),
+                 "target belongs to codel, fq-codel or pie: drop-tail aims at nothing"),
          require(queue.interval > zero && queue.interval <= longest_delay,
                  "interval must be more than 0 and at most 1000000s"),
-         require(queue.time_max >= zero, "time must not be negative")});
+         require(queue.time_max >= zero, "time must not be negative"),
+         require(!queue.mark_above ||
+                     (*queue.mark_above >= zero && *queue.mark_above <= longest_delay),
+                 "ecn_threshold must be from 0 to 1000000s"),
+         require(queue.flows > 0 && queue.flows <= QueueControl::flows_most,
+                 "flows must be from 1 to 65536"),
+         require(queue.quantum_bytes > 0 && queue.quantum_bytes <= QueueControl::quantum_most,
+                 "quantum must be from 1 to 1073741824")});
 }
 
 } // namespace hapnet::emulator

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/fields.hpp"
+#include "proto/base/ip_marks.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
@@ -13,17 +14,34 @@
 namespace hapnet::emulator {
 
 /// Which datagrams the queue before a bottleneck drops while it still has room.
-enum class QueueLaw : std::uint8_t { drop_tail, codel, pie };
-constexpr auto names_of(base::Tag<QueueLaw>) { return base::names("drop-tail", "codel", "pie"); }
+enum class QueueLaw : std::uint8_t { drop_tail, codel, pie, fq_codel };
+constexpr auto names_of(base::Tag<QueueLaw>)
+{
+    return base::names("drop-tail", "codel", "pie", "fq-codel");
+}
+
+/// What a law makes of a datagram.
+enum class QueueVerdict : std::uint8_t {
+    pass,
+    mark, // CE instead of a drop: its sender understands that
+    drop,
+};
 
 /// The queue before the bottleneck of a rate: its law, and bounds besides that in bytes. Without a
 /// rate it does nothing.
 struct QueueControl {
+    static constexpr std::uint32_t flows_most = 65'536;
+    static constexpr std::uint32_t quantum_most = 1U << 30U;
+
     QueueLaw law = QueueLaw::drop_tail;
     std::optional<base::Duration> target{}; // nullopt: that of the RFC, 5 ms or 15 ms
     base::Duration interval = std::chrono::milliseconds{100};
     std::uint32_t packets_max = 0; // waiting; 0: no such bound
     base::Duration time_max{};     // a datagram that would wait longer is dropped; 0: no such bound
+    bool is_marking = true;        // a datagram that is ECN-capable is marked instead of dropped
+    std::optional<base::Duration> mark_above{}; // waited longer: marked, if ECN-capable
+    std::uint32_t flows = 1024;                 // queues of fq-codel
+    std::uint32_t quantum_bytes = 1514;         // that a flow may send at a turn
 
     friend bool operator==(const QueueControl&, const QueueControl&) = default;
 };
@@ -31,19 +49,41 @@ constexpr auto fields_of(base::Tag<QueueControl>)
 {
     return base::fields(
         "queue",
-        base::field("law", &QueueControl::law,
-                    "drops only what does not fit, or also by CoDel (RFC 8289) or PIE (RFC 8033)")
+        base::field(
+            "law", &QueueControl::law,
+            "drops only what does not fit, or also by CoDel (RFC 8289) or PIE (RFC 8033), or "
+            "gives each flow its turn and a CoDel (RFC 8290)")
             .required(),
-        base::field("target", &QueueControl::target,
-                    "time in the queue that the law aims at; 5ms for CoDel, 15ms for PIE"),
+        base::field(
+            "target", &QueueControl::target,
+            "time in the queue that the law aims at; 5ms for CoDel and fq-codel, 15ms for PIE"),
         base::field("interval", &QueueControl::interval,
                     "CoDel: how long that time has to be exceeded before it drops"),
         base::field("packets", &QueueControl::packets_max,
                     "datagrams that wait at most; 0: no such bound"),
         base::field("time", &QueueControl::time_max,
-                    "a datagram that would wait longer is dropped; 0: no such bound"));
+                    "a datagram that would wait longer is dropped; 0: no such bound"),
+        base::field("ecn", &QueueControl::is_marking,
+                    "whether the law marks ECN-capable datagrams (CE) instead of dropping them"),
+        base::field("ecn_threshold", &QueueControl::mark_above,
+                    "ECN-capable datagrams that have waited longer are marked CE, under any law"),
+        base::field("flows", &QueueControl::flows, base::Count{1, QueueControl::flows_most},
+                    "fq-codel: number of queues, which a hash of the flow chooses from"),
+        base::field("quantum", &QueueControl::quantum_bytes,
+                    base::Count{1, QueueControl::quantum_most},
+                    "fq-codel: bytes that a flow sends before it is the turn of the next"));
 }
 
 [[nodiscard]] base::Result<void> validate(const QueueControl& queue);
+
+/// The verdict of a law on a datagram that has waited so long, and above it the step at which
+/// datagrams are marked (RFC 9331 and Linux's ce_threshold; ECT(0) and ECT(1) alike).
+[[nodiscard]] inline QueueVerdict with_threshold(QueueVerdict verdict, const QueueControl& control,
+                                                 base::Duration waited, base::IpMarks marks)
+{
+    const bool is_above = control.mark_above && waited > *control.mark_above;
+    const bool is_hit = verdict == QueueVerdict::pass && is_above && marks.is_ecn_capable();
+    return is_hit ? QueueVerdict::mark : verdict;
+}
 
 } // namespace hapnet::emulator

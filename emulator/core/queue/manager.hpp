@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/datagram.hpp"
 #include "emulator/core/queue/codel.hpp"
 #include "emulator/core/queue/control.hpp"
 #include "emulator/core/queue/pie.hpp"
@@ -29,20 +30,27 @@ public:
     /// Whether it may drop what a bound in bytes lets pass.
     [[nodiscard]] bool is_on() const { return control_ != QueueControl{}; }
 
-    /// Whether the law drops a datagram that arrives and for which there is room.
-    [[nodiscard]] bool drops_arrival(std::uint64_t number, base::TimePoint now,
-                                     std::size_t bytes_waiting)
+    /// What the law makes of a datagram that arrives and for which there is room.
+    [[nodiscard]] QueueVerdict judge_arrival(const Datagram& datagram, std::size_t bytes_waiting)
     {
         auto* pie = std::get_if<Pie>(&law_);
-        return pie != nullptr && pie->drops(now, bytes_waiting, stream_->uniform(number));
+        const bool is_hit = pie != nullptr && pie->drops(datagram.arrival, bytes_waiting,
+                                                         stream_->uniform(datagram.number));
+        if (!is_hit) return QueueVerdict::pass;
+        const bool is_marked = control_.is_marking && datagram.marks.is_ecn_capable() &&
+                               pie->probability() <= Pie::marked_up_to;
+        return is_marked ? QueueVerdict::mark : QueueVerdict::drop;
     }
 
-    /// Whether the law drops the datagram at the head of the queue, for which the line is free.
-    [[nodiscard]] bool drops_head(const Codel::Head& head, base::TimePoint now)
+    /// What the law makes of the datagram at the head of the queue, for which the line is free.
+    [[nodiscard]] QueueVerdict judge_head(Codel::Head head, base::IpMarks marks,
+                                          base::TimePoint now)
     {
+        head.is_markable = control_.is_marking && marks.is_ecn_capable();
         if (auto* pie = std::get_if<Pie>(&law_)) pie->on_departure(now, head.waited);
         auto* codel = std::get_if<Codel>(&law_);
-        return codel != nullptr && codel->drops(head, now);
+        const auto verdict = codel != nullptr ? codel->judge(head, now) : QueueVerdict::pass;
+        return with_threshold(verdict, control_, head.waited, marks);
     }
 
     /// It has dropped the last datagram of the queue.

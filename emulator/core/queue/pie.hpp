@@ -19,6 +19,9 @@ public:
     static constexpr base::Duration update_every = std::chrono::milliseconds{15};
     static constexpr base::Duration burst_max = std::chrono::milliseconds{150};
     static constexpr std::size_t bytes_min = 2048; // two datagrams of the mean size
+    /// A sender that does not listen to marks is not to be marked for ever: above this probability
+    /// all are dropped (section 5.1).
+    static constexpr double marked_up_to = 0.1;
 
     explicit Pie(base::Duration target) : target_{base::to_seconds(target)} {}
 

@@ -99,6 +99,107 @@ TEST(Link, CarriesMarksAndCountsThoseOfCongestion)
     EXPECT_EQ(link.statistics().ce_out, 2U); // with its copy
 }
 
+namespace {
+
+/// A frame with a UDP packet over IPv4 to that port.
+std::array<std::byte, 1000> frame_to(std::uint8_t port)
+{
+    std::array<std::byte, 1000> frame{};
+    const auto put = [&](std::size_t at, unsigned value) {
+        frame[at] = static_cast<std::byte>(value);
+    };
+    put(12, 0x08);
+    put(14, 0x45);
+    put(14 + 9, 17);
+    put(14 + 23, port);
+    return frame;
+}
+
+void expect_identity(const Link& link)
+{
+    const Statistics& s = link.statistics();
+    EXPECT_EQ(s.received + s.duplicated, s.delivered + s.dropped_total() + s.in_flight);
+}
+
+} // namespace
+
+TEST(Link, GivesEachFlowOfFramesItsTurn)
+{
+    Conditions conditions;
+    conditions.rate = {.bits_per_second = 8'000'000, .overhead_bytes = 14, .queue_bytes_max = 8000};
+    conditions.queue.law = QueueLaw::fq_codel;
+    Link link = link_of(conditions);
+    const auto fat = frame_to(1);
+    const auto thin = frame_to(2);
+    const Headers headers{.envelope_bytes = 14, .marks = {}};
+    for (int i = 0; i < 20; ++i) link.on_packet(fat, start, true, headers); // 1 ms each
+    const auto admission = link.on_packet(thin, start, true, headers);
+    EXPECT_FALSE(admission.drop); // the longest queue has made room
+    expect_identity(link);
+    std::vector<std::uint64_t> numbers;
+    while (const auto departure = link.poll(start + 10ms)) {
+        numbers.push_back(departure->number);
+        link.on_sent(*departure, departure->due);
+        expect_identity(link);
+    }
+    EXPECT_EQ(link.statistics().dropped_by(DropCause::rate_queue_full) + numbers.size(), 21U);
+    EXPECT_EQ(link.statistics().in_flight, 0U);
+    EXPECT_GT(link.statistics().dropped_by(DropCause::rate_queue_full), 8U);
+    ASSERT_GE(numbers.size(), 3U);
+    EXPECT_EQ(numbers[0], 0U);
+    EXPECT_EQ(numbers[2], 20U); // after what was being sent, and at most one turn of the fat flow
+}
+
+TEST(Link, LosesNothingWhenTheLawOfItsQueueChanges)
+{
+    Conditions conditions;
+    conditions.rate = {.bits_per_second = 8'000'000, .overhead_bytes = 14};
+    conditions.queue.law = QueueLaw::fq_codel;
+    Link link = link_of(conditions);
+    const Headers headers{.envelope_bytes = 14, .marks = {}};
+    std::uint64_t sent = 0;
+    const auto offer = [&](base::TimePoint at) {
+        for (std::uint8_t port = 0; port < 5; ++port, ++sent) {
+            EXPECT_FALSE(link.on_packet(frame_to(port), at, true, headers).drop);
+        }
+    };
+    offer(start);
+    conditions.queue.law = QueueLaw::drop_tail;
+    link.change(conditions, start + 500us);
+    offer(start + 500us);
+    conditions.queue = {.law = QueueLaw::fq_codel, .flows = 3};
+    link.change(conditions, start + 700us);
+    offer(start + 700us);
+    conditions.rate.bits_per_second = 0; // all that waits leaves at once
+    link.change(conditions, start + 900us);
+    offer(start + 900us);
+    while (const auto departure = link.poll(start + 1ms)) {
+        link.on_sent(*departure, departure->due);
+    }
+    EXPECT_EQ(link.statistics().delivered, sent);
+    expect_identity(link);
+}
+
+TEST(Link, MarksInsteadOfDropping)
+{
+    Conditions conditions{.delay = constant(5ms)};
+    conditions.rate = {.bits_per_second = 8 * payload.size() * 1000, .overhead_bytes = 0};
+    conditions.queue.mark_above = 1ms;
+    Link link = link_of(conditions);
+    for (int i = 0; i < 4; ++i) { // they wait 0, 1, 2 and 3 ms
+        link.on_packet(payload, start, true, {.marks = {static_cast<std::uint8_t>(i), 64}});
+    }
+    std::vector<base::IpMarks> marks;
+    while (const auto departure = link.poll(start + 1s)) {
+        marks.push_back(departure->marks);
+        link.on_sent(*departure, departure->due);
+    }
+    EXPECT_EQ(marks, (std::vector<base::IpMarks>{{0, 64}, {1, 64}, {3, 64}, {3, 64}}));
+    EXPECT_EQ(link.statistics().ce_in, 1U);
+    EXPECT_EQ(link.statistics().ce_marked, 1U); // the last one was marked before
+    EXPECT_EQ(link.statistics().ce_out, 2U);
+}
+
 TEST(Link, DoesTheSameWithoutALens)
 {
     const Conditions conditions{.loss = {RandomLoss{20_percent}}, .delay = constant(5ms)};

@@ -81,8 +81,10 @@ private:
     void draw(std::uint64_t& value) { value = bits() >> (30 + below(34)); }
     void draw(QueueLaw& value)
     {
-        value = std::array{QueueLaw::drop_tail, QueueLaw::codel, QueueLaw::pie}[below(3)];
+        value = std::array{QueueLaw::drop_tail, QueueLaw::codel, QueueLaw::pie,
+                           QueueLaw::fq_codel}[below(4)];
     }
+    void draw(bool& value) { value = below(2) == 0; }
     void draw(std::string& value) { value = "file"; }
     void draw(std::variant<base::Duration, std::uint32_t>& value)
     {

@@ -4,8 +4,10 @@
 
 #include "emulator/core/bottleneck.hpp"
 #include "proto/base/random.hpp"
+#include "tests/unit/emulator/core/queue/rfc_models.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -17,18 +19,24 @@ namespace hapnet::emulator {
 namespace {
 
 using namespace std::chrono_literals;
+using rfc::CodelOfTheRfc;
+using rfc::FqCodelOfTheRfc;
+using rfc::PieOfTheRfc;
 
 constexpr base::TimePoint origin{1h};
 
 struct Offered {
     base::TimePoint at;
     std::size_t bytes;
+    std::uint32_t flow = 0;
+    bool is_ect = false;
 };
 
 /// What became of a datagram: how long it waited, or that the law dropped it, and when.
 struct Outcome {
     std::uint64_t number = 0;
     bool is_dropped = false;
+    bool is_marked = false;
     base::TimePoint at{};
     base::Duration waited{};
 
@@ -38,8 +46,9 @@ using Outcomes = std::vector<Outcome>;
 
 std::ostream& operator<<(std::ostream& out, const Outcome& one)
 {
-    return out << one.number << (one.is_dropped ? " dropped at " : " sent at ")
-               << (one.at - origin).count() << " after " << one.waited.count();
+    return out << one.number << (one.is_marked ? " marked" : "")
+               << (one.is_dropped ? " dropped at " : " sent at ") << (one.at - origin).count()
+               << " after " << one.waited.count();
 }
 
 /// A sender that overloads the line for a while, then rests, with clumps and pauses.
@@ -68,8 +77,14 @@ public:
     {
         for (std::uint64_t i = 0; i < offered.size(); ++i) {
             serve(offered[i].at);
-            if (!law_.enqueue({i, offered[i].at, offered[i].bytes}, offered[i].at)) {
-                outcomes_.push_back({i, true, offered[i].at, {}});
+            const auto [at, bytes, flow, is_ect] = offered[i];
+            if (!law_.enqueue({i, at, bytes, flow, is_ect}, at)) {
+                outcomes_.push_back({i, true, false, at, {}});
+            }
+            if constexpr (requires { law_.evict(); }) {
+                for (const auto number : law_.evict()) {
+                    outcomes_.push_back({number, true, false, at, {}});
+                }
             }
             if (!is_busy_) start(offered[i].at);
         }
@@ -88,10 +103,10 @@ private:
     void start(base::TimePoint now)
     {
         const auto packet = law_.dequeue(now, [&](const auto& dropped) {
-            outcomes_.push_back({dropped.number, true, now, {}});
+            outcomes_.push_back({dropped.number, true, false, now, {}});
         });
         if (!packet) return;
-        outcomes_.push_back({packet->number, false, now, now - packet->tstamp});
+        outcomes_.push_back({packet->number, false, packet->is_marked, now, now - packet->tstamp});
         is_busy_ = true;
         // All lengths and the rate are such that bits take whole nanoseconds.
         free_at_ = now + base::Duration{static_cast<base::Duration::rep>(packet->bytes * 8 *
@@ -105,208 +120,34 @@ private:
     Outcomes outcomes_;
 };
 
-struct ModelPacket {
-    std::uint64_t number;
-    base::TimePoint tstamp;
-    std::size_t bytes;
-};
-
-struct ModelQueue {
-    std::deque<ModelPacket> packets;
-    std::size_t bytes = 0;
-
-    void push(const ModelPacket& packet)
-    {
-        packets.push_back(packet);
-        bytes += packet.bytes;
-    }
-    std::optional<ModelPacket> pop()
-    {
-        if (packets.empty()) return std::nullopt;
-        const auto packet = packets.front();
-        packets.pop_front();
-        bytes -= packet.bytes;
-        return packet;
-    }
-};
-
-/// The pseudo-code of RFC 8289, section 5, in its own names.
-class CodelOfTheRfc {
-public:
-    bool enqueue(const ModelPacket& packet, base::TimePoint /*now*/)
-    {
-        queue_.push(packet);
-        return true;
-    }
-
-    template <typename Drop>
-    std::optional<ModelPacket> dequeue(base::TimePoint now, Drop drop)
-    {
-        DodequeueResult r = dodequeue(now);
-        if (dropping_) {
-            if (!r.ok_to_drop) dropping_ = false;
-            while (now >= drop_next_ && dropping_) {
-                drop(*r.p);
-                ++count_;
-                r = dodequeue(now);
-                if (!r.ok_to_drop) {
-                    dropping_ = false;
-                } else {
-                    drop_next_ = control_law(drop_next_, count_);
-                }
-            }
-        } else if (r.ok_to_drop) {
-            drop(*r.p);
-            r = dodequeue(now);
-            dropping_ = true;
-            const std::uint32_t delta = count_ - lastcount_;
-            count_ = 1;
-            if (delta > 1 && now - drop_next_ < 16 * interval) count_ = delta;
-            drop_next_ = control_law(now, count_);
-            lastcount_ = count_;
-        }
-        return r.p;
-    }
-
-private:
-    static constexpr base::Duration target = 5ms;
-    static constexpr base::Duration interval = 100ms;
-
-    struct DodequeueResult {
-        std::optional<ModelPacket> p;
-        bool ok_to_drop = false;
-    };
-
-    DodequeueResult dodequeue(base::TimePoint now)
-    {
-        DodequeueResult r{queue_.pop(), false};
-        if (!r.p) {
-            first_above_time_ = {};
-            return r;
-        }
-        const auto sojourn_time = now - r.p->tstamp;
-        if (sojourn_time < target || queue_.bytes <= 1514) {
-            first_above_time_ = {};
-        } else if (first_above_time_ == base::TimePoint{}) {
-            first_above_time_ = now + interval;
-        } else if (now >= first_above_time_) {
-            r.ok_to_drop = true;
-        }
-        return r;
-    }
-
-    static base::TimePoint control_law(base::TimePoint t, std::uint32_t count)
-    {
-        const double part = static_cast<double>(interval.count()) / std::sqrt(count);
-        return t + base::Duration{static_cast<base::Duration::rep>(part)};
-    }
-
-    ModelQueue queue_;
-    base::TimePoint first_above_time_{};
-    base::TimePoint drop_next_{};
-    std::uint32_t count_ = 0;
-    std::uint32_t lastcount_ = 0;
-    bool dropping_ = false;
-};
-
-/// The pseudo-code of RFC 8033, sections 4.1 to 4.4, in its own names.
-class PieOfTheRfc {
-public:
-    explicit PieOfTheRfc(const base::RandomStream& stream) : stream_{stream} {}
-
-    bool enqueue(const ModelPacket& packet, base::TimePoint now)
-    {
-        tick(now);
-        if (drop_prob_ == 0 && current_qdelay_ < ref / 2 && qdelay_old_ < ref / 2) {
-            burst_allowance_ = 0.150;
-        }
-        if (burst_allowance_ <= 1e-9 && drop_early(packet.number)) return false;
-        queue_.push(packet);
-        return true;
-    }
-
-    template <typename Drop>
-    std::optional<ModelPacket> dequeue(base::TimePoint now, Drop /*drop*/)
-    {
-        const auto packet = queue_.pop();
-        if (!packet) return packet;
-        tick(now);
-        current_qdelay_ = base::to_seconds(now - packet->tstamp);
-        return packet;
-    }
-
-private:
-    static constexpr double ref = 0.015;
-
-    void tick(base::TimePoint now)
-    {
-        if (next_ == base::TimePoint{}) next_ = now + 15ms;
-        for (; next_ <= now; next_ += 15ms) calculate_drop_prob();
-    }
-
-    bool drop_early(std::uint64_t number)
-    {
-        if ((qdelay_old_ < ref / 2 && drop_prob_ < 0.2) || queue_.bytes <= 2 * 1024) return false;
-        return stream_.uniform(number) < drop_prob_;
-    }
-
-    void calculate_drop_prob()
-    {
-        double p = 0.125 * (current_qdelay_ - ref) + 1.25 * (current_qdelay_ - qdelay_old_);
-        if (drop_prob_ < 0.000001) {
-            p /= 2048;
-        } else if (drop_prob_ < 0.00001) {
-            p /= 512;
-        } else if (drop_prob_ < 0.0001) {
-            p /= 128;
-        } else if (drop_prob_ < 0.001) {
-            p /= 32;
-        } else if (drop_prob_ < 0.01) {
-            p /= 8;
-        } else if (drop_prob_ < 0.1) {
-            p /= 2;
-        }
-        if (drop_prob_ >= 0.1 && p > 0.02) p = 0.02;
-        drop_prob_ += p;
-        if (current_qdelay_ == 0 && qdelay_old_ == 0) drop_prob_ *= 0.98;
-        if (drop_prob_ < 0) drop_prob_ = 0;
-        if (drop_prob_ > 1) drop_prob_ = 1;
-        qdelay_old_ = current_qdelay_;
-        burst_allowance_ = std::max(0.0, burst_allowance_ - 0.015);
-    }
-
-    base::RandomStream stream_;
-    ModelQueue queue_;
-    base::TimePoint next_{};
-    double current_qdelay_ = 0.0;
-    double qdelay_old_ = 0.0;
-    double drop_prob_ = 0.0;
-    double burst_allowance_ = 0.0;
-};
-
 constexpr std::uint64_t rate = 4'000'000; // 2 us a byte
 
 Outcomes run(const QueueControl& control, const base::RandomStream& stream,
-             const std::vector<Offered>& offered)
+             const std::vector<Offered>& offered, std::size_t queue_bytes_max = 1U << 30U)
 {
-    Bottleneck line{{rate, 0, 1U << 30U}, 8192, origin, QueueManager{control, stream}};
+    Bottleneck line{{rate, 0, queue_bytes_max}, 8192, origin, QueueManager{control, stream}};
     const std::vector<std::byte> payload(2000);
     Outcomes outcomes;
     const auto drain = [&](base::TimePoint now) {
         while (const auto one = line.pop(now)) {
             const auto waited = one->begun - one->datagram.arrival;
-            outcomes.push_back({one->datagram.number, one->is_dropped_by_law, one->begun,
-                                one->is_dropped_by_law ? base::Duration{} : waited});
+            const bool is_evicted = one->dropped == DropCause::rate_queue_full;
+            outcomes.push_back({one->datagram.number, one->dropped.has_value(), one->is_marked,
+                                is_evicted ? one->datagram.due : one->begun,
+                                one->dropped ? base::Duration{} : waited});
         }
     };
     for (std::uint64_t i = 0; i < offered.size(); ++i) {
-        const auto [at, bytes] = offered[i];
+        const auto [at, bytes, flow, is_ect] = offered[i];
         drain(at);
-        const Datagram datagram{.number = i, .arrival = at, .bytes = {payload.data(), bytes}};
+        Datagram datagram{.marks = {static_cast<std::uint8_t>(is_ect ? 2 : 0), 64},
+                          .number = i,
+                          .arrival = at,
+                          .bytes = {payload.data(), bytes}};
         if (line.refuses(datagram)) {
-            outcomes.push_back({i, true, at, {}});
+            outcomes.push_back({i, true, false, at, {}});
         } else {
-            line.push(datagram, {});
+            line.push(datagram, {}, flow);
         }
     }
     drain(base::TimePoint::max());
@@ -351,6 +192,142 @@ TEST(Codel, IsThatOfTheRfcToTheNanosecond)
         drops += dropped(ours);
     }
     EXPECT_GT(drops, 1000U);
+}
+
+/// The same load, of several flows and with some datagrams that may be marked.
+std::vector<Offered> load_of_flows(std::uint64_t seed, double spacing_ms)
+{
+    auto offered = load(seed, spacing_ms);
+    const auto chance = base::Seed{seed}.stream("flows");
+    for (std::uint64_t i = 0; i < offered.size(); ++i) {
+        const double part = chance.uniform(i);
+        // One that sends half of all, some of little, and now and then a new one.
+        offered[i].flow = part < 0.5 ? 3 : static_cast<std::uint32_t>(chance.bits(i, 1) % 40);
+        offered[i].is_ect = offered[i].flow % 3 == 0 && chance.bits(i, 2) % 2 == 0;
+    }
+    return offered;
+}
+
+std::size_t marked(const Outcomes& outcomes)
+{
+    return static_cast<std::size_t>(std::count_if(
+        outcomes.begin(), outcomes.end(), [](const Outcome& one) { return one.is_marked; }));
+}
+
+TEST(Codel, MarksWhatCanBeMarkedWhereItWouldDropIt)
+{
+    const auto stream = base::Seed{1}.stream("up/queue");
+    std::size_t marks = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const auto offered = load_of_flows(seed, 1.0 + 0.1 * static_cast<double>(seed));
+        const auto expected = sorted(PlainLine{CodelOfTheRfc{}, rate}.run(offered));
+        const auto ours = sorted(run({.law = QueueLaw::codel}, stream, offered));
+        ASSERT_EQ(ours, expected) << "seed " << seed;
+        marks += marked(ours);
+        const QueueControl deaf{.law = QueueLaw::codel, .is_marking = false};
+        EXPECT_EQ(marked(run(deaf, stream, offered)), 0U);
+    }
+    EXPECT_GT(marks, 200U);
+}
+
+TEST(FqCodel, IsThatOfTheRfcToTheNanosecond)
+{
+    const auto stream = base::Seed{1}.stream("up/queue");
+    const QueueControl control{.law = QueueLaw::fq_codel, .flows = FqCodelOfTheRfc::flows};
+    std::size_t drops = 0;
+    std::size_t marks = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const auto offered = load_of_flows(seed, 0.8 + 0.1 * static_cast<double>(seed));
+        const auto expected = sorted(PlainLine{FqCodelOfTheRfc{1U << 30U}, rate}.run(offered));
+        const auto ours = sorted(run(control, stream, offered));
+        ASSERT_EQ(ours, expected) << "seed " << seed;
+        drops += dropped(ours);
+        marks += marked(ours);
+    }
+    EXPECT_GT(drops, 1000U);
+    EXPECT_GT(marks, 50U);
+}
+
+TEST(FqCodel, TakesRoomFromTheLongestQueue)
+{
+    const auto stream = base::Seed{1}.stream("up/queue");
+    const QueueControl control{.law = QueueLaw::fq_codel, .flows = FqCodelOfTheRfc::flows};
+    constexpr std::size_t limit = 40'000;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const auto offered = load_of_flows(seed, 0.5);
+        const auto expected = sorted(PlainLine{FqCodelOfTheRfc{limit}, rate}.run(offered));
+        const auto ours = sorted(run(control, stream, offered, limit));
+        ASSERT_EQ(ours, expected) << "seed " << seed;
+    }
+}
+
+/// What the law is for: a flow of little does not wait for one that fills the line.
+TEST(FqCodel, LetsAFlowOfLittlePassAtOnce)
+{
+    std::vector<Offered> offered;
+    for (int i = 0; i < 3000; ++i) { // 1000 B take 2 ms: five times what the line can carry
+        const auto at = origin + i * 400us;
+        offered.push_back({at, 1000, 1});
+        if (i % 50 == 49) offered.push_back({at + 1us, 100, 2});
+    }
+    const auto stream = base::Seed{1}.stream("up/queue");
+    const auto longest_of_little = [&](QueueLaw law) {
+        base::Duration longest{};
+        for (const Outcome& one : run({.law = law}, stream, offered, 200'000)) {
+            if (offered[one.number].flow == 2 && !one.is_dropped) {
+                longest = std::max(longest, one.waited);
+            }
+        }
+        return longest;
+    };
+    EXPECT_LE(longest_of_little(QueueLaw::fq_codel), 2ms); // of the one that is being sent
+    EXPECT_GT(longest_of_little(QueueLaw::drop_tail), 300ms);
+}
+
+TEST(Pie, MarksUpToATenthAndThenDrops)
+{
+    auto offered = load(3, 0.4); // more than twice what the line can carry
+    for (Offered& one : offered) one.is_ect = true;
+    QueueManager manager{{.law = QueueLaw::pie}, base::Seed{1}.stream("up/queue")};
+    Bottleneck line{{rate, 0, 1U << 30U}, 8192, origin, manager};
+    const std::vector<std::byte> payload(2000);
+    std::size_t marks = 0;
+    std::size_t drops = 0;
+    for (std::uint64_t i = 0; i < 1500; ++i) {
+        while (line.pop(offered[i].at)) {}
+        Datagram datagram{.marks = {1, 64},
+                          .number = i,
+                          .arrival = offered[i].at,
+                          .bytes = {payload.data(), offered[i].bytes}};
+        if (line.refuses(datagram)) {
+            ++drops;
+            continue;
+        }
+        if (datagram.marks.is_congested()) {
+            EXPECT_EQ(drops, 0U) << i; // the probability only grows here
+            ++marks;
+        }
+        line.push(datagram, {});
+    }
+    EXPECT_GT(marks, 3U);
+    EXPECT_GT(drops, 100U);
+}
+
+TEST(EcnThreshold, MarksUnderAnyLawWhatHasWaitedLonger)
+{
+    std::vector<Offered> offered;
+    for (int i = 0; i < 4; ++i) offered.push_back({origin, 1000, 0, i != 3}); // 2 ms each
+    for (const auto law :
+         {QueueLaw::drop_tail, QueueLaw::codel, QueueLaw::pie, QueueLaw::fq_codel}) {
+        const auto outcomes =
+            run({.law = law, .mark_above = 2ms}, base::Seed{1}.stream("up/queue"), offered);
+        std::vector<std::uint64_t> numbers;
+        for (const Outcome& one : outcomes) {
+            if (one.is_marked) numbers.push_back(one.number);
+        }
+        // They wait 0, 2, 4 and 6 ms; the last cannot be marked.
+        EXPECT_EQ(numbers, std::vector<std::uint64_t>{2}) << base::name_of(law);
+    }
 }
 
 TEST(Pie, IsThatOfTheRfcDrawByDraw)
@@ -402,7 +379,8 @@ TEST(QueueControl, RefusesWhatItCannotDo)
         return valid ? "" : valid.error().message;
     };
     EXPECT_EQ(error({.law = QueueLaw::codel, .target = 5ms}), "");
-    EXPECT_EQ(error({.target = 5ms}), "target belongs to codel or pie: drop-tail aims at nothing");
+    EXPECT_EQ(error({.target = 5ms}),
+              "target belongs to codel, fq-codel or pie: drop-tail aims at nothing");
     EXPECT_EQ(error({.law = QueueLaw::pie, .target = 0ms}), "target must be more than 0");
     EXPECT_EQ(error({.law = QueueLaw::codel, .interval = 0ms}),
               "interval must be more than 0 and at most 1000000s");
