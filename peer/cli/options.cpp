@@ -4,7 +4,6 @@
 
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
-#include "proto/base/ensure.hpp"
 #include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/parsers.hpp"
@@ -337,15 +336,6 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
     const auto played = check_bodies_of(options.algorithm, shared_bodies(options.scene).value());
     if (!played) return base::fail(fmt::format("--algorithm: {}", played.error().message));
     return check_circle(options);
-}
-
-Roster Options::roster() const
-{
-    Roster roster{.others = {}, .wait_for = wait_for};
-    for (const NamedPeer& other : others)
-        roster.others.push_back(is_pair() ? std::uint16_t{0} : std::uint16_t{other.id});
-    base::ensure(std::ranges::is_sorted(roster.others)); // as the circle takes them to be
-    return roster;
 }
 
 } // namespace hapnet::peer

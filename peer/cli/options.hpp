@@ -7,6 +7,7 @@
 #include "peer/cli/key_options.hpp"
 #include "peer/core/circle.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
@@ -14,6 +15,7 @@
 #include "proto/net/endpoint.hpp"
 #include "scene/description.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,7 +47,14 @@ struct Options {
 
     [[nodiscard]] bool is_pair() const { return others.size() <= 1; }
     /// Of a pair, whoever answers there.
-    [[nodiscard]] Roster roster() const;
+    [[nodiscard]] Roster roster() const
+    {
+        Roster roster{.others = {}, .wait_for = wait_for};
+        for (const NamedPeer& other : others)
+            roster.others.push_back(is_pair() ? std::uint16_t{0} : std::uint16_t{other.id});
+        base::ensure(std::ranges::is_sorted(roster.others)); // as the circle takes them to be
+        return roster;
+    }
 };
 
 /// What is read beside the options and not kept.

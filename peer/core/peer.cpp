@@ -56,7 +56,9 @@ std::optional<BaseBodies> base_bodies_of(const Settings& settings,
                                          const std::vector<SharedBody>& shared)
 {
     if (is_one_without_turning(shared)) return std::nullopt;
-    return BaseBodies{shared, settings.introduction.id, base_options(settings.algorithm)};
+    // check_bodies_of() leaves no other.
+    const auto& base = std::get<BaseAlgorithm>(settings.algorithm);
+    return BaseBodies{shared, settings.introduction.id, base.options()};
 }
 
 scene::World world_of(const Settings& settings)

@@ -24,7 +24,7 @@ struct Hand {
     bool gripping = false;
     bool present = true; // a person holds the device, and its sample is valid
     double work_j = 0.0; // of the hand on its device since the start
-    base::Force felt;    // that the device was told in the tick before
+    base::Force felt{};  // that the device was told in the tick before
 };
 
 struct Settings {

@@ -114,7 +114,7 @@ std::vector<Bytes> initiations_of(const Setting& setting, std::size_t side, std:
         const std::size_t before = captured.size();
         while (captured.size() == before) {
             player.step(now += 1ms);
-            player.send_all([&](std::span<const std::byte> bytes, const auto&) {
+            player.send_all([&](std::size_t, std::span<const std::byte> bytes, const auto&) {
                 captured.emplace_back(bytes.begin(), bytes.end());
             });
         }
@@ -354,7 +354,7 @@ TEST(KeyedSession, MultipliesOnceATickAtMostUnderAFloodOfInitiations)
     }
     EXPECT_GT(multiplied, 500U);
     for (const std::size_t side : {0U, 1U}) {
-        const Status::Key key = *status_of(world.side(side).line, world.now()).key;
+        const Status::Key key = *status_of(world.side(side).lines.front(), world.now()).key;
         EXPECT_EQ(key.counts.rekeys, 1U) << side;
         EXPECT_GT(key.counts.cookies, 5'000U) << side;
         EXPECT_GT(key.counts.replayed, 250U) << side; // opened, and found to be old
