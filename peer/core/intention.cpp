@@ -8,6 +8,16 @@
 
 namespace hapnet::peer {
 
+HandDynamics dynamics_of(const wire::HandModel& said)
+{
+    HandDynamics hand;
+    if (said.mass > 0.0F) hand.mass_kg = static_cast<double>(said.mass);
+    if (said.damping > 0.0F) hand.damping_ns_per_m = static_cast<double>(said.damping);
+    if (said.stiffness > 0.0F) hand.stiffness_n_per_m = static_cast<double>(said.stiffness);
+    hand.friction_n = static_cast<double>(said.friction);
+    return hand;
+}
+
 wire::HandModel hand_model_of(const device::Capabilities& capabilities)
 {
     return {.friction = static_cast<float>(capabilities.friction_n)};

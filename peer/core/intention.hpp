@@ -23,6 +23,9 @@ struct HandDynamics {
     friend bool operator==(const HandDynamics&, const HandDynamics&) = default;
 };
 
+/// A hand as it was said to be; what was left out is as usual.
+[[nodiscard]] HandDynamics dynamics_of(const wire::HandModel& said);
+
 /// What a peer says of its hand in the hello: that of its device which is known. Of the person
 /// nothing is.
 [[nodiscard]] wire::HandModel hand_model_of(const device::Capabilities& capabilities);

@@ -4,9 +4,26 @@
 
 #include "proto/base/ensure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hapnet::peer {
+
+VirtualWall hardest_wall(const scene::Description& scene)
+{
+    VirtualWall wall{scene.hands.stiffness_n_per_m, scene.hands.damping_ns_per_m};
+    const auto meet = [&wall](double stiffness_n_per_m, double damping_ns_per_m) {
+        wall.stiffness_n_per_m = std::max(wall.stiffness_n_per_m, stiffness_n_per_m);
+        wall.damping_ns_per_m = std::max(wall.damping_ns_per_m, damping_ns_per_m);
+    };
+    for (const scene::BodyDescription& body : scene.bodies) {
+        const scene::HandDescription on_it = scene::hand_on(scene.hands, {}, body.feel);
+        meet(on_it.stiffness_n_per_m, on_it.damping_ns_per_m);
+    }
+    for (const scene::FieldDescription& field : scene.fields)
+        if (field.on_hands) meet(field.stiffness_n_per_m, field.damping_ns_per_m);
+    return wall;
+}
 
 double damping_for_passivity(const VirtualWall& wall, double tick_s)
 {

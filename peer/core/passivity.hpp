@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/description.hpp"
+
 namespace hapnet::peer {
 
 /// A spring and damper as a hand feels it through a device that samples.
@@ -9,6 +11,9 @@ struct VirtualWall {
     double stiffness_n_per_m = 0.0;
     double damping_ns_per_m = 0.0;
 };
+
+/// The stiffest and the most damped that a hand can feel in a scene, as one.
+[[nodiscard]] VirtualWall hardest_wall(const scene::Description& scene);
 
 /// The damping that a device and the loosest grip on it have to have so that a hand can draw no
 /// energy out of a sampled wall, N s/m: K T / 2 + |B|, for a force held over the tick and a

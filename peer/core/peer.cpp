@@ -74,35 +74,6 @@ std::optional<FingerFriction> friction_of(const Settings& settings)
     return FingerFriction{settings.scene.hands};
 }
 
-/// As this peer says it of its hand, or else of nobody's in particular.
-HandDynamics dynamics_of(const Settings& settings)
-{
-    const wire::HandModel& said = settings.introduction.hand;
-    HandDynamics hand;
-    if (said.mass > 0.0F) hand.mass_kg = static_cast<double>(said.mass);
-    if (said.damping > 0.0F) hand.damping_ns_per_m = static_cast<double>(said.damping);
-    if (said.stiffness > 0.0F) hand.stiffness_n_per_m = static_cast<double>(said.stiffness);
-    hand.friction_n = static_cast<double>(said.friction);
-    return hand;
-}
-
-/// The stiffest and the most damped that a hand can feel in the scene, as one.
-VirtualWall hardest_wall(const scene::Description& scene)
-{
-    VirtualWall wall{scene.hands.stiffness_n_per_m, scene.hands.damping_ns_per_m};
-    const auto meet = [&wall](double stiffness_n_per_m, double damping_ns_per_m) {
-        wall.stiffness_n_per_m = std::max(wall.stiffness_n_per_m, stiffness_n_per_m);
-        wall.damping_ns_per_m = std::max(wall.damping_ns_per_m, damping_ns_per_m);
-    };
-    for (const scene::BodyDescription& body : scene.bodies) {
-        const scene::HandDescription on_it = scene::hand_on(scene.hands, {}, body.feel);
-        meet(on_it.stiffness_n_per_m, on_it.damping_ns_per_m);
-    }
-    for (const scene::FieldDescription& field : scene.fields)
-        if (field.on_hands) meet(field.stiffness_n_per_m, field.damping_ns_per_m);
-    return wall;
-}
-
 /// The share of the force on the hand that may be rendered.
 double rendered_share(const Settings& settings)
 {
@@ -134,7 +105,7 @@ Peer::Peer(const Settings& settings)
       base_bodies_{base_bodies_of(settings, shared_)},
       world_{world_of(settings)},
       friction_{friction_of(settings)},
-      intention_{dynamics_of(settings)},
+      intention_{dynamics_of(settings.introduction.hand)},
       force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)},
       remote_reach_m_{remote_reach_m(settings.scene)},

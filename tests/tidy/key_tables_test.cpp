@@ -167,7 +167,7 @@ const std::vector<KeyTable>& tables()
 const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
-        "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
+        "HandDynamics", "ProxyHandOptions", "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
         "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "EnergyLimits",
         "WrittenCorner", "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
@@ -183,6 +183,7 @@ const std::set<std::string>& with_table()
     static const std::set<std::string> names{"BaseOptions",
                                              "DeadReckoningOptions",
                                              "EstimatorPredictorOptions",
+                                             "RemoteProxyOptions",
                                              "WrittenLimits",
                                              "Operator",
                                              "TaskOptions",

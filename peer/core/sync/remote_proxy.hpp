@@ -69,7 +69,7 @@ constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
         base::field("account", &Options::account_j, base::Quantity{base::energy_kind, 0.0, 10.0},
                     "energy that the proxies may give before their owners' work is known"),
         base::field("power", &Options::power_w, base::Quantity{base::power_kind, 0.0, 100.0},
-                    "and so much more for each second of delay"),
+                    "and this for each second of the largest age"),
         base::field("correction_rate", &Options::correction_rate_hz,
                     base::Quantity{base::frequency_kind, 0.0, 1000.0},
                     "share of the copies' difference that goes in a second, while the own hand "

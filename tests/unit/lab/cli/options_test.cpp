@@ -28,7 +28,7 @@ TEST(LabOptions, HaveACompleteHelp)
     const auto prints = cli::prints_of("hapnet-lab", parse_command_line);
     EXPECT_EQ(cli::help_faults("hapnet-lab", prints), std::vector<std::string>{});
     EXPECT_EQ(prints({"report", "--help"})
-                  ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B]\n", 0),
+                  ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B] [MORE ...]\n", 0),
               0U);
     EXPECT_EQ(
         prints({"help", "run"})->rfind("Usage: hapnet-lab run EXPERIMENT --out DIR [OPTIONS]\n", 0),

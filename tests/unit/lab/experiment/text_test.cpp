@@ -169,7 +169,7 @@ TEST(ExperimentText, ComplaintsSayWhereAndWhatWouldBeRight)
     expect_words(complaint("kind = \"table1\"\ntaks = \"T1\"\n"),
                  {"mine.toml:2:1: ", "did you mean 'tasks'?"});
     expect_words(complaint("kind = \"table1\"\n"), {"missing key 'tasks'"});
-    expect_words(complaint("kind = \"table1\"\ntasks = [\"T9\"]\n"), {"mine.toml:2:9: ", "T9"});
+    expect_words(complaint("kind = \"table1\"\ntasks = [\"T99\"]\n"), {"mine.toml:2:9: ", "T99"});
     expect_words(complaint(with("tasks = [\n")), {"mine.toml:3:"});
     expect_words(complaint(with("algorithms = [\"bse\"]\n")), {"mine.toml:3:14: ", "bse"});
     expect_words(complaint(with("algorithms = [\"a,b\"]\n")), {"letters, digits"});
