@@ -167,9 +167,10 @@ const std::vector<KeyTable>& tables()
 const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
-        "HandDynamics", "ProxyHandOptions", "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
-        "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "EnergyLimits",
-        "WrittenCorner", "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
+        "HandDynamics", "ProxyHandOptions", "Material", "Sway", "ByOrder", "UsableCriteria",
+        "GoodCriteria", "HandImpedance", "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent",
+        "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques", "RangeOf<what",
+        "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "Metrics", "Table1Row", "TaskRow", "LimitRow",
         "SensitivityRow", "Judged", "CurveRow", "QosRow", "TrajectoryRow", "RealTimeRow",
