@@ -41,8 +41,7 @@ constexpr const char* between_exit_codes =
 
 constexpr const char* exec_description =
     "Runs one command in a network of its own, with the emulator on its only wire; the other end "
-    "of "
-    "that wire is joined to the network of this machine by pasta (Debian's package passt) or "
+    "of that wire is joined to the network of this machine by pasta (Debian's package passt) or "
     "slirp4netns. Any program meets the conditions so, without being told an address. No root is "
     "needed where the system lets users make namespaces.\n"
     "\n"
@@ -134,6 +133,7 @@ cli::Command& add_between(cli::Command& program)
     cli::Command& command = program.command(
         "between", "Runs two commands with the emulator between them, any protocol");
     command.describe(between_description);
+    command.add_usage("-- COMMAND_A [ARGUMENT ...] --- COMMAND_B [ARGUMENT ...]");
     command.add_footer(between_footer);
     command.add_exit_codes(between_exit_codes);
     return command;
@@ -142,8 +142,9 @@ cli::Command& add_between(cli::Command& program)
 cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& through)
 {
     cli::Command& command = program.command(
-        "exec", "Runs one command with the emulator between it and the network, any protocol");
+        "exec", "Runs one command with the emulator between it and the network, over IPv4");
     command.describe(exec_description);
+    command.add_usage("-- COMMAND [ARGUMENT ...]");
     command.add_footer(exec_footer);
     command.add_exit_codes(exec_exit_codes);
     command.option("--through", "pasta|slirp4netns",

@@ -97,11 +97,11 @@ constexpr const char* predict_exit_codes = R"(  0  done
 
 /// The words of a parameter's description as a sentence: those of profiles.
 template <auto member>
-std::string words(std::string_view more = "")
+std::string words(std::string_view more = "", std::string_view without = "0")
 {
     std::string text{base::about<member>()};
     text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    return fmt::format("{}{} (default 0)", text, more);
+    return fmt::format("{}{} (default {})", text, more, without);
 }
 
 /// A condition, and its line in --help.
@@ -113,7 +113,7 @@ struct Condition {
 
 std::vector<Condition> listed_conditions()
 {
-    const auto burst = fmt::format("LOST: {}; OF: {} (default 0)", base::about<&Burst::lost>(),
+    const auto burst = fmt::format("LOST: {}; OF: {} (default none)", base::about<&Burst::lost>(),
                                    base::about<&Burst::of>());
     const auto queue =
         fmt::format("; up to {} wait before it", base::size_text(Rate{}.queue_bytes_max));
@@ -128,9 +128,12 @@ std::vector<Condition> listed_conditions()
         {"burst-loss", "LOST/OF", burst},
         {"duplicate", "SHARE", words<&Duplication::share>()},
         {"corrupt", "SHARE", words<&Corruption::share>()},
-        {"reorder", "TABLE", words<&Reordering::share>(": '{ share = \"1%\", displacement = 3 }'")},
+        {"reorder", "TABLE",
+         words<&Reordering::share>(": '{ share = \"1%\", displacement = 3 }'", "none")},
         {"rate", "RATE", words<&Rate::bits_per_second>(queue)},
-        {"queue", "LAW", words<&QueueControl::law>(": drop-tail, codel, pie or fq-codel")},
+        {"queue", "LAW",
+         words<&QueueControl::law>(": drop-tail, codel, pie or fq-codel; needs a rate",
+                                   "drop-tail")},
         {"mtu", "SIZE", words<&Mtu::bytes_max>()},
     };
 }

@@ -26,8 +26,7 @@ constexpr const char* footer =
   T4  both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down
   T5  both press the cube against the static one; in turn one lets go suddenly
   T6  L taps the cube at 3 Hz while R rests on its far side
-  T7  T3 with two to eight hands: in the order of their ids the 1st, 3rd, ... acts as L, the others
-      as R, and those on one side share its force
+  T7  T3 with two to eight hands: by their ids the 1st, 3rd, ... act as L, the others as R
   T8  both turn the cube of the scene turning to and fro
   T9  L puts a cube of stack-of-three on another, then R the third on both
   T10 L hands R the screwdriver of the scene bench, and R puts it down
@@ -59,7 +58,7 @@ hapnet-emulator --link 1-2=:7012,:7021 --link 1-3=:7013,:7031 --link 2-3=:7023,:
 
 The peer prints one line "ready ..." on stdout when its loop runs, and events on stderr. SIGINT,
 SIGTERM, SIGHUP, a terminal that goes away or hapnet-ctl SOCKET stop ends it within a second, with
-zero force at once, and says goodbye to the other peer. Enter at its terminal, or hapnet-ctl SOCKET
+zero force at once, and says goodbye to the others. Enter at its terminal, or hapnet-ctl SOCKET
 estop, is an emergency stop: zero force until the program is started anew.)";
 
 constexpr const char* exit_codes = R"(  0  done
@@ -75,9 +74,8 @@ constexpr const char* list_devices_exit_codes = R"(  0  done, also when there is
   2  bad usage)";
 constexpr const char* doctor_description =
     "Checks what this machine grants to a 1 kHz loop and to haptic devices, and says how to "
-    "improve "
-    "it. Without a device only the loop matters; the checks of devices were never run on the "
-    "physical device.";
+    "improve it. Without a device only the loop matters; the checks of devices were never run on "
+    "the physical device.";
 constexpr const char* doctor_exit_codes = R"(  0  no check is 'bad' (warnings do not count)
   2  bad usage
   3  a check is 'bad')";

@@ -185,8 +185,8 @@ base::Result<void> check_circle(const Options& options)
                                       options.id, id_max));
     }
     if (std::ranges::find(options.others, options.id, &NamedPeer::id) != options.others.end()) {
-        return base::fail(fmt::format("--peer {}: this is the id of this peer itself; --id says "
-                                      "another one",
+        return base::fail(fmt::format("--peer {}: this is the id of this peer itself: change "
+                                      "--peer or --id",
                                       options.id));
     }
     if (!plays_with_many(options.algorithm)) {
@@ -293,10 +293,11 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
     add_force_options(program, options);
     program.option("--task", "P1|T1|...|T10", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
-    program.option("--algorithm", "NAME|FILE",
-                   "How the two cubes are kept together: base (default), dead-reckoning, sep, "
-                   "remote-proxy, or a file of parameters in TOML",
-                   cli::into(options.algorithm, parse_algorithm_name));
+    program.option(
+        "--algorithm", "NAME|FILE",
+        "How the copies of the cube are kept together: base (default), dead-reckoning, sep, "
+        "remote-proxy, or a file of parameters in TOML",
+        cli::into(options.algorithm, parse_algorithm_name));
     program
         .option("--print-algorithm", "NAME|FILE",
                 "Print the parameters of an algorithm in TOML, with their meaning, and exit",

@@ -107,7 +107,7 @@ std::string_view describe(Event event)
     case Event::ended: return "session ended";
     case Event::no_body:
         return "messages of the other peer come, but none that tells where the cube is: something "
-               "on the path drops the longer ones (144 bytes); the two cubes will not agree";
+               "on the path drops the longer ones (136 bytes and more); the copies will not agree";
     case Event::clock_jumped:
         return "clock jumped: that of the other peer's host stands elsewhere than before, as after "
                "a suspend or a move of a virtual machine; delays count anew";

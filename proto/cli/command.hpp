@@ -33,6 +33,8 @@ public:
     /// A line each, "  0  done". Those of the program hold for commands that have none of their
     /// own.
     void add_exit_codes(std::string text) { exit_codes_ = std::move(text); }
+    /// What its usage line ends with: "-- COMMAND [ARGUMENT ...]", words that parse() never sees.
+    void add_usage(std::string words) { usage_end_ = std::move(words); }
 
     Option& option(std::string names, std::string value, std::string help, Take take);
     Option& flag(std::string names, std::string help, bool& target);
@@ -66,6 +68,7 @@ public:
     {
         return exit_codes_.empty() && parent_ != nullptr ? parent_->exit_codes() : exit_codes_;
     }
+    [[nodiscard]] const std::string& usage_end() const { return usage_end_; }
     [[nodiscard]] bool needs_command() const { return needs_command_; }
     [[nodiscard]] const Command* parent() const { return parent_; }
     [[nodiscard]] const std::vector<std::string>& aliases() const { return aliases_; }
@@ -81,6 +84,7 @@ private:
     std::string description_;
     std::string footer_;
     std::string exit_codes_;
+    std::string usage_end_;
     bool needs_command_ = false;
     bool is_chosen_ = false;
     const Command* parent_ = nullptr;

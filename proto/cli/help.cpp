@@ -200,8 +200,8 @@ std::string usage(const Command& command)
         }
     }
     if (command.needs_command()) return text + " COMMAND ...";
-    if (optional_count > shown_max) return text + " [OPTIONS]";
-    return text + optional;
+    text += optional_count > shown_max ? " [OPTIONS]" : optional;
+    return command.usage_end().empty() ? text : text + " " + command.usage_end();
 }
 
 std::string help_text(const Command& command, std::size_t columns)

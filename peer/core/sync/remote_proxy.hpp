@@ -22,18 +22,18 @@ struct RemoteProxyOptions {
 };
 constexpr auto fields_of(base::Tag<HandDynamics> /*struct*/)
 {
-    return base::fields("hand-dynamics",
-                        base::field("mass", &HandDynamics::mass_kg,
-                                    base::Quantity{base::mass_kind, 0.02, 10.0},
-                                    "of a proxy whose owner says nothing of its hand"),
-                        base::field("damping", &HandDynamics::damping_ns_per_m,
-                                    base::Quantity{base::damping_kind, 0.0, 100.0}, "likewise"),
-                        base::field("stiffness", &HandDynamics::stiffness_n_per_m,
-                                    base::Quantity{base::stiffness_kind, 10.0, 5000.0},
-                                    "likewise: of the grip, to where the hand means to be"),
-                        base::field("friction", &HandDynamics::friction_n,
-                                    base::Quantity{base::force_kind, 0.0, 10.0},
-                                    "likewise: of its device; has to be right within 0.05 N"));
+    return base::fields(
+        "hand-dynamics",
+        base::field("mass", &HandDynamics::mass_kg, base::Quantity{base::mass_kind, 0.02, 10.0},
+                    "mass of a hand whose peer does not tell it"),
+        base::field("damping", &HandDynamics::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, 100.0}, "damping of such a hand"),
+        base::field("stiffness", &HandDynamics::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 10.0, 5000.0},
+                    "stiffness of such a grip, to where the hand means to be"),
+        base::field("friction", &HandDynamics::friction_n,
+                    base::Quantity{base::force_kind, 0.0, 10.0},
+                    "friction of such a device, to be right within 0.05 N"));
 }
 constexpr auto fields_of(base::Tag<ProxyHandOptions> /*struct*/)
 {
@@ -49,7 +49,7 @@ constexpr auto fields_of(base::Tag<ProxyHandOptions> /*struct*/)
         base::field("velocity_filter", &Options::velocity_filter, base::Number{0.0, 10.0},
                     "time constant of the intention's velocity, as a share of its age"),
         base::field("velocity_filter_min", &Options::velocity_filter_min, parameter_time,
-                    "and at least this"),
+                    "the least time constant of the intention's velocity"),
         base::field("believed_above", &Options::believed_above_m_per_s, speed,
                     "a hand that is slower is not projected"),
         base::field("memory", &Options::memory, parameter_time,
@@ -59,7 +59,7 @@ constexpr auto fields_of(base::Tag<ProxyHandOptions> /*struct*/)
         base::field("unsure_by", &Options::unsure_by_m, length,
                     "error of the projection at which half of the spring becomes a force"),
         base::field("soft_by", &Options::soft_by_m, length,
-                    "length of the projection at which it does"));
+                    "length of the projection at which half of the spring becomes a force"));
 }
 constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
 {
@@ -69,13 +69,13 @@ constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
         base::field("account", &Options::account_j, base::Quantity{base::energy_kind, 0.0, 10.0},
                     "energy that the proxies may give before their owners' work is known"),
         base::field("power", &Options::power_w, base::Quantity{base::power_kind, 0.0, 100.0},
-                    "and this for each second of the largest age"),
+                    "energy in addition for each second of the largest age"),
         base::field("correction_rate", &Options::correction_rate_hz,
                     base::Quantity{base::frequency_kind, 0.0, 1000.0},
-                    "share of the copies' difference that goes in a second, while the own hand "
-                    "is off"),
+                    "rate at which the copies' difference decays while the own hand is off"),
         base::field("correction_speed", &Options::correction_speed_m_per_s,
-                    base::Quantity{base::speed_kind, 0.0, 10.0}, "and its greatest speed"));
+                    base::Quantity{base::speed_kind, 0.0, 10.0},
+                    "greatest speed of that correction"));
 }
 
 /// The other hands are present in this copy as hands, each drawn to where its owner means to be

@@ -65,5 +65,14 @@ Exit codes:
     EXPECT_NE(of_check.find("\nExit codes:\n  0  done\n"), std::string::npos) << of_check;
 }
 
+TEST(Help, EndsTheUsageLineWithWordsThatAreNotParsed)
+{
+    Command program{"relay"};
+    program.command("wire", "Runs a command").add_usage("-- COMMAND [ARGUMENT ...]");
+    const Command& wire = program.commands().front();
+    EXPECT_EQ(usage(wire), "relay wire -- COMMAND [ARGUMENT ...]");
+    EXPECT_EQ(help_text(wire, 60).rfind("Usage: relay wire -- COMMAND [ARGUMENT ...]\n", 0), 0U);
+}
+
 } // namespace
 } // namespace hapnet::cli
