@@ -6,13 +6,13 @@
 # emulator, over real UDP, under the 160 ms of the paper.
 set -euo pipefail
 
-usage="usage: scripts/demo.sh [--peers 3..8] [--out DIR]
+usage="usage: scripts/demo.sh [--peers N] [--out DIR]
 Installs what is missing, builds, runs task P1 for 30 s and T3 for 20 s with a delay of 160 ms
 each way, and prints what was measured beside the paper's Table 1. Writes everything to DIR
-(results/demo-<time> when not given). With --peers so many hands carry the cube together instead
-(T7), for 20 s through an emulator with a link for every two, 40 ms each way; their analysis is
-printed. Exits 0 when it went well, 1 when a program failed or the
-measurement misses, 3 when something that it needs cannot be installed."
+(results/demo-<time> when not given). With --peers N, 3 to 8, N hands carry the cube together
+instead (T7), for 20 s through an emulator with a link for every two, 40 ms each way; their
+analysis is printed. Exits 0 when it went well, 1 when a program failed or the measurement misses,
+2 for an unknown argument, 3 when something that it needs cannot be installed."
 
 command_line="scripts/demo.sh${*:+ $*}"
 out=
@@ -25,7 +25,7 @@ while (($# > 0)); do
     *) echo "demo: unknown argument '$1'"$'\n'"$usage" >&2 && exit 2 ;;
     esac
 done
-[[ $peers =~ ^[2-8]$ ]] || { echo "demo: --peers $peers: from 2 to 8 can play" >&2 && exit 2; }
+[[ $peers =~ ^[2-8]$ ]] || { echo "demo: --peers $peers: write 2 to 8" >&2 && exit 2; }
 [[ -z $out ]] || out=$(realpath -m "$out")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out=${out:-$PWD/results/demo-$(date -u +%Y%m%dT%H%M%SZ)}

@@ -31,7 +31,7 @@ session:
      with --peers N (2 to 8) instead 1000 sessions of N peers, half of them with keys, over links
      that lose up to 30 %, in which one peer after the other is killed and started again;
 stop:
-  9. 100 signals to a daemon in the middle of a push, whose stderr, stdout and record nobody reads:
+  9. 100 signals to a daemon in the middle of a push, whose stderr, stdout and record are not read:
      zero force two turns of the loop later at most, within 5 ms at p99, and gone within a second:
      about 6 minutes,
  10. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its

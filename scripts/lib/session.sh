@@ -130,7 +130,7 @@ play_session() {
     stop_children
 }
 
-# start_links FOLDER PEERS OPTION...: an emulator with a link for every two of so many peers. Sets
+# start_links FOLDER PEERS OPTION...: an emulator with a link for every two of PEERS peers. Sets
 # emulator, and places: peer 1 sends to ${places[1-2]} what is for peer 2.
 declare -A places=()
 start_links() {
@@ -158,7 +158,7 @@ start_links() {
     done
 }
 
-# play_circle FOLDER SECONDS PEERS PEER-OPTION...: a session of so many through the started links,
+# play_circle FOLDER SECONDS PEERS PEER-OPTION...: a session of PEERS through the started links,
 # which then end too. What peer 1 says is shown.
 play_circle() {
     local folder=$1 seconds=$2 peers=$3 i j others running=()
