@@ -37,7 +37,8 @@ base::Result<void> validate_number(const Setting& setting)
     };
     const auto other = std::ranges::find_if_not(setting.players, plays);
     if (count > 2 && other != setting.players.end()) {
-        return base::fail(fmt::format("{} is made for two, and {} play: use base or remote-proxy",
+        return base::fail(fmt::format("{} is made for two, and {} play: use base or remote-proxy, "
+                                      "as in algorithms = \"base\"",
                                       peer::name_of(other->algorithm), count));
     }
     return {};

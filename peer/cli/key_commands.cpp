@@ -127,7 +127,7 @@ void KeyCommands::add_key(cli::Command& program)
     key_->option("--public", "KEY", "With add: the other host's public key",
                  cli::into(adding_.key, parse_public_key));
     key_->option("--endpoint", "HOST:PORT",
-                 "With add: where the other peer is when --remote is not given",
+                 "With add: where the other peer is when neither --remote nor --peer says it",
                  cli::into(adding_.endpoint, parse_endpoint));
 }
 

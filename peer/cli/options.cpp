@@ -255,8 +255,8 @@ void add_peer_options(cli::Command& program, Options& options, Asked& asked)
 {
     constexpr std::uint64_t id_max = 65535;
     program.option("--id", "1..65535",
-                   "Number of this peer, different for all; the lower one of two is L (default 1, "
-                   "or the one in the key file)",
+                   "Number of this peer, different for all; the lower one of two is L. With a key, "
+                   "or among more than two, 1 to 31 (default 1, or the one in the key file)",
                    cli::into(options.id, base::Count{1, id_max}));
     program.option("--listen", "ADDRESS",
                    "Where to receive: HOST:PORT; :PORT listens on loopback (default 127.0.0.1:0, "
@@ -268,8 +268,8 @@ void add_peer_options(cli::Command& program, Options& options, Asked& asked)
                    cli::into(asked.remote, parse_remote));
     program
         .option("--peer", "ID=HOST:PORT",
-                "Another peer with its id, in place of --remote; once for each of up to seven "
-                "others",
+                "Another peer with its id, 1 to 31, in place of --remote; once for each of up to "
+                "seven others",
                 [&asked](const std::string& text) {
                     return parse_named_peer(text).map(
                         [&asked](NamedPeer peer) { asked.named.push_back(std::move(peer)); });

@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <variant>
 
-/// The messages between two peers and their bytes. docs/formats/wire.md is the specification; this
+/// The messages between peers and their bytes. docs/formats/wire.md is the specification; this
 /// header is its vocabulary.
 namespace hapnet::wire {
 

@@ -132,8 +132,10 @@ std::string print_algorithm(const Algorithm& algorithm)
 std::string explain_algorithm(const Algorithm& algorithm)
 {
     const auto lines = [](const auto& one) { return explained(one.options()); };
+    const bool has_gaps = !std::holds_alternative<RemoteProxy>(algorithm); // those of the paper
     return algorithm_line(algorithm) + std::visit(lines, algorithm) +
-           "# (A1) to (A11): docs/design/algorithms.md\n";
+           (has_gaps ? "# (A1) to (A11): docs/design/algorithms.md\n"
+                     : "# docs/design/algorithms.md\n");
 }
 
 std::string_view name_of(const Algorithm& algorithm)

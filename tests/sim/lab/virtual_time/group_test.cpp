@@ -144,7 +144,7 @@ TEST(PlayerGroup, IsRefusedWhereItCannotPlay)
               "raise count in its [hips]");
     EXPECT_EQ(
         refusal([](Setting& s) { s.players[1].algorithm = peer::algorithm_named("sep").value(); }),
-        "sep is made for two, and 3 play: use base or remote-proxy");
+        "sep is made for two, and 3 play: use base or remote-proxy, as in algorithms = \"base\"");
     EXPECT_EQ(
         refusal([](Setting& s) { s.profile.paths = {{.path = "1-4", .up = {}, .down = {}}}; }),
         "there is no link 1-4: use one of 1-2, 1-3, 2-3");
