@@ -158,7 +158,7 @@ void put_v4_header(std::string& bytes, const CapturedPacket& packet)
 
 void put_v6_header(std::string& bytes, const CapturedPacket& packet)
 {
-    put_net16(bytes, 0x6000U | packet.marks.traffic_class << 4U); // version 6
+    put_net16(bytes, 0x6000U | unsigned{packet.marks.traffic_class} << 4U); // version 6
     put_net16(bytes, 0);
     put_net16(bytes, udp_header_bytes + packet.payload.size());
     bytes += udp_protocol;

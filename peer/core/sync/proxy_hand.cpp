@@ -92,7 +92,7 @@ const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t sequence)
 /// The prior leaves a slow hand where it was heard.
 void ProxyHand::learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s)
 {
-    const auto age_ticks = static_cast<std::uint32_t>(age_s / tick_s + 0.5);
+    const auto age_ticks = static_cast<std::uint32_t>(std::lround(age_s / tick_s));
     if (age_ticks >= word.sequence) return;
     const Heard* const old = heard_at(word.sequence - age_ticks);
     if (old == nullptr) return;
