@@ -19,8 +19,14 @@ out=
 peers=2
 while (($# > 0)); do
     case $1 in
-    --out) out=${2:?"--out: which directory?"} && shift 2 ;;
-    --peers) peers=${2:?"--peers: how many?"} && shift 2 ;;
+    --out)
+        (($# > 1)) || { echo "demo: --out: which directory?" >&2 && exit 2; }
+        out=$2 && shift 2
+        ;;
+    --peers)
+        (($# > 1)) || { echo "demo: --peers: how many? 2 to 8" >&2 && exit 2; }
+        peers=$2 && shift 2
+        ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) echo "demo: unknown argument '$1'"$'\n'"$usage" >&2 && exit 2 ;;
     esac

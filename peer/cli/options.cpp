@@ -173,6 +173,11 @@ base::Result<void> check_circle(const Options& options)
                                       "the others with --peer",
                                       options.wait_for, all));
     }
+    if (std::ranges::find(options.others, options.id, &NamedPeer::id) != options.others.end()) {
+        return base::fail(fmt::format("--peer {}: this is the id of this peer itself: change "
+                                      "--peer or --id",
+                                      options.id));
+    }
     if (options.is_pair()) return {};
     constexpr std::uint16_t id_max = secure::KeyFile::id_max;
     if (all > circle_max) {
@@ -183,11 +188,6 @@ base::Result<void> check_circle(const Options& options)
     if (options.id > id_max) {
         return base::fail(fmt::format("--id {}: among more than two peers ids are from 1 to {}",
                                       options.id, id_max));
-    }
-    if (std::ranges::find(options.others, options.id, &NamedPeer::id) != options.others.end()) {
-        return base::fail(fmt::format("--peer {}: this is the id of this peer itself: change "
-                                      "--peer or --id",
-                                      options.id));
     }
     if (!plays_with_many(options.algorithm)) {
         return base::fail(fmt::format("--algorithm {} is for two peers: more than two play with "
