@@ -6,15 +6,14 @@
 
 namespace hapnet::test {
 
+#ifdef HAPNET_SANITIZED
+inline constexpr bool is_sanitized = true;
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
 /// So many seeds of a test that plays each in the same way: under sanitizers, where each takes
 /// many times as long, an eighth of them.
-constexpr std::uint64_t seeds(std::uint64_t all)
-{
-#ifdef HAPNET_SANITIZED
-    return all / 8 + 1;
-#else
-    return all;
-#endif
-}
+constexpr std::uint64_t seeds(std::uint64_t all) { return is_sanitized ? all / 8 + 1 : all; }
 
 } // namespace hapnet::test
