@@ -161,11 +161,12 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
     if (opened.outcome == Opener::Outcome::replayed) ++counts_.replayed;
     if (opened.size == 0) return std::nullopt;
     last_opened_ = now;
-    if (next_ && epoch == &*next_) { // the other side has it: use it, too
-        use_next(now);
-        epoch = &*current_;
-    }
     if (current_ && epoch == &*current_) confirm_at_.reset();
+    if (next_ && epoch == &*next_) { // the other side has it: use it, too
+        use(std::move(*std::exchange(next_, std::nullopt)), now);
+        epoch = &*current_;
+        answered_.reset(); // it has come
+    }
     // A state shows where the other side is now; until there is one under this key, other messages
     // do, as a peer that was started again elsewhere says hello first.
     epoch->has_opened_state = epoch->has_opened_state || opened.is_state;
@@ -204,14 +205,9 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
         ++counts_.cookies;
         return send(door_.cookie_reply(*initiation, from, now), from);
     }
-    if (insists(now)) return; // the other side answers ours
+    if (initiating_ && is_lower()) return; // the other side answers ours
     responding_.emplace(fresh_index(), *initiation, keys_, prologue_, entropy_.secret(), from);
     responding_->noise.read(initiation->noise);
-}
-
-bool Association::insists(base::TimePoint now) const
-{
-    return is_lower() && initiating_ && now - unanswered_since_.value_or(now) < insists_for;
 }
 
 void Association::on_response(Bytes datagram, const Place& from)
@@ -259,7 +255,8 @@ void Association::tick(Moment moment)
 
 bool Association::needs_key(base::TimePoint now) const
 {
-    if (next_ && now - next_->made < confirmed_within) return false;
+    if (now < listens_until_) return false;
+    if (next_ && now - next_->made < fresh_after) return false; // it is being confirmed
     if (!current_) return true;
     const base::Duration lasts = rekey_after + (is_lower() ? -rekey_spread : rekey_spread);
     return now - current_->made >= lasts || now - last_opened_ >= silence;
@@ -306,19 +303,10 @@ void Association::step_initiation(Moment moment)
                moment.now};
     if (config_.may_roam) move_to(own.answered_from);
     initiating_.reset();
-    if (!is_lower()) next_.reset(); // else the other side may have decided for it
+    next_.reset();
     last_opened_ = moment.now;
     use(std::move(made), moment.now);
     confirm_at_ = moment.now;
-}
-
-/// The other side has taken the key that this one answered with.
-void Association::use_next(base::TimePoint now)
-{
-    use(std::move(*std::exchange(next_, std::nullopt)), now);
-    answered_.reset(); // it has come
-    initiating_.reset();
-    unanswered_since_.reset();
 }
 
 void Association::use(Epoch epoch, base::TimePoint now)
@@ -395,7 +383,9 @@ void Association::answer(base::TimePoint now)
     answered_ = Answer{.frame = frame, .cause = own.cause, .to = own.to};
     send_answer(now);
     responding_.reset();
-    if (!is_lower()) initiating_.reset(); // what the other side began has come farther
+    initiating_.reset(); // what the other side began has come farther
+    confirm_at_.reset();
+    unanswered_since_.reset();
 }
 
 /// Three of them are no more bytes than three times what asked for them.
@@ -434,7 +424,12 @@ void Association::repeat(base::TimePoint now)
     repeat_answer(now);
     confirm(now);
     if (!initiating_ || !initiating_->frame || initiating_->other) return;
-    if (now - initiating_->began >= fresh_after) return initiating_.reset();
+    if (now - initiating_->began >= fresh_after) {
+        // The lower id listens for a while: perhaps the other side can reach us.
+        if (is_lower()) listens_until_ = now + listen_for;
+        initiating_.reset();
+        return;
+    }
     const bool is_slow = now - unanswered_since_.value_or(now) >= repeat_slowly_after;
     const base::Duration every = is_slow ? repeat_slowly_every : repeat_every;
     if (initiating_->last_sent && now - *initiating_->last_sent < every) return;

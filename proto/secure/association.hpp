@@ -30,12 +30,9 @@ struct Moment {
 /// call of tick() takes at most one multiplication on the curve. All memory is there from the
 /// beginning, whatever comes.
 ///
-/// When both begin at the same time, the lower id does not answer at first. After half a second it
-/// does, as perhaps only the other's messages get through, and goes on asking. The higher id then
-/// decides which of two keys counts: it keeps one, and the lower id both. The responder goes on
-/// with the old key until something opens under the new one; the initiator says something under
-/// it until it is answered. A key is for one run of each side, so it
-/// names their session.
+/// The lower id wins when both begin at the same time. The responder goes on with the old key until
+/// something opens under the new one; the initiator says something under it until it is answered. A
+/// key is for one run of each side, so it names their session.
 class Association {
 public:
     static constexpr base::Duration silence{std::chrono::seconds{1}};
@@ -47,10 +44,7 @@ public:
     static constexpr base::Duration repeat_slowly_every{std::chrono::milliseconds{200}};
     static constexpr base::Duration repeat_slowly_after{std::chrono::seconds{10}};
     static constexpr base::Duration fresh_after{std::chrono::seconds{5}};
-    /// The lower id insists on its own initiation for so long.
-    static constexpr base::Duration insists_for{std::chrono::milliseconds{500}};
-    /// The responder waits for so long until something comes under the new key.
-    static constexpr base::Duration confirmed_within{std::chrono::seconds{1}};
+    static constexpr base::Duration listen_for{std::chrono::seconds{1}};
     static constexpr int response_repeats = 2;
     /// While the other side is heard, another run of it takes its place no more often than this.
     static constexpr base::Duration runs_change_every{std::chrono::seconds{5}};
@@ -191,11 +185,9 @@ private:
     void repeat(base::TimePoint now);
     void repeat_answer(base::TimePoint now);
     void confirm(base::TimePoint now);
-    void use_next(base::TimePoint now);
     void use(Epoch epoch, base::TimePoint now);
     void send(const HandshakeFrame& frame, const Place& to);
     [[nodiscard]] bool needs_key(base::TimePoint now) const;
-    [[nodiscard]] bool insists(base::TimePoint now) const;
     [[nodiscard]] bool is_lower() const { return config_.own_id < config_.other_id; }
     [[nodiscard]] std::uint32_t session_with(std::uint32_t other_run) const;
     [[nodiscard]] KeyIndex fresh_index();
@@ -219,6 +211,7 @@ private:
 
     std::optional<Initiating> initiating_;
     std::optional<base::TimePoint> unanswered_since_;
+    base::TimePoint listens_until_;
     std::optional<base::TimePoint> confirm_at_; // this side began, and is not heard under the key
     std::optional<Responding> responding_;
     std::optional<Answer> answered_;

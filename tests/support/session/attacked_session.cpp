@@ -25,8 +25,8 @@ using lab::virtual_time::VirtualWorld;
 using peer::Phase;
 
 constexpr base::Duration length = 10s; // 7 s hands on
-// With keys the two may first have to wait for a second, until one of them begins again.
-constexpr base::Duration sealed_length = 12s;
+// With keys the two may first have to wait for 5 s, when both answered what the other has given up.
+constexpr base::Duration sealed_length = 18s;
 constexpr base::Duration attack_max = 8s;            // over before the hands let go
 constexpr base::Duration agree_within = 1200ms;      // of hands off
 constexpr base::Duration jump_max = 500ms;           // both still let go together for long enough
