@@ -164,6 +164,17 @@ base::Result<void> complete_peers(Options& options, const Asked& asked, const cl
     return {};
 }
 
+/// Whether the scene has a hand for each; of two, one is enough where the other is but a force.
+base::Result<void> check_room(const Options& options)
+{
+    const std::size_t all = options.others.size() + 1;
+    const bool has_proxies = std::holds_alternative<RemoteProxy>(options.algorithm);
+    if (options.scene.hands.count >= all || (options.is_pair() && !has_proxies)) return {};
+    return base::fail(fmt::format("--scene {} has room for {} hands ([hips] count), and {} peers "
+                                  "are to play: use --task T7, or --scene carry",
+                                  options.scene_name, options.scene.hands.count, all));
+}
+
 /// Whether so many can play, and can play so.
 base::Result<void> check_circle(const Options& options)
 {
@@ -194,10 +205,7 @@ base::Result<void> check_circle(const Options& options)
                                       "base or remote-proxy",
                                       name_of(options.algorithm)));
     }
-    if (options.scene.hands.count >= all) return {};
-    return base::fail(fmt::format("--scene {} has room for {} hands ([hips] count), and {} peers "
-                                  "are to play: use --task T7, or --scene carry",
-                                  options.scene_name, options.scene.hands.count, all));
+    return {};
 }
 
 /// That of the task; what two carry in the paper's scene, more carry in one with room for them.
@@ -336,7 +344,8 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
     }
     const auto played = check_bodies_of(options.algorithm, shared_bodies(options.scene).value());
     if (!played) return base::fail(fmt::format("--algorithm: {}", played.error().message));
-    return check_circle(options);
+    if (auto fine = check_circle(options); !fine) return fine;
+    return check_room(options);
 }
 
 } // namespace hapnet::peer

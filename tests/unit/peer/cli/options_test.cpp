@@ -5,6 +5,8 @@
 #include "peer/core/sync/text.hpp"
 #include "tests/support/cli/help_faults.hpp"
 
+#include <cstdio>
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace hapnet::peer {
@@ -138,6 +140,22 @@ TEST(PeerOptions, LetOneNamedPeerBeWhoeverAnswersThere)
         std::get<Options>(std::get<Command>(parse_command_line(typed.words()).value()));
     EXPECT_EQ(options.roster().others, std::vector<std::uint16_t>{0});
     EXPECT_EQ(options.scene_name, "paper");
+}
+
+TEST(PeerOptions, WantAHandInTheSceneForTheProxyOfTheOtherOne)
+{
+    const std::string file = testing::TempDir() + "hapnet-one-hand.toml";
+    std::ofstream{file} << "name = \"one\"\n[hips]\ncount = 1\n[[body]]\nname = \"cube\"\n"
+                           "size = \"40mm\"\nmass = \"100g\"\nturning = \"locked\"\n";
+    const auto says = [&file](const std::string& algorithm) {
+        cli::Typed typed{"hapnet-peer",
+                         {"--remote", "127.0.0.1:8", "--scene", file, "--algorithm", algorithm}};
+        const auto parsed = parse_command_line(typed.words());
+        return parsed ? std::string{} : parsed.error().message;
+    };
+    EXPECT_EQ(says("base"), ""); // there the other one is but a force
+    expect_words(says("remote-proxy"), "has room for 1 hands ([hips] count), and 2 peers");
+    std::remove(file.c_str());
 }
 
 TEST(PeerOptions, SayWhatDoesNotFitACircle)
