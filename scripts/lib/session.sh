@@ -79,6 +79,16 @@ finish_build() {
     [[ -z $failed ]] || fail "building failed:" "$build_log"
 }
 
+# await_ready FOLDER: sets ready to the first line of the emulator that was started; empty if it ended.
+await_ready() {
+    for _ in {1..100}; do
+        ready=$(grep -s -m 1 '^ready ' "$1/emulator.out" || true)
+        [[ -z $ready ]] || break
+        kill -0 "$emulator" 2>/dev/null || break
+        sleep 0.05
+    done
+}
+
 # start_emulator FOLDER OPTION...: sets emulator, address_a and address_b.
 start_emulator() {
     local folder=$1 ready=
@@ -86,12 +96,7 @@ start_emulator() {
         --listen-b "$(socket_of b)" "${@:2}" --stats "$folder/emulator.json" >"$folder/emulator.out" 2>"$folder/emulator.log" &
     emulator=$!
     children+=("$emulator")
-    for _ in {1..100}; do
-        ready=$(grep -s -m 1 '^ready ' "$folder/emulator.out" || true)
-        [[ -z $ready ]] || break
-        kill -0 "$emulator" 2>/dev/null || break
-        sleep 0.05
-    done
+    await_ready "$folder"
     [[ $ready =~ a=([^ ]+)\ b=([^ ]+) ]] ||
         fail "the emulator did not start:" "$folder/emulator.log"
     address_a=${BASH_REMATCH[1]}
@@ -144,12 +149,7 @@ start_links() {
         >"$folder/emulator.out" 2>"$folder/emulator.log" &
     emulator=$!
     children+=("$emulator")
-    for _ in {1..100}; do
-        ready=$(grep -s -m 1 '^ready ' "$folder/emulator.out" || true)
-        [[ -z $ready ]] || break
-        kill -0 "$emulator" 2>/dev/null || break
-        sleep 0.05
-    done
+    await_ready "$folder"
     [[ -n $ready ]] || fail "the emulator did not start:" "$folder/emulator.log"
     for word in $ready; do
         [[ $word =~ ^([0-9]+)-([0-9]+)=([^,]+),(.+)$ ]] || continue
