@@ -7,6 +7,7 @@
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/fields_json.hpp"
+#include "proto/base/inplace_vector.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
@@ -36,14 +38,17 @@ constexpr auto fields_of(base::Tag<WrittenMount>)
                         base::member("offset_m", &WrittenMount::offset_m));
 }
 
-/// A list of ids.
+/// A list of ids. In place: GCC 12 takes an optional vector for one that may not be initialized.
 struct WrittenIds {
-    std::vector<std::uint16_t> all;
+    base::InplaceVector<std::uint16_t, peer::circle_max> all;
 };
 
 bool read_json(const nlohmann::json& json, WrittenIds& ids)
 {
-    return base::read_json(json, ids.all);
+    std::vector<std::uint16_t> all;
+    if (!base::read_json(json, all) || all.size() > peer::circle_max) return false;
+    for (const auto id : all) ids.all.push_back(id);
+    return true;
 }
 
 /// What of the configuration in a record's header the forces of the session depend on.
@@ -80,7 +85,7 @@ constexpr auto fields_of(base::Tag<WrittenConfig>)
         base::member("governor_toml", &Own::governor_toml), base::member("mount", &Own::mount));
 }
 
-bool can_play(const std::vector<std::uint16_t>& others, std::uint16_t self)
+bool can_play(std::span<const std::uint16_t> others, std::uint16_t self)
 {
     if (others.size() == 1) return others.front() != self;
     return !others.empty() && others.size() < peer::circle_max && others.front() != 0 &&
@@ -103,7 +108,7 @@ std::string_view validate(const WrittenConfig& config)
     if (!(config.stiffness_max_n_per_m.value_or(0.0) >= 0.0)) {
         return "'stiffness_max_n_per_m' is negative";
     }
-    if (config.peers && !can_play(config.peers->all, config.peer_id)) {
+    if (config.peers && !can_play(config.peers->all.all(), config.peer_id)) {
         return "'peers' are not up to seven others by their ids, ascending";
     }
     return config.mount.scale > 0.0 ? "" : "'mount': the scale is not positive";
@@ -132,7 +137,10 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     settings.mount_scale = written->mount.scale;
     settings.introduction.id = written->peer_id;
     settings.introduction.nonce = written->nonce;
-    if (written->peers) settings.roster.others = written->peers->all;
+    if (written->peers) {
+        const auto others = written->peers->all.all();
+        settings.roster.others.assign(others.begin(), others.end());
+    }
     settings.roster.wait_for = written->wait_for.value_or(0);
     settings.introduction.seed = written->seed;
     settings.introduction.task = *name;
