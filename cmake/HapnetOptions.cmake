@@ -139,6 +139,15 @@ function(hapnet_library name)
     set_property(GLOBAL APPEND PROPERTY HAPNET_LIBRARIES ${name})
 endfunction()
 
+# hapnet_component(OUT THING): the package that a program, or a kind of its files, belongs to.
+function(hapnet_component out thing)
+    set(of_emulator hapnet-emulator hapnet-ctl profiles)
+    set(${out} hapnet PARENT_SCOPE)
+    if(thing IN_LIST of_emulator)
+        set(${out} hapnet-emulator PARENT_SCOPE)
+    endif()
+endfunction()
+
 option(HAPNET_PROGRAMS "Build the programs, which the tests end to end need" ON)
 
 # hapnet_program(NAME [COLD] [FOLDERS ...] [SOURCES ...] DEPENDS ...): one binary that is installed.
@@ -155,7 +164,9 @@ function(hapnet_program name)
     hapnet_precompile(${name})
     set_property(GLOBAL APPEND PROPERTY HAPNET_PROGRAM_TARGETS ${name})
     if(HAPNET_PROGRAMS)
-        install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+        hapnet_component(component ${name})
+        install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+                COMPONENT ${component})
     else()
         set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     endif()

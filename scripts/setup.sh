@@ -5,10 +5,11 @@
 # Installs what is missing to build Hapnet on Debian 12 and, with --test, to test it.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--test] [--programs]
+usage="usage: scripts/setup.sh [--test] [--programs] [--package]
 Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
-also those that scripts/test.sh needs, with --programs those that its kind programs needs. Runs as
-root or with sudo, asks nothing, and does nothing when nothing is missing."
+also those that scripts/test.sh needs, with --programs those that its kind programs needs, with
+--package those that scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does
+nothing when nothing is missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
     libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
@@ -21,10 +22,13 @@ test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping l
 program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ngtcp2-client
     ngtcp2-server openssl passt python3 slirp4netns)
 
+package_packages=(debootstrap dpkg-dev gzip lintian scdoc systemd)
+
 for argument in "$@"; do
     case $argument in
     --test) packages+=("${test_packages[@]}") ;;
     --programs) packages+=("${program_packages[@]}") ;;
+    --package) packages+=("${package_packages[@]}") ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) echo "setup: unknown argument '$argument'"$'\n'"$usage" >&2 && exit 2 ;;
     esac

@@ -13,8 +13,8 @@ end to end; and checks the format of the sources and the scripts.
 under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs themselves and emulated
 devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
 KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
-curl, dig, iperf, iperf3, mosh, ping, QUIC), web (a browser), ship (packages in a bare root), fleet
-(many machines). Only programs has tests yet.
+curl, dig, iperf, iperf3, mosh, ping, QUIC), ship (packages, made, installed in a bare root and
+removed; as root), web (a browser), fleet (many machines). The last two have no tests yet.
 What each step said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument, 3 when something that it needs cannot be installed."
 
@@ -31,13 +31,17 @@ case ${1-} in
 '') ;;
 --all) all=yes ;;
 -h | --help) echo "$usage" && exit 0 ;;
-programs) kind=programs ;;
-web | ship | fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
+programs | ship) kind=$1 ;;
+web | fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
 -*) refuse "unknown argument '$1'" ;;
 *) refuse "unknown kind '$1': use web, programs, ship or fleet" ;;
 esac
 
-scripts/setup.sh --test ${kind:+--programs}
+case $kind in
+programs) scripts/setup.sh --test --programs ;;
+ship) scripts/setup.sh --package ;;
+*) scripts/setup.sh --test ;;
+esac
 logs=build/test-logs
 rm -rf "$logs"
 mkdir -p "$logs"
@@ -167,7 +171,10 @@ closing() {
     done
 }
 
-if [[ -n $kind ]]; then
+if [[ $kind == ship ]]; then
+    step "ship" tests/ship/ship_test.sh "$PWD" "$PWD/build/ship" || true
+    runs=()
+elif [[ -n $kind ]]; then
     { step "build" build_programs && step "programs" test_programs; } || true
     runs=(programs)
 else

@@ -4,7 +4,9 @@
 
 #include "proto/base/quantity.hpp"
 #include "proto/base/version.hpp"
+#include "proto/cli/completion.hpp"
 #include "proto/cli/help.hpp"
+#include "proto/cli/manual.hpp"
 #include "proto/cli/synonyms.hpp"
 
 #include <CLI/CLI.hpp>
@@ -55,6 +57,24 @@ Words without_help_word(Words words, const Command& program)
         break;
     }
     return words;
+}
+
+/// `--generate WHAT`, the first words: what packages install beside the program.
+std::optional<base::Result<std::string>> generated(const Words& words, const Command& program)
+{
+    if (words.empty() || !words.front().starts_with(generate_word)) return std::nullopt;
+    const bool is_one_word = words.front().size() > generate_word.size();
+    if (is_one_word && words.front()[generate_word.size()] != '=') return std::nullopt;
+    const auto what = is_one_word         ? words.front().substr(generate_word.size() + 1)
+                      : words.size() == 2 ? words.back()
+                                          : std::string{};
+    if (what == "man") return manual(program);
+    if (what == "bash") return completion(program, Shell::bash);
+    if (what == "zsh") return completion(program, Shell::zsh);
+    if (what == "fish") return completion(program, Shell::fish);
+    return tl::unexpected{
+        base::Error{fmt::format("{}: expected one of {}, and nothing else, not '{}'", generate_word,
+                                generate_values, what)}};
 }
 
 /// --help and --version count wherever they stand, and whatever else is wrong with the line.
@@ -301,6 +321,10 @@ base::Result<std::optional<std::string>> Command::parse(std::span<char*> words)
     const auto behind_name = words.subspan(std::min<std::size_t>(words.size(), 1));
     const Words typed = without_help_word({behind_name.begin(), behind_name.end()}, *this);
     if (auto text = answer(typed, *this)) return text;
+    if (auto text = generated(typed, *this)) {
+        if (!*text) return tl::unexpected{text->error()};
+        return std::optional{*std::move(*text)};
+    }
     if (const auto read = Syntax{*this}.read(typed); !read) return tl::unexpected{read.error()};
     return std::nullopt;
 }

@@ -103,7 +103,11 @@ std::string group_text(const Command& command, const std::string& group, std::si
     if (group != "Options") return text;
     text += row("-h, --help", "Print this help and exit", columns);
     if (command.parent() != nullptr) return text;
-    return text + row("-V, --version", "Print version, commit and compiler, and exit", columns);
+    text += row("-V, --version", "Print version, commit and compiler, and exit", columns);
+    return text + row(fmt::format("{} {}", generate_word, generate_values),
+                      "Print the manual page, for scdoc, or what completes the command line in a "
+                      "shell, and exit",
+                      columns);
 }
 
 /// The options of a program that belong to each of its commands.

@@ -52,6 +52,10 @@ Options:
   -h, --help              Print this help and exit
   -V, --version           Print version, commit and
                           compiler, and exit
+  --generate man|bash|zsh|fish
+                          Print the manual page, for scdoc,
+                          or what completes the command line
+                          in a shell, and exit
 
 Chance:
   --seed NUMBER           Seed for every random draw

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# What the programs write for packages: manual pages that scdoc takes, and completions that the
+# shells take and that complete.
+#   install_test.sh BIN_DIR
+set -euo pipefail
+bin=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+    echo "install_test: $1" >&2
+    exit 1
+}
+
+# completes PROGRAM WORD... : what bash offers for the last of these words.
+completes() {
+    bash -c '
+        source "$1"
+        shift
+        COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
+        function=_${1//-/_}
+        "$function"
+        printf "%s\n" "${COMPREPLY[@]}"' - "$work/$1.bash" "$@"
+}
+
+for program in hapnet-emulator hapnet-ctl hapnet-peer hapnet-lab; do
+    for what in man bash zsh fish; do
+        "$bin/$program" --generate "$what" >"$work/$program.$what"
+        [[ -s $work/$program.$what ]] || fail "$program writes nothing for $what"
+    done
+    bash -n "$work/$program.bash"
+    ! command -v zsh >/dev/null || zsh -n "$work/$program.zsh"
+    ! command -v fish >/dev/null || fish -n "$work/$program.fish"
+    grep -q "^# OPTIONS$" "$work/$program.man" || fail "the page of $program has no options"
+    # The long options of --help are all in the page and in the completions.
+    while read -r option; do
+        plain=$(sed 's/\\//g' "$work/$program.man")
+        [[ $plain == *"*$option*"* ]] || fail "$option of $program is not in its page"
+        grep -q -- "$option" "$work/$program.bash" || fail "bash does not know $option of $program"
+    done < <("$bin/$program" --help | sed -n 's/^  \(-., \)\?\(--[a-z-]*\)[ ,].*/\2/p' |
+        grep -v generate)
+    if command -v scdoc >/dev/null; then
+        scdoc <"$work/$program.man" >"$work/$program.1"
+        grep -q '^\.SH EXIT STATUS' "$work/$program.1" || fail "scdoc made no page of $program"
+    fi
+done
+
+[[ $(completes hapnet-emulator pred) == predict ]] || fail "pred is not completed"
+[[ $(completes hapnet-emulator --timing e) == eco ]] || fail "--timing e is not completed"
+[[ $(completes hapnet-emulator --up) == --upstream ]] || fail "--up is not completed"
+[[ $(completes hapnet-emulator probe --qu) == --quiet ]] || fail "probe --qu is not completed"
+[[ -z $(completes hapnet-emulator --profile x) ]] || fail "a file is left to the shell"
+
+! "$bin/hapnet-ctl" --generate perl 2>"$work/refused" || fail "perl is no shell"
+grep -q "expected one of man|bash|zsh|fish" "$work/refused" || fail "perl: $(cat "$work/refused")"
+echo "install_test: all programs"
