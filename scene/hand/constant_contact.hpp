@@ -4,6 +4,7 @@
 
 #include "scene/hand/advance.hpp"
 
+#include <cmath>
 #include <span>
 
 namespace hapnet::scene {
@@ -17,5 +18,15 @@ namespace hapnet::scene {
                                                std::span<const HandSpring> springs,
                                                std::span<SpringImpulse> work, double tick,
                                                PressedModes& modes);
+
+/// So little that the directions of springs are what they were, to rounding: then what that did is
+/// exact.
+[[nodiscard]] inline bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
+{
+    constexpr double hardly = 5e-11; // half of the angle
+    const glm::dquat& from = start.orientation;
+    const glm::dquat& to = end.orientation;
+    return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z) <= hardly;
+}
 
 } // namespace hapnet::scene

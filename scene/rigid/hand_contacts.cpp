@@ -108,6 +108,19 @@ inline void HandContacts::press(const AmidFace& face, const glm::dvec3& offset, 
     spring.is_amid_face = true;
 }
 
+/// Whether it presses the face that it pressed before, as mostly.
+inline bool HandContacts::presses_amid(NearBody& near_body, const glm::dvec3& hand,
+                                       const SweptBox& now, HandSpring& spring)
+{
+    const AmidFace& amid = near_body.amid;
+    const glm::dvec3 offset = hand - now.box.centre;
+    if (!(amid.turns == now.turns && sum_of_sizes(offset - amid.offset) <= amid.room)) return false;
+    press(amid, offset, spring);
+    if (!(spring.gap < 0.0 && spring.gap > -spring.radius)) return false;
+    near_body.offset = offset;
+    return true;
+}
+
 /// Finds where the hand's sphere overlaps a body's box, or may within the tick, and whether it
 /// does.
 inline bool HandContacts::touch(const WorldConfig& config, const HandInput& input,
@@ -115,17 +128,8 @@ inline bool HandContacts::touch(const WorldConfig& config, const HandInput& inpu
 {
     near_body.is_current = true;
     if (target.with_parts != nullptr) return find_on_part(config, input, target, near_body, spring);
-    const AmidFace& amid = near_body.amid;
-    const glm::dvec3 offset = input.position.value - target.now.box.centre;
-    // Mostly it presses the face that it pressed before.
-    if (amid.turns == target.now.turns && sum_of_sizes(offset - amid.offset) <= amid.room) {
-        press(amid, offset, spring);
-        if (spring.gap < 0.0 && spring.gap > -spring.radius) {
-            near_body.offset = offset;
-            return true;
-        }
-    }
-    return find(config, input, target, near_body, spring);
+    return presses_amid(near_body, input.position.value, target.now, spring) ||
+           find(config, input, target, near_body, spring);
 }
 
 /// The same on one part of several; the arm is from the body's centre.
@@ -218,6 +222,29 @@ bool HandContacts::find_round(const WorldConfig& config, const HandInput& input,
     return spring.gap < ahead;
 }
 
+/// What the hand feels at the start of the tick.
+inline HandContacts::Approach HandContacts::note_push(const Target& target,
+                                                      const HandDescription& hands,
+                                                      const HandInput& input,
+                                                      const HandSpring& spring, HandTouch& touch)
+{
+    const double depth = -spring.gap;
+    const glm::dvec3 here = target.velocity + glm::cross(target.now.spin, spring.arm);
+    const double closing = glm::dot(here - input.velocity.value, spring.normal);
+    scene::note_push(touch, depth, force_at(hands, depth, closing) * spring.normal);
+    return {depth, closing};
+}
+
+inline void HandContacts::set_spring(HandSpring& spring, const HandDescription& hands,
+                                     const HandInput& input)
+{
+    spring.velocity = input.velocity.value;
+    spring.stiffness = hands.stiffness_n_per_m;
+    spring.damping = hands.damping_ns_per_m;
+    spring.force_max = hands.force_max_n;
+    spring.holds = false;
+}
+
 void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
                             const Target& target)
 {
@@ -232,11 +259,8 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
         forces_.drop_last();
         return;
     }
-    const double depth = -spring.gap;
-    const glm::dvec3 here = target.velocity + glm::cross(target.now.spin, spring.arm);
-    const double closing = glm::dot(here - input.velocity.value, spring.normal);
     HandTouch& touch = state.touches[index];
-    note_push(touch, depth, force_at(hands, depth, closing) * spring.normal);
+    const auto [depth, closing] = note_push(target, hands, input, spring, touch);
     if (!target.is_movable) {
         const double impulse = impulse_at_constant_velocity(hands, depth, closing, config.tick);
         touch.on_hand.value += (impulse / config.tick) * spring.normal;
@@ -248,13 +272,32 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
         forces_.drop_last();
         return;
     }
-    spring.velocity = input.velocity.value;
-    spring.stiffness = hands.stiffness_n_per_m;
-    spring.damping = hands.damping_ns_per_m;
-    spring.force_max = hands.force_max_n;
-    spring.holds = false;
+    set_spring(spring, hands, input);
     springs_.add() = {index, target.body, glm::dvec3{0.0}, target.part,
                       target.with_parts != nullptr};
+}
+
+bool HandContacts::press_again(const WorldConfig& config, WorldState& state, std::uint32_t index,
+                               std::span<const PartId> near, const Target& target)
+{
+    Hand& hand = hands_[index];
+    const HandInput& input = state.hands[index];
+    HandTouch& touch = state.touches[index];
+    touch = {};
+    const std::size_t reached = input.present ? near.size() : 0;
+    if (hand.holding || hand.count != reached || reached > 1) return false;
+    if (reached == 0) return true;
+    NearBody& near_body = hand.nearby[0];
+    if (near[0] != target.part || near_body.part != target.part) return false;
+    const HandDescription& hands = config.feels.of(index, target.body, config.hands);
+    HandSpring& spring = forces_.add();
+    spring.radius = hands.radius_m;
+    spring.part = nullptr;
+    if (!presses_amid(near_body, input.position.value, target.now, spring)) return false;
+    note_push(target, hands, input, spring, touch);
+    set_spring(spring, hands, input);
+    springs_.add() = {index, target.body, glm::dvec3{0.0}, target.part, false};
+    return true;
 }
 
 void HandContacts::feel_planes(const WorldConfig& config, WorldState& state)
@@ -276,7 +319,7 @@ void HandContacts::feel_planes_with(const WorldConfig& config, WorldState& state
         const double closing = -glm::dot(plane.normal, input.velocity.value);
         if (depth <= 0.0 && depth + config.tick * closing <= 0.0) continue;
         HandTouch& touch = state.touches[hand];
-        note_push(touch, depth, force_at(feel, depth, closing) * plane.normal);
+        scene::note_push(touch, depth, force_at(feel, depth, closing) * plane.normal);
         const double impulse = impulse_at_constant_velocity(feel, depth, closing, config.tick);
         touch.on_hand.value += (impulse / config.tick) * plane.normal;
     }

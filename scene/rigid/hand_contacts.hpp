@@ -70,6 +70,18 @@ public:
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
+    /// What begin_step() and collide() do for a hand that goes on as in the last tick: amid the
+    /// same face of the one body that it presses, or away from everything. False when it does not;
+    /// then the tick has to begin again. `near`: the bodies that it may reach, of one part each.
+    /// The hand must not grip.
+    [[nodiscard]] bool press_again(const WorldConfig& config, WorldState& state, std::uint32_t hand,
+                                   std::span<const PartId> near, const Target& target);
+    /// No hand has touched anything in this tick: then press_again() may come.
+    void begin_again()
+    {
+        springs_.clear();
+        forces_.clear();
+    }
     [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
     /// Adds what the hands feel of planes.
     static void feel_planes(const WorldConfig& config, WorldState& state);
@@ -103,6 +115,12 @@ public:
         std::span<SpringImpulse> work;
     };
     [[nodiscard]] BodySprings springs_on(BodyId body);
+    /// Those on all bodies.
+    [[nodiscard]] BodySprings all_springs()
+    {
+        work_.resize(forces_.size());
+        return {forces_.all(), work_.all()};
+    }
     /// The friction of those; empty where they are smooth.
     [[nodiscard]] std::span<FrictionSpring> frictions_on(BodyId body);
     /// Keeps what has become of it.
@@ -158,7 +176,17 @@ private:
                       NearBody& near_body, HandSpring& spring) const;
     bool find_round(const WorldConfig& config, const HandInput& input, const Target& target,
                     HandSpring& spring) const;
+    static bool presses_amid(NearBody& near_body, const glm::dvec3& hand, const SweptBox& now,
+                             HandSpring& spring);
     static void press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring);
+    /// How deep a hand is at the start of the tick, and how fast it goes deeper.
+    struct Approach {
+        double depth = 0.0, closing = 0.0;
+    };
+    static Approach note_push(const Target& target, const HandDescription& hands,
+                              const HandInput& input, const HandSpring& spring, HandTouch& touch);
+    static void set_spring(HandSpring& spring, const HandDescription& hands,
+                           const HandInput& input);
     struct RubbedSpring {
         HandProxies::Touch touch;
         FrictionSpring friction;
