@@ -84,6 +84,15 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
     for (std::size_t i = 0; i < count; ++i) task.work[chosen.which[i]].impulse += rest[i].impulse;
 }
 
+/// So little that the directions of springs are what they were, to rounding.
+bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
+{
+    constexpr double hardly = 5e-11; // half of the angle
+    const glm::dquat& from = start.orientation;
+    const glm::dquat& to = end.orientation;
+    return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z) <= hardly;
+}
+
 /// The same as energy_of() where all springs press, and none with its greatest force.
 HandEnergy energy_of_pressed(std::span<const HandSpring> springs,
                              std::span<const SpringImpulse> work)

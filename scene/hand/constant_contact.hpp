@@ -3,8 +3,8 @@
 #pragma once
 
 #include "scene/hand/advance.hpp"
+#include "scene/maths/lanes.hpp"
 
-#include <cmath>
 #include <span>
 
 namespace hapnet::scene {
@@ -19,14 +19,18 @@ namespace hapnet::scene {
                                                std::span<SpringImpulse> work, double tick,
                                                PressedModes& modes);
 
-/// So little that the directions of springs are what they were, to rounding: then what that did is
-/// exact.
-[[nodiscard]] inline bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
-{
-    constexpr double hardly = 5e-11; // half of the angle
-    const glm::dquat& from = start.orientation;
-    const glm::dquat& to = end.orientation;
-    return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z) <= hardly;
-}
+/// One or two springs that press amid faces, side by side; where there is one, it stands twice.
+struct PressingSprings {
+    TwoVectors normal, arm, velocity; // see HandSpring
+    Two radius, gap;                  // likewise
+    Two stiffness, damping, force_max;
+    bool are_two = false;
+};
+
+/// The same for those, and only for a tick in which the body turns by no more than rounding: then
+/// it is exact. `impulse` is on the body.
+[[nodiscard]] bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
+                                               const PressingSprings& springs, double tick,
+                                               PressedModes& modes, TwoVectors& impulse);
 
 } // namespace hapnet::scene

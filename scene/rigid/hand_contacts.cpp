@@ -108,19 +108,6 @@ inline void HandContacts::press(const AmidFace& face, const glm::dvec3& offset, 
     spring.is_amid_face = true;
 }
 
-/// Whether it presses the face that it pressed before, as mostly.
-inline bool HandContacts::presses_amid(NearBody& near_body, const glm::dvec3& hand,
-                                       const SweptBox& now, HandSpring& spring)
-{
-    const AmidFace& amid = near_body.amid;
-    const glm::dvec3 offset = hand - now.box.centre;
-    if (!(amid.turns == now.turns && sum_of_sizes(offset - amid.offset) <= amid.room)) return false;
-    press(amid, offset, spring);
-    if (!(spring.gap < 0.0 && spring.gap > -spring.radius)) return false;
-    near_body.offset = offset;
-    return true;
-}
-
 /// Finds where the hand's sphere overlaps a body's box, or may within the tick, and whether it
 /// does.
 inline bool HandContacts::touch(const WorldConfig& config, const HandInput& input,
@@ -128,8 +115,17 @@ inline bool HandContacts::touch(const WorldConfig& config, const HandInput& inpu
 {
     near_body.is_current = true;
     if (target.with_parts != nullptr) return find_on_part(config, input, target, near_body, spring);
-    return presses_amid(near_body, input.position.value, target.now, spring) ||
-           find(config, input, target, near_body, spring);
+    const AmidFace& amid = near_body.amid;
+    const glm::dvec3 offset = input.position.value - target.now.box.centre;
+    // Mostly it presses the face that it pressed before.
+    if (amid.turns == target.now.turns && sum_of_sizes(offset - amid.offset) <= amid.room) {
+        press(amid, offset, spring);
+        if (spring.gap < 0.0 && spring.gap > -spring.radius) {
+            near_body.offset = offset;
+            return true;
+        }
+    }
+    return find(config, input, target, near_body, spring);
 }
 
 /// The same on one part of several; the arm is from the body's centre.
@@ -222,29 +218,6 @@ bool HandContacts::find_round(const WorldConfig& config, const HandInput& input,
     return spring.gap < ahead;
 }
 
-/// What the hand feels at the start of the tick.
-inline HandContacts::Approach HandContacts::note_push(const Target& target,
-                                                      const HandDescription& hands,
-                                                      const HandInput& input,
-                                                      const HandSpring& spring, HandTouch& touch)
-{
-    const double depth = -spring.gap;
-    const glm::dvec3 here = target.velocity + glm::cross(target.now.spin, spring.arm);
-    const double closing = glm::dot(here - input.velocity.value, spring.normal);
-    scene::note_push(touch, depth, force_at(hands, depth, closing) * spring.normal);
-    return {depth, closing};
-}
-
-inline void HandContacts::set_spring(HandSpring& spring, const HandDescription& hands,
-                                     const HandInput& input)
-{
-    spring.velocity = input.velocity.value;
-    spring.stiffness = hands.stiffness_n_per_m;
-    spring.damping = hands.damping_ns_per_m;
-    spring.force_max = hands.force_max_n;
-    spring.holds = false;
-}
-
 void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
                             const Target& target)
 {
@@ -259,8 +232,11 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
         forces_.drop_last();
         return;
     }
+    const double depth = -spring.gap;
+    const glm::dvec3 here = target.velocity + glm::cross(target.now.spin, spring.arm);
+    const double closing = glm::dot(here - input.velocity.value, spring.normal);
     HandTouch& touch = state.touches[index];
-    const auto [depth, closing] = note_push(target, hands, input, spring, touch);
+    note_push(touch, depth, force_at(hands, depth, closing) * spring.normal);
     if (!target.is_movable) {
         const double impulse = impulse_at_constant_velocity(hands, depth, closing, config.tick);
         touch.on_hand.value += (impulse / config.tick) * spring.normal;
@@ -272,32 +248,108 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
         forces_.drop_last();
         return;
     }
-    set_spring(spring, hands, input);
+    spring.velocity = input.velocity.value;
+    spring.stiffness = hands.stiffness_n_per_m;
+    spring.damping = hands.damping_ns_per_m;
+    spring.force_max = hands.force_max_n;
+    spring.holds = false;
     springs_.add() = {index, target.body, glm::dvec3{0.0}, target.part,
                       target.with_parts != nullptr};
 }
 
-bool HandContacts::press_again(const WorldConfig& config, WorldState& state, std::uint32_t index,
-                               std::span<const PartId> near, const Target& target)
+bool HandContacts::may_press_again(const WorldConfig& config)
 {
-    Hand& hand = hands_[index];
-    const HandInput& input = state.hands[index];
-    HandTouch& touch = state.touches[index];
-    touch = {};
-    const std::size_t reached = input.present ? near.size() : 0;
-    if (hand.holding || hand.count != reached || reached > 1) return false;
-    if (reached == 0) return true;
-    NearBody& near_body = hand.nearby[0];
-    if (near[0] != target.part || near_body.part != target.part) return false;
-    const HandDescription& hands = config.feels.of(index, target.body, config.hands);
-    HandSpring& spring = forces_.add();
-    spring.radius = hands.radius_m;
-    spring.part = nullptr;
-    if (!presses_amid(near_body, input.position.value, target.now, spring)) return false;
-    note_push(target, hands, input, spring, touch);
-    set_spring(spring, hands, input);
-    springs_.add() = {index, target.body, glm::dvec3{0.0}, target.part, false};
+    const std::span<const Spring> all = springs();
+    if (all.empty() || all.size() > 2) return false;
+    const Spring& a = all.front();
+    const Spring& b = all.back();
+    const HandSpring& one = forces_[0];
+    const HandSpring& two = forces_[all.size() - 1];
+    if (!one.is_amid_face || !two.is_amid_face || a.body != b.body) return false;
+    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
+        const std::size_t presses = i == a.hand || i == b.hand ? 1 : 0;
+        if (hands_[i].holding || hands_[i].count != presses) return false;
+    }
+    const AmidFace& first = hands_[a.hand].nearby[0].amid;
+    const AmidFace& second = hands_[b.hand].nearby[0].amid;
+    Pressing& pressing = pressing_;
+    pressing.body = a.body;
+    pressing.hand = {a.hand, b.hand};
+    pressing.found = both(first.offset, second.offset);
+    pressing.room = Two{first.room, second.room};
+    pressing.half = Two{first.half, second.half};
+    PressingSprings& springs = pressing.springs;
+    springs.normal = both(first.normal, second.normal);
+    springs.radius = Two{one.radius, two.radius};
+    springs.stiffness = Two{one.stiffness, two.stiffness};
+    springs.damping = Two{one.damping, two.damping};
+    springs.force_max = Two{one.force_max, two.force_max};
+    springs.are_two = all.size() == 2;
+    return one.stiffness > 0.0 && two.stiffness > 0.0;
+}
+
+bool HandContacts::is_where_it_was(std::uint32_t hand, const HandInput& input,
+                                   std::span<const PartId> near) const
+{
+    if (hand == pressing_.hand[0] || hand == pressing_.hand[1])
+        return !input.gripping && near.size() == 1 && near[0] == pressing_.body;
+    return !input.gripping && near.empty();
+}
+
+bool HandContacts::press_again(const WorldState& state, const Target& target)
+{
+    Pressing& pressing = pressing_;
+    PressingSprings& springs = pressing.springs;
+    const HandInput& a = state.hands[pressing.hand[0]];
+    const HandInput& b = state.hands[pressing.hand[1]];
+    const TwoVectors offset =
+        both(a.position.value, b.position.value) - both(target.now.box.centre);
+    const Two away = sum_of_sizes(offset - pressing.found);
+    if (!(away[0] <= pressing.room[0] && away[1] <= pressing.room[1])) return false;
+    // As press() does.
+    const Two above = dot(springs.normal, offset) - pressing.half;
+    springs.arm = offset - above * springs.normal;
+    const Two gap = above - springs.radius;
+    springs.gap = gap;
+    const Two depth = -gap;
+    if (!(depth[0] > 0.0 && depth[1] > 0.0 && depth[0] < springs.radius[0] &&
+          depth[1] < springs.radius[1]))
+        return false;
+    springs.velocity = both(a.velocity.value, b.velocity.value);
+    const TwoVectors here = both(target.velocity) + cross(both(target.now.spin), springs.arm);
+    const Two closing = dot(here - springs.velocity, springs.normal);
+    // As force_at() does.
+    const Two wanted = springs.stiffness * depth + springs.damping * closing;
+    const Two force{std::clamp(wanted[0], 0.0, springs.force_max[0]),
+                    std::clamp(wanted[1], 0.0, springs.force_max[1])};
+    pressing.depth = depth;
+    pressing.at_start = force * springs.normal;
+    hands_[pressing.hand[0]].nearby[0].offset = first(offset);
+    hands_[pressing.hand[1]].nearby[0].offset = second(offset);
     return true;
+}
+
+void HandContacts::report_again(const WorldConfig& config, WorldState& state,
+                                const TwoVectors& impulse) const
+{
+    const double rate = 1.0 / config.tick;
+    const glm::dvec3 none{0.0};
+    const auto report = [&](std::uint32_t hand, double depth, const glm::dvec3& at_start,
+                            const glm::dvec3& on_body) {
+        const base::Force force{rate * on_body};
+        const bool pushes = glm::dot(force.value, force.value) > 0.0;
+        state.touches[hand] = {.touching = pushes,
+                               .body = pushes ? pressing_.body : 0,
+                               .on_body = pushes ? force : base::Force{},
+                               .on_hand = base::Force{none - force.value},
+                               .depth_m = depth,
+                               .on_hand_at_start = base::Force{none + at_start}};
+    };
+    if (config.hands.count > 2 || !pressing_.springs.are_two)
+        for (std::uint32_t i = 0; i < config.hands.count; ++i) state.touches[i] = {};
+    report(pressing_.hand[0], pressing_.depth[0], first(pressing_.at_start), first(impulse));
+    if (pressing_.springs.are_two)
+        report(pressing_.hand[1], pressing_.depth[1], second(pressing_.at_start), second(impulse));
 }
 
 void HandContacts::feel_planes(const WorldConfig& config, WorldState& state)
@@ -319,7 +371,7 @@ void HandContacts::feel_planes_with(const WorldConfig& config, WorldState& state
         const double closing = -glm::dot(plane.normal, input.velocity.value);
         if (depth <= 0.0 && depth + config.tick * closing <= 0.0) continue;
         HandTouch& touch = state.touches[hand];
-        scene::note_push(touch, depth, force_at(feel, depth, closing) * plane.normal);
+        note_push(touch, depth, force_at(feel, depth, closing) * plane.normal);
         const double impulse = impulse_at_constant_velocity(feel, depth, closing, config.tick);
         touch.on_hand.value += (impulse / config.tick) * plane.normal;
     }

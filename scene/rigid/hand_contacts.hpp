@@ -6,6 +6,7 @@
 #include "scene/collide/sphere_box.hpp"
 #include "scene/collide/sweep.hpp"
 #include "scene/hand/advance.hpp"
+#include "scene/hand/constant_contact.hpp"
 #include "scene/hand/friction.hpp"
 #include "scene/rigid/hand_proxies.hpp"
 #include "scene/state.hpp"
@@ -70,18 +71,19 @@ public:
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
-    /// What begin_step() and collide() do for a hand that goes on as in the last tick: amid the
-    /// same face of the one body that it presses, or away from everything. False when it does not;
-    /// then the tick has to begin again. `near`: the bodies that it may reach, of one part each.
-    /// The hand must not grip.
-    [[nodiscard]] bool press_again(const WorldConfig& config, WorldState& state, std::uint32_t hand,
-                                   std::span<const PartId> near, const Target& target);
-    /// No hand has touched anything in this tick: then press_again() may come.
-    void begin_again()
-    {
-        springs_.clear();
-        forces_.clear();
-    }
+    /// Whether all springs of this tick, one or two, press amid faces of one body that no other
+    /// hand is near: then the next tick may begin with press_again().
+    [[nodiscard]] bool may_press_again(const WorldConfig& config);
+    /// Whether a hand may do what it did then; `near`: the bodies that it may reach.
+    [[nodiscard]] bool is_where_it_was(std::uint32_t hand, const HandInput& input,
+                                       std::span<const PartId> near) const;
+    /// What collide() would find. False when another face or none is pressed.
+    [[nodiscard]] bool press_again(const WorldState& state, const Target& target);
+    [[nodiscard]] const PressingSprings& pressing() const { return pressing_.springs; }
+    [[nodiscard]] std::uint32_t first_pressing() const { return pressing_.hand[0]; }
+    /// What begin_step() and report_forces() would report of that, with the impulses on the body.
+    void report_again(const WorldConfig& config, WorldState& state,
+                      const TwoVectors& impulse) const;
     [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
     /// Adds what the hands feel of planes.
     static void feel_planes(const WorldConfig& config, WorldState& state);
@@ -115,12 +117,6 @@ public:
         std::span<SpringImpulse> work;
     };
     [[nodiscard]] BodySprings springs_on(BodyId body);
-    /// Those on all bodies.
-    [[nodiscard]] BodySprings all_springs()
-    {
-        work_.resize(forces_.size());
-        return {forces_.all(), work_.all()};
-    }
     /// The friction of those; empty where they are smooth.
     [[nodiscard]] std::span<FrictionSpring> frictions_on(BodyId body);
     /// Keeps what has become of it.
@@ -157,6 +153,16 @@ private:
         glm::dmat3 axes{1.0};
         AmidFace amid;
     };
+    /// Those that press a body amid faces, side by side; where there is one, it stands twice.
+    struct Pressing {
+        PartId body = 0;
+        std::array<std::uint32_t, 2> hand{};
+        PressingSprings springs;
+        TwoVectors found; // AmidFace::offset
+        Two room, half;
+        Two depth;
+        TwoVectors at_start; // the force on the hand
+    };
     struct Holding {
         BodyId body = 0;
         PartId part = 0;
@@ -176,17 +182,7 @@ private:
                       NearBody& near_body, HandSpring& spring) const;
     bool find_round(const WorldConfig& config, const HandInput& input, const Target& target,
                     HandSpring& spring) const;
-    static bool presses_amid(NearBody& near_body, const glm::dvec3& hand, const SweptBox& now,
-                             HandSpring& spring);
     static void press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring);
-    /// How deep a hand is at the start of the tick, and how fast it goes deeper.
-    struct Approach {
-        double depth = 0.0, closing = 0.0;
-    };
-    static Approach note_push(const Target& target, const HandDescription& hands,
-                              const HandInput& input, const HandSpring& spring, HandTouch& touch);
-    static void set_spring(HandSpring& spring, const HandDescription& hands,
-                           const HandInput& input);
     struct RubbedSpring {
         HandProxies::Touch touch;
         FrictionSpring friction;
@@ -229,6 +225,7 @@ private:
     Scratch<HandSpring> forces_;  // in the order of springs_
     Scratch<HandSpring> own_;     // of one body
     Scratch<SpringImpulse> work_; // of one body
+    Pressing pressing_;
     HandProxies proxies_;
     Scratch<RubbedSpring> rubbed_;      // in the order of springs_, where there is friction
     Scratch<FrictionSpring> frictions_; // of one body

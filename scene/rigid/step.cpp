@@ -153,6 +153,7 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::on_body_shifted(WorldState& state, BodyId body)
 {
+    steady_.is_likely = false;
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(state.bodies, body);

@@ -42,6 +42,7 @@ void RigidStepper<broad_phase>::look_for_steadiness(const WorldConfig& config,
     const ContactBlock& block = solver_.blocks()[0];
     const BodyIntegration& integration = integrations_[1];
     if (!block.is_on_plane || block.has_matrix || !integration.has_hands) return;
+    if (!hand_contacts_.may_press_again(config)) return;
     steady_ = {true, true, body.id, boxes_.at(bodies, body.id).turns,
                dynamics_of(integration, state, 0, solver_.response(1), config)};
 }
@@ -57,19 +58,19 @@ bool RigidStepper<broad_phase>::finds_the_same(const WorldConfig& config, WorldS
     if (!is_alone) return false;
     const SweptBox& now = boxes_.at(bodies, steady_.body);
     if (now.turns != steady_.turns) return false;
-    const HandContacts::Target target{steady_.body, steady_.body, true, now, bodies.velocity.at(0)};
-    hand_contacts_.begin_again();
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
-        if (input.gripping) return false;
         std::span<const PartId> near;
         if (input.present) {
             const glm::dvec3& from = input.position.value;
             near = pairs_.near_hand(
                 hand, {from, from + scales_.tick * input.velocity.value, config.hands.radius_m});
         }
-        if (!hand_contacts_.press_again(config, state, hand, near, target)) return false;
+        if (!hand_contacts_.is_where_it_was(hand, input, near)) return false;
     }
+    if (!hand_contacts_.press_again(state,
+                                    {steady_.body, steady_.body, true, now, bodies.velocity.at(0)}))
+        return false;
     const Pair& pair = pairs_.plane_pair(pairs_.plane_pairs()[0]);
     const PlaneDescription& plane = config.planes[pair.b];
     const double height = glm::dot(plane.normal, now.box.centre) - plane.offset_m;
@@ -88,8 +89,6 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     const BodyProperties& properties = bodies.properties[0];
     ContactBlock& block = solver_.blocks()[0];
     const Wrench& push = block.start_push;
-    const auto [springs, work] = hand_contacts_.all_springs();
-    if (springs.empty()) return false;
     const double per_second = 1.0 / config.tick;
     const BodyResponse& response = solver_.response(1);
     const glm::dvec3 torque =
@@ -100,9 +99,9 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     const MovingBody start{bodies.position.at(0), bodies.orientation.at(0), bodies.velocity.at(0),
                            bodies.angular_momentum.at(0)};
     MovingBody body = start;
-    PressedModes& modes = modes_[hand_contacts_.springs()[0].hand];
-    if (!advance_in_constant_contact(body, steady_.dynamics, springs, work, config.tick, modes) ||
-        !has_hardly_turned(start, body))
+    TwoVectors impulse;
+    if (!advance_in_constant_contact(body, steady_.dynamics, hand_contacts_.pressing(), config.tick,
+                                     modes_[hand_contacts_.first_pressing()], impulse))
         return false;
     BodyIntegration& integration = integrations_[1];
     integration.start.velocity = start.velocity;
@@ -136,8 +135,7 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     bodies.angular_momentum.put(0, body.angular_momentum + glm::dvec3{0.0});
     state.tick_cost = {.pairs = 1, .contacts = 1, .visits = 1};
     counts_ = {.contacts_left_out = counts_.contacts_left_out, .contacts = 1, .sweeps = 1};
-    hand_contacts_.store_impulses(steady_.body);
-    report_hand_forces(config, state);
+    hand_contacts_.report_again(config, state, impulse);
     if constexpr (sleeps) sleep_.keep_awake(bodies, steady_.body);
     update_sleep(state);
     steady_.is_likely = true;
