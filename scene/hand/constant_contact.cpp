@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace hapnet::scene {
 
@@ -42,22 +43,24 @@ public:
           ease_{diagonal_of(dynamics.inverse_inertia)}
     {}
 
-    /// False: it is not steady, and the body has not changed.
-    bool advance(PressedModes& modes)
+    /// Moves and turns the body. False, and it has not changed: something begins or ends, or it
+    /// turns by more than `rotation_max`.
+    bool advance(PressedModes& modes, double rotation_max)
     {
         if (!set_geometry_halfway()) return false;
         set_couplings();
-        return integrate_contacts(modes) && stays_amid();
+        if (!integrate_contacts(modes) || !stays_amid()) return false;
+        if (!(sum_of_sizes(angle_) <= rotation_max)) return false;
+        finish();
+        return true;
     }
+    /// On the hands.
+    [[nodiscard]] const TwoVectors& impulse() const { return push_; }
     /// So little that the directions stay, to rounding.
     [[nodiscard]] bool turns_negligibly() const
     {
         return glm::dot(angle_, angle_) < negligible_rotation * negligible_rotation;
     }
-    /// So little that there is nothing to correct.
-    [[nodiscard]] bool turns_hardly() const { return sum_of_sizes(angle_) <= hardly_any_rotation; }
-    /// Moves and turns the body; the impulse is on the hands.
-    TwoVectors finish();
     /// What the turn changes in the springs' energy.
     void correct(std::span<const HandSpring> springs, std::span<SpringImpulse> work) const;
 
@@ -66,6 +69,7 @@ private:
     void set_couplings();
     bool integrate_contacts(PressedModes& modes);
     bool stays_amid();
+    void finish();
     [[nodiscard]] Two depth_change() const;
 
     MovingBody& body_;
@@ -83,6 +87,7 @@ private:
     Two impulse_, moment_; // of the forces, N s, and its integral, N s^2
     glm::dvec3 moved_, angle_;
     TwoVectors gone_; // the hands, seen from the body's centre
+    TwoVectors push_;
     glm::dquat turn_;
 };
 
@@ -171,17 +176,16 @@ bool ConstantContact::stays_amid()
     return farthest[0] <= room && farthest[1] <= room;
 }
 
-TwoVectors ConstantContact::finish()
+void ConstantContact::finish()
 {
     const double t = tick_;
-    const TwoVectors push = impulse_ * normal_;
+    push_ = impulse_ * normal_;
     body_.position += moved_;
-    body_.velocity += t * dynamics_.acceleration - dynamics_.inverse_mass * sum(push);
+    body_.velocity += t * dynamics_.acceleration - dynamics_.inverse_mass * sum(push_);
     body_.angular_momentum += t * dynamics_.torque - sum(impulse_ * lever_);
-    if (angle_ == glm::dvec3{0.0}) return push;
+    if (angle_ == glm::dvec3{0.0}) return;
     turn_ = rotation_by(angle_);
     body_.orientation = unit_again(turn_ * body_.orientation);
-    return push;
 }
 
 void ConstantContact::correct(std::span<const HandSpring> springs,
@@ -227,8 +231,8 @@ bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
     }
     const PressingSprings pressing = side_by_side(springs);
     ConstantContact contact{body, dynamics, pressing, tick};
-    if (!contact.advance(modes)) return false;
-    const TwoVectors push = contact.finish();
+    if (!contact.advance(modes, std::numeric_limits<double>::infinity())) return false;
+    const TwoVectors& push = contact.impulse();
     work[0].impulse = -first(push); // `advance` clears what is refused
     if (pressing.are_two) work[1].impulse = -second(push);
     if (!contact.turns_negligibly()) contact.correct(springs, work);
@@ -240,8 +244,8 @@ bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
                                  TwoVectors& impulse)
 {
     ConstantContact contact{body, dynamics, springs, tick};
-    if (!contact.advance(modes) || !contact.turns_hardly()) return false;
-    const TwoVectors push = contact.finish();
+    if (!contact.advance(modes, hardly_any_rotation)) return false;
+    const TwoVectors& push = contact.impulse();
     impulse = {-push.x, -push.y, -push.z};
     return true;
 }

@@ -158,10 +158,10 @@ private:
         PartId body = 0;
         std::array<std::uint32_t, 2> hand{};
         PressingSprings springs;
-        TwoVectors found; // AmidFace::offset
-        Two room, half;
-        Two depth;
-        TwoVectors at_start; // the force on the hand
+        TwoVectors found{};    // AmidFace::offset
+        Two room{}, half{};    // likewise
+        Two depth{};           // in this tick
+        TwoVectors at_start{}; // the force on the hand, likewise
     };
     struct Holding {
         BodyId body = 0;

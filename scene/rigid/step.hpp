@@ -50,6 +50,7 @@ public:
     /// What was done, for tests and measurements.
     struct Counts {
         std::uint64_t contacts_left_out = 0; // beyond the bound
+        std::uint64_t steady_ticks = 0;      // in which everything went on as before
         std::uint32_t contacts = 0;          // of the last tick
         std::uint32_t sweeps = 0;            // of the last tick
         double change = 0.0;                 // m/s, of the last sweep

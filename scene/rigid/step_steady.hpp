@@ -23,9 +23,10 @@ bool RigidStepper<broad_phase>::can_be_steady(const WorldConfig& config,
                                               const WorldState& state) const
 {
     const Bodies& bodies = state.bodies;
-    return bodies.moving == bodies.movable && bodies.parts.empty() && !any_round_ &&
-           joints_.is_empty() && !restitution_.is_needed() && !hand_contacts_.feels_planes() &&
-           !hand_contacts_.any_friction() && config.hands.count > 0;
+    return bodies.movable > 0 && bodies.moving == bodies.movable && bodies.parts.empty() &&
+           !any_round_ && joints_.is_empty() && !restitution_.is_needed() &&
+           !hand_contacts_.feels_planes() && !hand_contacts_.any_friction() &&
+           config.hands.count > 0;
 }
 
 /// Whether the next tick may go on as the last one, which ended in balance.
@@ -36,8 +37,8 @@ void RigidStepper<broad_phase>::look_for_steadiness(const WorldConfig& config,
     const Bodies& bodies = state.bodies;
     const BodyProperties& body = bodies.properties[0];
     // One visit: of the velocities, and none of overlaps.
-    const bool is_alone = bodies.awake == 1 && pairs_.pairs().empty() && !any_far_ &&
-                          state.tick_cost.contacts == 1 && state.tick_cost.visits == 1;
+    const bool is_alone = bodies.awake == 1 && state.pushed.is_empty() && pairs_.pairs().empty() &&
+                          !any_far_ && state.tick_cost.contacts == 1 && state.tick_cost.visits == 1;
     if (!is_alone || body.turning != Turning::free || !body.is_isotropic || body.drag > 0.0) return;
     const ContactBlock& block = solver_.blocks()[0];
     const BodyIntegration& integration = integrations_[1];
@@ -61,7 +62,7 @@ bool RigidStepper<broad_phase>::finds_the_same(const WorldConfig& config, WorldS
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
         std::span<const PartId> near;
-        if (input.present) {
+        if (input.present && !input.gripping) {
             const glm::dvec3& from = input.position.value;
             near = pairs_.near_hand(
                 hand, {from, from + scales_.tick * input.velocity.value, config.hands.radius_m});
@@ -134,7 +135,9 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     bodies.velocity.put(0, end.velocity);
     bodies.angular_momentum.put(0, body.angular_momentum + glm::dvec3{0.0});
     state.tick_cost = {.pairs = 1, .contacts = 1, .visits = 1};
-    counts_ = {.contacts_left_out = counts_.contacts_left_out, .contacts = 1, .sweeps = 1};
+    counts_.contacts = counts_.sweeps = 1;
+    counts_.change = 0.0;
+    ++counts_.steady_ticks;
     hand_contacts_.report_again(config, state, impulse);
     if constexpr (sleeps) sleep_.keep_awake(bodies, steady_.body);
     update_sleep(state);
