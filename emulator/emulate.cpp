@@ -171,7 +171,7 @@ private:
 
     [[nodiscard]] std::optional<base::TimePoint> next_deadline(std::size_t number) const
     {
-        const Paths& paths = *paths_[number];
+        Paths& paths = *paths_[number];
         const auto deadline = base::earlier(paths.next_due(), paths.next_change());
         return base::earlier(deadline, port_->parts()[number]->next_deadline());
     }

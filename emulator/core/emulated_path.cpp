@@ -38,6 +38,7 @@ EmulatedPath::EmulatedPath(Director director, const Setup& setup)
 
 EmulatedPath::EmulatedPath(Director director, const Setup& setup, const std::shared_ptr<Slab>& slab)
     : director_{std::move(director)},
+      place_{setup.place},
       changes_{setup.changes_max},
       up_{make_link(director_.path(), setup, slab, Direction::up)},
       down_{make_link(director_.path(), setup, slab, Direction::down)}
@@ -68,6 +69,7 @@ void EmulatedPath::enact(base::TimePoint now, ChangeCause by)
                   .up = difference(up_.conditions(), director_.path().up),
                   .down = difference(down_.conditions(), director_.path().down)},
                  director_.last_reason() == Director::Reason::ramp);
+    place_.mark();
     up_.change(director_.path().up, now);
     down_.change(director_.path().down, now);
 }

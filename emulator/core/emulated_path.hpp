@@ -4,6 +4,7 @@
 
 #include "emulator/core/change_log.hpp"
 #include "emulator/core/director.hpp"
+#include "emulator/core/due_times.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/link.hpp"
 #include "proto/base/random.hpp"
@@ -33,6 +34,7 @@ public:
         bool has_stream_statistics = true;     // false: they are not asked for
         std::string name{};                    // where there are several; see path_name.hpp
         std::size_t changes_max = ChangeLog::entries_max; // that are kept
+        DueTimes::Place place{}; // where it says that next_due() may have changed
     };
 
     EmulatedPath(const Profile& profile, const Setup& setup)
@@ -55,12 +57,14 @@ public:
                         const Headers& headers = {})
     {
         advance(arrival);
+        place_.mark();
         return link_of(direction).on_packet(bytes, arrival, has_destination, headers);
     }
 
     /// A datagram of a direction that is due at `now`, the earliest first.
     [[nodiscard]] std::optional<Datagram> poll(Direction direction, base::TimePoint now)
     {
+        place_.mark();
         return link_of(direction).poll(now);
     }
 
@@ -93,6 +97,8 @@ public:
                              ChangeCause by = ChangeCause::hand);
 
     [[nodiscard]] const Director& director() const { return director_; }
+    /// Its number among several; see Paths::each_due().
+    [[nodiscard]] std::size_t number() const { return place_.number(); }
     /// How the conditions have changed since the start.
     [[nodiscard]] const ChangeLog& changes() const { return changes_; }
     [[nodiscard]] const Link& link(Direction direction) const
@@ -112,6 +118,7 @@ private:
     void enact(base::TimePoint now, ChangeCause by);
 
     Director director_;
+    DueTimes::Place place_;
     ChangeLog changes_;
     Link up_;
     Link down_;

@@ -48,7 +48,8 @@ EmulatedPath& Paths::add(const std::string& name)
                               .slab = setup_.slab,
                               .has_stream_statistics = setup_.has_stream_statistics,
                               .name = name,
-                              .changes_max = setup_.changes_max};
+                              .changes_max = setup_.changes_max,
+                              .place = due_times_->add()};
     if (setup_.replay) {
         static const Fates none; // whatever comes is dropped as replay_ended
         const auto found = setup_.replay->find(name);
@@ -56,6 +57,8 @@ EmulatedPath& Paths::add(const std::string& name)
     }
     auto path = std::make_unique<EmulatedPath>(director_for(name), setup);
     EmulatedPath& added = *paths_.emplace_back(Named{name, std::move(path)}).path;
+    by_number_.resize(std::max(by_number_.size(), added.number() + 1));
+    by_number_[added.number()] = &added;
     find_next_change();
     return added;
 }
@@ -67,6 +70,8 @@ void Paths::remove(std::string_view name)
     if (newcomers_ && std::ranges::find(mentioned_, name) != mentioned_.end()) {
         absent_.push_back({found->name, found->path->director()});
     }
+    due_times_->remove(found->path->number());
+    by_number_[found->path->number()] = nullptr;
     paths_.erase(found);
     find_next_change();
 }
@@ -152,13 +157,6 @@ std::uint64_t Paths::generations() const
     std::uint64_t sum = 0;
     for (const auto& [name, director] : deciders()) sum += director->generation();
     return sum;
-}
-
-std::optional<base::TimePoint> Paths::next_due() const
-{
-    std::optional<base::TimePoint> next;
-    for (const Named& one : paths_) next = base::earlier(next, one.path->next_due());
-    return next;
 }
 
 PathNames Paths::names() const

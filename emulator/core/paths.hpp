@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/due_times.hpp"
 #include "emulator/core/emulated_path.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/path_name.hpp"
@@ -80,7 +81,18 @@ public:
     /// The next generation comes after this one.
     void count_from(std::uint64_t generation) { generation_ = std::max(generation_, generation); }
 
-    [[nodiscard]] std::optional<base::TimePoint> next_due() const;
+    /// When the next datagram of any path is due. Asks only paths that something happened to.
+    [[nodiscard]] std::optional<base::TimePoint> next_due()
+    {
+        refresh_due_times();
+        return due_times_->earliest();
+    }
+    /// `visit(number)` for the EmulatedPath::number() of each that has a datagram due at `now`.
+    void each_due(base::TimePoint now, const auto& visit)
+    {
+        refresh_due_times();
+        due_times_->each_due(now, visit);
+    }
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
     [[nodiscard]] PathNames names() const;
@@ -109,6 +121,10 @@ private:
     };
 
     void advance_all(base::TimePoint now);
+    void refresh_due_times()
+    {
+        due_times_->refresh([this](std::size_t number) { return by_number_[number]->next_due(); });
+    }
     void find_next_change();
     base::Result<void> expect(std::span<const std::string> mentioned);
     void forget_absent(const Command& command, std::span<const std::string> mentioned);
@@ -120,6 +136,8 @@ private:
     std::optional<Director> newcomers_; // what holds for whoever comes
     std::vector<Absent> absent_;        // what holds for some of them, or elsewhere
     std::vector<std::string> mentioned_;
+    std::unique_ptr<DueTimes> due_times_ = std::make_unique<DueTimes>(); // the paths mark it
+    std::vector<const EmulatedPath*> by_number_;                         // null where there is none
     std::vector<Named> paths_;
     base::TimePoint now_;
     std::uint64_t generation_ = 1;

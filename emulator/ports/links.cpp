@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/ports/links.hpp"
 
+#include "proto/base/ensure.hpp"
+
 #include <cstdint>
 
 namespace hapnet::emulator::ports {
@@ -16,12 +18,14 @@ Links::Links(const Places& places, const std::vector<std::unique_ptr<Paths>>& pa
         const Relay::Among among{name, own_, recorder.add_path(name), recorder.lane(part)};
         relays_.push_back(std::make_unique<Relay>(endpoints, *paths[part], among));
         if (has_several && !parts_[part]->ready_) parts_[part]->ready_.emplace();
-        parts_[part]->add(*relays_.back());
+        parts_[part]->add(*relays_.back(), *paths[part]);
     }
 }
 
-void Links::Part::add(Relay& relay)
+void Links::Part::add(Relay& relay, Paths& paths)
 {
+    paths_ = &paths;
+    base::ensure(relay.path().number() == relays_.size());
     const auto place = static_cast<std::uint64_t>(relays_.size());
     relays_.push_back(&relay);
     if (!ready_) return;
@@ -40,7 +44,7 @@ void Links::Part::receive()
 
 void Links::Part::release(base::TimePoint now)
 {
-    for (Relay* relay : relays_) relay->release(now);
+    paths_->each_due(now, [&](std::size_t number) { relays_[number]->release(now); });
 }
 
 std::vector<int> Links::Part::descriptors() const

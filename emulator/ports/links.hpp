@@ -46,10 +46,11 @@ public:
 
     private:
         friend class Links;
-        void add(Relay& relay);
+        void add(Relay& relay, Paths& paths);
 
         std::optional<net::WaitSet> ready_; // of several
-        std::vector<Relay*> relays_;
+        Paths* paths_ = nullptr;
+        std::vector<Relay*> relays_; // by the numbers of their paths
     };
 
     /// Binds all sockets. A part for each of the paths: the links are dealt out in turn. Throws

@@ -199,6 +199,8 @@ std::unique_ptr<Upstream::Client> Upstream::Part::admit(const net::Received& dat
     next_look_ = base::earlier(next_look_, table_.idle_at(place));
     client->name = name_of(*client);
     client->path = &paths_.add(client->name);
+    by_path_.resize(std::max(by_path_.size(), client->path->number() + 1));
+    by_path_[client->path->number()] = client.get();
     client->recorded_as = common_.recorder.add_path(client->name);
     common_.own.add(client->local);
     return client;
@@ -247,11 +249,11 @@ void Upstream::Part::receive()
 
 void Upstream::Part::release(base::TimePoint now)
 {
-    for (const auto& client : clients_) {
-        if (!client) continue;
-        send_due(way(*client, Direction::up), to_server(*client), way(*client, Direction::down),
-                 to_client(*client), now);
-    }
+    paths_.each_due(now, [&](std::size_t number) {
+        Client& client = *by_path_[number];
+        send_due(way(client, Direction::up), to_server(client), way(client, Direction::down),
+                 to_client(client), now);
+    });
     forget_idle(now);
 }
 

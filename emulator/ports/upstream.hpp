@@ -161,6 +161,7 @@ private:
     net::WaitSet answers_;
     ClientTable<net::Endpoint> table_;
     std::vector<std::unique_ptr<Client>> clients_; // by their places
+    std::vector<Client*> by_path_;                 // by the numbers of their paths
     std::map<std::string, std::uint64_t> visits_;  // by addresses, where they are names
     std::optional<base::TimePoint> next_look_;     // at who is idle
     Departed departed_;

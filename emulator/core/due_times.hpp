@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// When something is due in each of many places, and the earliest of them: a tournament tree. It
+/// is told which places to ask again, so that each turn costs what has changed, not what is there.
+class DueTimes {
+public:
+    /// A place that is told apart from the others.
+    class Place {
+    public:
+        Place() = default; // of none: marking it does nothing
+        Place(DueTimes& all, std::size_t number) : all_{&all}, number_{number} {}
+
+        /// What is due here may have changed.
+        void mark() const
+        {
+            if (all_ != nullptr) all_->mark(number_);
+        }
+        [[nodiscard]] std::size_t number() const { return number_; }
+
+    private:
+        DueTimes* all_ = nullptr;
+        std::size_t number_ = 0;
+    };
+
+    /// Numbers from 0, the lowest that is free.
+    Place add()
+    {
+        const auto free = std::ranges::find(is_taken_, false);
+        const auto number = static_cast<std::size_t>(free - is_taken_.begin());
+        if (free == is_taken_.end()) grow();
+        is_taken_[number] = true;
+        mark(number);
+        return {*this, number};
+    }
+
+    void remove(std::size_t number)
+    {
+        is_taken_[number] = false;
+        set(number, never);
+    }
+
+    /// Asks what has been marked since. `due_of(number)`: when something is due there, if ever.
+    void refresh(const auto& due_of)
+    {
+        for (const std::size_t number : marked_) {
+            is_marked_[number] = false;
+            if (is_taken_[number]) set(number, due_of(number).value_or(never));
+        }
+        marked_.clear();
+    }
+
+    /// The earliest, after refresh().
+    [[nodiscard]] std::optional<base::TimePoint> earliest() const
+    {
+        return tree_[1] == never ? std::nullopt : std::optional{tree_[1]};
+    }
+
+    /// `visit(number)` for all where something is due at `now`, by their numbers, after refresh().
+    /// It may mark places.
+    void each_due(base::TimePoint now, const auto& visit) const { each_due_below(1, now, visit); }
+
+private:
+    static constexpr base::TimePoint never = base::TimePoint::max();
+
+    void mark(std::size_t number)
+    {
+        if (is_marked_[number]) return;
+        is_marked_[number] = true;
+        marked_.push_back(number);
+    }
+
+    [[nodiscard]] std::size_t leaves() const { return tree_.size() / 2; }
+
+    void grow()
+    {
+        is_taken_.push_back(false);
+        is_marked_.push_back(false);
+        const std::size_t wanted = std::bit_ceil(is_taken_.size());
+        if (wanted == leaves()) return;
+        std::vector<base::TimePoint> former(wanted, never);
+        std::copy_n(tree_.begin() + static_cast<std::ptrdiff_t>(leaves()),
+                    std::min(leaves(), wanted), former.begin());
+        tree_.assign(2 * wanted, never);
+        for (std::size_t i = 0; i < wanted; ++i) set(i, former[i]);
+    }
+
+    /// Each node holds the earlier one of the two below it, 2 n and 2 n + 1.
+    void set(std::size_t number, base::TimePoint due)
+    {
+        std::size_t node = leaves() + number;
+        tree_[node] = due;
+        for (node /= 2; node >= 1; node /= 2) {
+            const auto earlier = std::min(tree_[2 * node], tree_[2 * node + 1]);
+            if (tree_[node] == earlier) return;
+            tree_[node] = earlier;
+        }
+    }
+
+    void each_due_below(std::size_t node, base::TimePoint now, const auto& visit) const
+    {
+        if (tree_[node] == never || tree_[node] > now) return;
+        if (node >= leaves()) return visit(node - leaves());
+        each_due_below(2 * node, now, visit);
+        each_due_below(2 * node + 1, now, visit);
+    }
+
+    std::vector<base::TimePoint> tree_{never, never}; // the root is [1], the leaves the last half
+    std::vector<bool> is_taken_;
+    std::vector<bool> is_marked_;
+    std::vector<std::size_t> marked_;
+};
+
+} // namespace hapnet::emulator
