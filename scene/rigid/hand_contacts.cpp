@@ -270,86 +270,20 @@ bool HandContacts::may_press_again(const WorldConfig& config)
         const std::size_t presses = i == a.hand || i == b.hand ? 1 : 0;
         if (hands_[i].holding || hands_[i].count != presses) return false;
     }
-    const AmidFace& first = hands_[a.hand].nearby[0].amid;
-    const AmidFace& second = hands_[b.hand].nearby[0].amid;
-    Pressing& pressing = pressing_;
-    pressing.body = a.body;
-    pressing.hand = {a.hand, b.hand};
-    pressing.found = both(first.offset, second.offset);
-    pressing.room = Two{first.room, second.room};
-    pressing.half = Two{first.half, second.half};
-    PressingSprings& springs = pressing.springs;
-    springs.normal = both(first.normal, second.normal);
-    springs.radius = Two{one.radius, two.radius};
-    springs.stiffness = Two{one.stiffness, two.stiffness};
-    springs.damping = Two{one.damping, two.damping};
-    springs.force_max = Two{one.force_max, two.force_max};
-    springs.are_two = all.size() == 2;
+    pressing_ = PressingHands{a.body,
+                              {a.hand, hands_[a.hand].nearby[0].amid, one},
+                              {b.hand, hands_[b.hand].nearby[0].amid, two}};
     return one.stiffness > 0.0 && two.stiffness > 0.0;
 }
 
-bool HandContacts::is_where_it_was(std::uint32_t hand, const HandInput& input,
-                                   std::span<const PartId> near) const
+bool HandContacts::press_again(const WorldState& state, const SweptBox& now,
+                               const glm::dvec3& velocity)
 {
-    if (hand == pressing_.hand[0] || hand == pressing_.hand[1])
-        return !input.gripping && near.size() == 1 && near[0] == pressing_.body;
-    return !input.gripping && near.empty();
-}
-
-bool HandContacts::press_again(const WorldState& state, const Target& target)
-{
-    Pressing& pressing = pressing_;
-    PressingSprings& springs = pressing.springs;
-    const HandInput& a = state.hands[pressing.hand[0]];
-    const HandInput& b = state.hands[pressing.hand[1]];
-    const TwoVectors offset =
-        both(a.position.value, b.position.value) - both(target.now.box.centre);
-    const Two away = sum_of_sizes(offset - pressing.found);
-    if (!(away[0] <= pressing.room[0] && away[1] <= pressing.room[1])) return false;
-    // As press() does.
-    const Two above = dot(springs.normal, offset) - pressing.half;
-    springs.arm = offset - above * springs.normal;
-    const Two gap = above - springs.radius;
-    springs.gap = gap;
-    const Two depth = -gap;
-    if (!(depth[0] > 0.0 && depth[1] > 0.0 && depth[0] < springs.radius[0] &&
-          depth[1] < springs.radius[1]))
-        return false;
-    springs.velocity = both(a.velocity.value, b.velocity.value);
-    const TwoVectors here = both(target.velocity) + cross(both(target.now.spin), springs.arm);
-    const Two closing = dot(here - springs.velocity, springs.normal);
-    // As force_at() does.
-    const Two wanted = springs.stiffness * depth + springs.damping * closing;
-    const Two force{std::clamp(wanted[0], 0.0, springs.force_max[0]),
-                    std::clamp(wanted[1], 0.0, springs.force_max[1])};
-    pressing.depth = depth;
-    pressing.at_start = force * springs.normal;
-    hands_[pressing.hand[0]].nearby[0].offset = first(offset);
-    hands_[pressing.hand[1]].nearby[0].offset = second(offset);
+    const std::optional<TwoVectors> offsets = pressing_.press(state, now, velocity);
+    if (!offsets) return false;
+    hands_[pressing_.hand(0)].nearby[0].offset = first(*offsets);
+    hands_[pressing_.hand(1)].nearby[0].offset = second(*offsets);
     return true;
-}
-
-void HandContacts::report_again(const WorldConfig& config, WorldState& state,
-                                const TwoVectors& impulse) const
-{
-    const double rate = 1.0 / config.tick;
-    const glm::dvec3 none{0.0};
-    const auto report = [&](std::uint32_t hand, double depth, const glm::dvec3& at_start,
-                            const glm::dvec3& on_body) {
-        const base::Force force{rate * on_body};
-        const bool pushes = glm::dot(force.value, force.value) > 0.0;
-        state.touches[hand] = {.touching = pushes,
-                               .body = pushes ? pressing_.body : 0,
-                               .on_body = pushes ? force : base::Force{},
-                               .on_hand = base::Force{none - force.value},
-                               .depth_m = depth,
-                               .on_hand_at_start = base::Force{none + at_start}};
-    };
-    if (config.hands.count > 2 || !pressing_.springs.are_two)
-        for (std::uint32_t i = 0; i < config.hands.count; ++i) state.touches[i] = {};
-    report(pressing_.hand[0], pressing_.depth[0], first(pressing_.at_start), first(impulse));
-    if (pressing_.springs.are_two)
-        report(pressing_.hand[1], pressing_.depth[1], second(pressing_.at_start), second(impulse));
 }
 
 void HandContacts::feel_planes(const WorldConfig& config, WorldState& state)

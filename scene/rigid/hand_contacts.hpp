@@ -6,9 +6,9 @@
 #include "scene/collide/sphere_box.hpp"
 #include "scene/collide/sweep.hpp"
 #include "scene/hand/advance.hpp"
-#include "scene/hand/constant_contact.hpp"
 #include "scene/hand/friction.hpp"
 #include "scene/rigid/hand_proxies.hpp"
+#include "scene/rigid/pressing_hands.hpp"
 #include "scene/state.hpp"
 
 #include <array>
@@ -74,16 +74,10 @@ public:
     /// Whether all springs of this tick, one or two, press amid faces of one body that no other
     /// hand is near: then the next tick may begin with press_again().
     [[nodiscard]] bool may_press_again(const WorldConfig& config);
-    /// Whether a hand may do what it did then; `near`: the bodies that it may reach.
-    [[nodiscard]] bool is_where_it_was(std::uint32_t hand, const HandInput& input,
-                                       std::span<const PartId> near) const;
     /// What collide() would find. False when another face or none is pressed.
-    [[nodiscard]] bool press_again(const WorldState& state, const Target& target);
-    [[nodiscard]] const PressingSprings& pressing() const { return pressing_.springs; }
-    [[nodiscard]] std::uint32_t first_pressing() const { return pressing_.hand[0]; }
-    /// What begin_step() and report_forces() would report of that, with the impulses on the body.
-    void report_again(const WorldConfig& config, WorldState& state,
-                      const TwoVectors& impulse) const;
+    [[nodiscard]] bool press_again(const WorldState& state, const SweptBox& now,
+                                   const glm::dvec3& velocity);
+    [[nodiscard]] const PressingHands& pressing() const { return pressing_; }
     [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
     /// Adds what the hands feel of planes.
     static void feel_planes(const WorldConfig& config, WorldState& state);
@@ -133,15 +127,6 @@ public:
     void forget(const Bodies& bodies, BodyId body);
 
 private:
-    /// A face that a hand is in front of and amid. It stays so as long as the body does not turn
-    /// and the hand comes no farther from where this was found: what was found then holds.
-    struct AmidFace {
-        std::uint64_t turns = 0; // SweptBox::turns
-        glm::dvec3 offset{0.0};  // of the hand from the body's centre
-        double room = -1.0;      // along the face; < 0: not amid one
-        glm::dvec3 normal{0.0};
-        double half = 0.0; // from the body's centre to the face
-    };
     /// What is remembered of a part of a body near a hand.
     struct NearBody {
         PartId part = 0;
@@ -152,16 +137,6 @@ private:
         glm::dvec3 offset{0.0};
         glm::dmat3 axes{1.0};
         AmidFace amid;
-    };
-    /// Those that press a body amid faces, side by side; where there is one, it stands twice.
-    struct Pressing {
-        PartId body = 0;
-        std::array<std::uint32_t, 2> hand{};
-        PressingSprings springs;
-        TwoVectors found{};    // AmidFace::offset
-        Two room{}, half{};    // likewise
-        Two depth{};           // in this tick
-        TwoVectors at_start{}; // the force on the hand, likewise
     };
     struct Holding {
         BodyId body = 0;
@@ -225,7 +200,7 @@ private:
     Scratch<HandSpring> forces_;  // in the order of springs_
     Scratch<HandSpring> own_;     // of one body
     Scratch<SpringImpulse> work_; // of one body
-    Pressing pressing_;
+    PressingHands pressing_;
     HandProxies proxies_;
     Scratch<RubbedSpring> rubbed_;      // in the order of springs_, where there is friction
     Scratch<FrictionSpring> frictions_; // of one body

@@ -67,11 +67,9 @@ bool RigidStepper<broad_phase>::finds_the_same(const WorldConfig& config, WorldS
             near = pairs_.near_hand(
                 hand, {from, from + scales_.tick * input.velocity.value, config.hands.radius_m});
         }
-        if (!hand_contacts_.is_where_it_was(hand, input, near)) return false;
+        if (!hand_contacts_.pressing().is_where_it_was(hand, input, near)) return false;
     }
-    if (!hand_contacts_.press_again(state,
-                                    {steady_.body, steady_.body, true, now, bodies.velocity.at(0)}))
-        return false;
+    if (!hand_contacts_.press_again(state, now, bodies.velocity.at(0))) return false;
     const Pair& pair = pairs_.plane_pair(pairs_.plane_pairs()[0]);
     const PlaneDescription& plane = config.planes[pair.b];
     const double height = glm::dot(plane.normal, now.box.centre) - plane.offset_m;
@@ -100,9 +98,10 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     const MovingBody start{bodies.position.at(0), bodies.orientation.at(0), bodies.velocity.at(0),
                            bodies.angular_momentum.at(0)};
     MovingBody body = start;
+    const PressingHands& pressing = hand_contacts_.pressing();
     TwoVectors impulse;
-    if (!advance_in_constant_contact(body, steady_.dynamics, hand_contacts_.pressing(), config.tick,
-                                     modes_[hand_contacts_.first_pressing()], impulse))
+    if (!advance_in_constant_contact(body, steady_.dynamics, pressing.springs(), config.tick,
+                                     modes_[pressing.hand(0)], impulse))
         return false;
     BodyIntegration& integration = integrations_[1];
     integration.start.velocity = start.velocity;
@@ -138,7 +137,7 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     counts_.contacts = counts_.sweeps = 1;
     counts_.change = 0.0;
     ++counts_.steady_ticks;
-    hand_contacts_.report_again(config, state, impulse);
+    pressing.report(config, state, impulse);
     if constexpr (sleeps) sleep_.keep_awake(bodies, steady_.body);
     update_sleep(state);
     steady_.is_likely = true;

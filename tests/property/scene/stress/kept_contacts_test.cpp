@@ -80,7 +80,8 @@ struct Pressed {
         cube.material.friction = description.planes[0].material.friction = dice.between(0.0, 0.6);
         description.bodies[1].movable = dice.one_in(2);
         description.hands.count = 3;
-        for (double& place : places) place = dice.between(-0.012, 0.012);
+        const bool is_aside = dice.one_in(3);
+        for (double& place : places) place = is_aside ? dice.between(-0.012, 0.012) : 0.0;
         swing = dice.one_in(3) ? 0.0 : 5e-3;
         depth = dice.between(-2e-4, 1.5e-3);
     }
@@ -153,7 +154,7 @@ TEST(KeptContacts, ATickInWhichEverythingGoesOnHasTheBitsOfOneThatBeginsFromNoth
         all += steady_ticks(*world);
         EXPECT_EQ(steady_ticks(copied), 0U);
     }
-    EXPECT_GT(all, 24U * ticks / 4); // of 19 200
+    EXPECT_GT(all, 24U * ticks / 16); // a tenth and more goes on so
 }
 
 } // namespace
