@@ -87,13 +87,11 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     Bodies& bodies = state.bodies;
     const BodyProperties& properties = bodies.properties[0];
     ContactBlock& block = solver_.blocks()[0];
-    const Wrench& push = block.start_push;
     const double per_second = 1.0 / config.tick;
     const BodyResponse& response = solver_.response(1);
-    const glm::dvec3 torque =
-        glm::dvec3{0.0} + (glm::cross(block.arm_b, push.impulse) + push.angular);
+    const auto& [push, turn] = block.start_push;
+    const glm::dvec3 torque = glm::dvec3{0.0} + (glm::cross(block.arm_b, push) + turn);
     steady_.dynamics.torque = per_second * torque;
-
     // The velocities at the end, and the mean ones.
     const MovingBody start{bodies.position.at(0), bodies.orientation.at(0), bodies.velocity.at(0),
                            bodies.angular_momentum.at(0)};
