@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace hapnet::scene {
 
@@ -23,43 +24,57 @@ constexpr double half_rotation_max = 0.01;
 constexpr double no_rotation = 1e-13;
 // A rotation below this keeps all directions, to rounding.
 constexpr double negligible_rotation = 1e-10;
+// A rotation below this changes an orientation by less than has_hardly_turned() takes for one.
+constexpr double hardly_any_rotation = 5e-11;
 
 glm::dvec3 diagonal_of(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
 
-/// The springs that press and the faces, both at once; where there is one, the other pushes along
-/// nothing. Everything is set before it is read.
+/// What acts on the body, and what the springs that press do, both at once; where there is one,
+/// the other pushes along nothing. Everything is set before it is read.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 class ConstantContact {
 public:
-    ConstantContact(MovingBody& body, const BodyDynamics& dynamics,
-                    std::span<const HandSpring> springs, double tick)
+    ConstantContact(MovingBody& body, const BodyDynamics& dynamics, const PressingSprings& springs,
+                    double tick)
         : body_{body},
           dynamics_{dynamics},
           springs_{springs},
-          has_two_{springs.size() == 2},
           tick_{tick},
           ease_{diagonal_of(dynamics.inverse_inertia)}
     {}
 
-    /// False: it is not steady.
-    bool advance(std::span<SpringImpulse> work, PressedModes& modes)
+    /// Moves and turns the body. False, and it has not changed: something begins or ends, or it
+    /// turns by more than `rotation_max`.
+    bool advance(PressedModes& modes, double rotation_max)
     {
         if (!set_geometry_halfway()) return false;
         set_couplings();
-        return integrate_contacts(modes) && finish(work);
+        if (!integrate_contacts(modes) || !stays_amid()) return false;
+        if (!(sum_of_sizes(angle_) <= rotation_max)) return false;
+        finish();
+        return true;
     }
+    /// On the hands.
+    [[nodiscard]] const TwoVectors& impulse() const { return push_; }
+    /// So little that the directions stay, to rounding.
+    [[nodiscard]] bool turns_negligibly() const
+    {
+        return glm::dot(angle_, angle_) < negligible_rotation * negligible_rotation;
+    }
+    /// What the turn changes in the springs' energy.
+    void correct(std::span<const HandSpring> springs, std::span<SpringImpulse> work) const;
 
 private:
     bool set_geometry_halfway();
     void set_couplings();
     bool integrate_contacts(PressedModes& modes);
-    bool finish(std::span<SpringImpulse> work);
+    bool stays_amid();
+    void finish();
     [[nodiscard]] Two depth_change() const;
 
     MovingBody& body_;
     const BodyDynamics& dynamics_;
-    std::span<const HandSpring> springs_;
-    bool has_two_;
+    const PressingSprings& springs_;
     double tick_;
     glm::dvec3 ease_; // 1/(kg m^2), about each axis
     TwoVectors hand_; // seen from the body's centre, at the start
@@ -70,6 +85,10 @@ private:
     Two depth_, closing_;  // at the start
     Two acceleration_;     // of the depths, by everything but the springs
     Two impulse_, moment_; // of the forces, N s, and its integral, N s^2
+    glm::dvec3 moved_, angle_;
+    TwoVectors gone_; // the hands, seen from the body's centre
+    TwoVectors push_;
+    glm::dquat turn_;
 };
 
 /// Turns what is held to where it is halfway at the speeds of the start: what the forces change
@@ -80,12 +99,15 @@ bool ConstantContact::set_geometry_halfway()
     const glm::dvec3 angle = half * (ease_ * body_.angular_momentum);
     const double most = sum_of_sizes(angle);
     if (!(most <= half_rotation_max)) return false;
-    const HandSpring& a = springs_.front();
-    const HandSpring& b = springs_.back();
-    normal_ = both(a.normal, has_two_ ? b.normal : glm::dvec3{0.0});
-    hand_ = both(a.arm, b.arm) + Two{a.radius + a.gap, b.radius + b.gap} * normal_;
-    away_ = both(body_.velocity) - both(a.velocity, b.velocity);
-    depth_ = Two{-a.gap, has_two_ ? -b.gap : 0.0};
+    const Two gap = springs_.gap;
+    normal_ = springs_.normal;
+    depth_ = -gap;
+    if (!springs_.are_two) {
+        normal_.x[1] = normal_.y[1] = normal_.z[1] = 0.0;
+        depth_[1] = 0.0;
+    }
+    hand_ = springs_.arm + (springs_.radius + gap) * normal_;
+    away_ = both(body_.velocity) - springs_.velocity;
     if (most > no_rotation) {
         const TwoVectors turn = both(angle);
         const TwoVectors once = cross(turn, normal_);
@@ -109,16 +131,13 @@ void ConstantContact::set_couplings()
 /// False when a force may end or reach its greatest, or the tick is long for the springs.
 bool ConstantContact::integrate_contacts(PressedModes& modes)
 {
-    const HandSpring& a = springs_.front();
-    const HandSpring& b = springs_.back();
+    const Two stiffness = springs_.stiffness, damping = springs_.damping;
+    const Two force_max = springs_.force_max;
     PressedModes::Outcome outcome;
-    Two stiffness = both(a.stiffness), damping = both(a.damping);
-    if (a.stiffness == b.stiffness && a.damping == b.damping) {
-        if (!modes.find({own_, mutual_, a.stiffness, a.damping, tick_})) return false;
+    if (stiffness[0] == stiffness[1] && damping[0] == damping[1]) {
+        if (!modes.find({own_, mutual_, stiffness[0], damping[0], tick_})) return false;
         outcome = modes.outcome({depth_, closing_, acceleration_});
     } else {
-        stiffness = Two{a.stiffness, b.stiffness};
-        damping = Two{a.damping, b.damping};
         const UnlikeSprings unlike{own_, mutual_, stiffness, damping, tick_};
         const auto found = unlike.outcome({depth_, closing_, acceleration_});
         if (!found) return false;
@@ -126,8 +145,8 @@ bool ConstantContact::integrate_contacts(PressedModes& modes)
     }
     const Two start = stiffness * depth_ + damping * closing_;
     const Two least = start - outcome.change, most = start + outcome.change;
-    if (!(least[0] > 0.0 && most[0] < a.force_max)) return false;
-    if (has_two_ && !(least[1] > 0.0 && most[1] < b.force_max)) return false;
+    if (!(least[0] > 0.0 && most[0] < force_max[0])) return false;
+    if (springs_.are_two && !(least[1] > 0.0 && most[1] < force_max[1])) return false;
     impulse_ = outcome.impulse;
     moment_ = outcome.moment;
     return true;
@@ -140,45 +159,64 @@ Two ConstantContact::depth_change() const
     return both(tick_) * (closing_ + both(0.5 * tick_) * acceleration_) - pushed;
 }
 
-bool ConstantContact::finish(std::span<SpringImpulse> work)
+bool ConstantContact::stays_amid()
 {
     const double t = tick_;
-    const TwoVectors push = impulse_ * normal_;
-    const glm::dvec3 moved = t * (body_.velocity + (0.5 * t) * dynamics_.acceleration) -
-                             dynamics_.inverse_mass * sum(moment_ * normal_);
+    moved_ = t * (body_.velocity + (0.5 * t) * dynamics_.acceleration) -
+             dynamics_.inverse_mass * sum(moment_ * normal_);
     const glm::dvec3 swept =
         t * (body_.angular_momentum + (0.5 * t) * dynamics_.torque) - sum(moment_ * lever_);
-    const glm::dvec3 angle = ease_ * swept;
+    angle_ = ease_ * swept;
     // From amid a face to beside it is a tenth of a half edge at least.
     const glm::dvec3& size = dynamics_.half;
     const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
-    const double corner = (size.x + size.y + size.z) * sum_of_sizes(angle);
-    const HandSpring& a = springs_.front();
-    const HandSpring& b = springs_.back();
-    const TwoVectors gone = both(t) * both(a.velocity, b.velocity) - both(moved);
-    const Two farthest = sum_of_sizes(gone) + both(corner);
-    if (!(farthest[0] <= room && farthest[1] <= room)) return false;
-    work[0].impulse = -first(push); // `advance` clears what is refused
-    if (has_two_) work[1].impulse = -second(push);
-    body_.position += moved;
-    body_.velocity += t * dynamics_.acceleration - dynamics_.inverse_mass * sum(push);
+    const double corner = (size.x + size.y + size.z) * sum_of_sizes(angle_);
+    gone_ = both(t) * springs_.velocity - both(moved_);
+    const Two farthest = sum_of_sizes(gone_) + both(corner);
+    return farthest[0] <= room && farthest[1] <= room;
+}
+
+void ConstantContact::finish()
+{
+    const double t = tick_;
+    push_ = impulse_ * normal_;
+    body_.position += moved_;
+    body_.velocity += t * dynamics_.acceleration - dynamics_.inverse_mass * sum(push_);
     body_.angular_momentum += t * dynamics_.torque - sum(impulse_ * lever_);
-    if (angle == glm::dvec3{0.0}) return true;
-    const glm::dquat turn = rotation_by(angle);
-    body_.orientation = unit_again(turn * body_.orientation);
-    if (glm::dot(angle, angle) < negligible_rotation * negligible_rotation) return true;
-    const TwoVectors hands = hand_ + gone;
+    if (angle_ == glm::dvec3{0.0}) return;
+    turn_ = rotation_by(angle_);
+    body_.orientation = unit_again(turn_ * body_.orientation);
+}
+
+void ConstantContact::correct(std::span<const HandSpring> springs,
+                              std::span<SpringImpulse> work) const
+{
+    const TwoVectors hands = hand_ + gone_;
     const std::array<glm::dvec3, 2> hand{first(hands), second(hands)};
     const Two depth = depth_ + depth_change();
-    for (std::size_t i = 0; i < springs_.size(); ++i) {
-        const HandSpring& spring = springs_[i];
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+        const HandSpring& spring = springs[i];
         const double above =
-            glm::dot(turn * spring.normal, hand[i]) - // the face turns about the centre
+            glm::dot(turn_ * spring.normal, hand[i]) - // the face turns about the centre
             glm::dot(spring.normal, spring.arm);
-        correct_energy({body_, dynamics_, dynamics_.inverse_inertia, t}, spring,
+        correct_energy({body_, dynamics_, dynamics_.inverse_inertia, tick_}, spring,
                        {depth[i], spring.radius - above}, work[i]);
     }
-    return true;
+}
+
+PressingSprings side_by_side(std::span<const HandSpring> springs)
+{
+    const HandSpring& a = springs.front();
+    const HandSpring& b = springs.back();
+    return {both(a.normal, b.normal),
+            both(a.arm, b.arm),
+            both(a.velocity, b.velocity),
+            Two{a.radius, b.radius},
+            Two{a.gap, b.gap},
+            Two{a.stiffness, b.stiffness},
+            Two{a.damping, b.damping},
+            Two{a.force_max, b.force_max},
+            springs.size() == 2};
 }
 
 } // namespace
@@ -191,7 +229,25 @@ bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
     for (const HandSpring& spring : springs) {
         if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
     }
-    return ConstantContact{body, dynamics, springs, tick}.advance(work, modes);
+    const PressingSprings pressing = side_by_side(springs);
+    ConstantContact contact{body, dynamics, pressing, tick};
+    if (!contact.advance(modes, std::numeric_limits<double>::infinity())) return false;
+    const TwoVectors& push = contact.impulse();
+    work[0].impulse = -first(push); // `advance` clears what is refused
+    if (pressing.are_two) work[1].impulse = -second(push);
+    if (!contact.turns_negligibly()) contact.correct(springs, work);
+    return true;
+}
+
+bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
+                                 const PressingSprings& springs, double tick, PressedModes& modes,
+                                 TwoVectors& impulse)
+{
+    ConstantContact contact{body, dynamics, springs, tick};
+    if (!contact.advance(modes, hardly_any_rotation)) return false;
+    const TwoVectors& push = contact.impulse();
+    impulse = {-push.x, -push.y, -push.z};
+    return true;
 }
 
 } // namespace hapnet::scene

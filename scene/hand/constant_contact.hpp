@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/hand/advance.hpp"
+#include "scene/maths/lanes.hpp"
 
 #include <span>
 
@@ -17,5 +18,19 @@ namespace hapnet::scene {
                                                std::span<const HandSpring> springs,
                                                std::span<SpringImpulse> work, double tick,
                                                PressedModes& modes);
+
+/// One or two springs that press amid faces, side by side; where there is one, it stands twice.
+struct PressingSprings {
+    TwoVectors normal{}, arm{}, velocity{}; // see HandSpring
+    Two radius{}, gap{};                    // likewise
+    Two stiffness{}, damping{}, force_max{};
+    bool are_two = false;
+};
+
+/// The same for those, and only for a tick in which the body turns by no more than rounding: then
+/// it is exact. `impulse` is on the body.
+[[nodiscard]] bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
+                                               const PressingSprings& springs, double tick,
+                                               PressedModes& modes, TwoVectors& impulse);
 
 } // namespace hapnet::scene

@@ -257,6 +257,35 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
                       target.with_parts != nullptr};
 }
 
+bool HandContacts::may_press_again(const WorldConfig& config)
+{
+    const std::span<const Spring> all = springs();
+    if (all.empty() || all.size() > 2) return false;
+    const Spring& a = all.front();
+    const Spring& b = all.back();
+    const HandSpring& one = forces_[0];
+    const HandSpring& two = forces_[all.size() - 1];
+    if (!one.is_amid_face || !two.is_amid_face || a.body != b.body) return false;
+    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
+        const std::size_t presses = i == a.hand || i == b.hand ? 1 : 0;
+        if (hands_[i].holding || hands_[i].count != presses) return false;
+    }
+    pressing_ = PressingHands{a.body,
+                              {a.hand, hands_[a.hand].nearby[0].amid, one},
+                              {b.hand, hands_[b.hand].nearby[0].amid, two}};
+    return one.stiffness > 0.0 && two.stiffness > 0.0;
+}
+
+bool HandContacts::press_again(const WorldState& state, const SweptBox& now,
+                               const glm::dvec3& velocity)
+{
+    const std::optional<TwoVectors> offsets = pressing_.press(state, now, velocity);
+    if (!offsets) return false;
+    hands_[pressing_.hand(0)].nearby[0].offset = first(*offsets);
+    hands_[pressing_.hand(1)].nearby[0].offset = second(*offsets);
+    return true;
+}
+
 void HandContacts::feel_planes(const WorldConfig& config, WorldState& state)
 {
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {

@@ -8,6 +8,7 @@
 #include "scene/hand/advance.hpp"
 #include "scene/hand/friction.hpp"
 #include "scene/rigid/hand_proxies.hpp"
+#include "scene/rigid/pressing_hands.hpp"
 #include "scene/state.hpp"
 
 #include <array>
@@ -70,6 +71,13 @@ public:
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
+    /// Whether all springs of this tick, one or two, press amid faces of one body that no other
+    /// hand is near: then the next tick may begin with press_again().
+    [[nodiscard]] bool may_press_again(const WorldConfig& config);
+    /// What collide() would find. False when another face or none is pressed.
+    [[nodiscard]] bool press_again(const WorldState& state, const SweptBox& now,
+                                   const glm::dvec3& velocity);
+    [[nodiscard]] const PressingHands& pressing() const { return pressing_; }
     [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
     /// Adds what the hands feel of planes.
     static void feel_planes(const WorldConfig& config, WorldState& state);
@@ -119,15 +127,6 @@ public:
     void forget(const Bodies& bodies, BodyId body);
 
 private:
-    /// A face that a hand is in front of and amid. It stays so as long as the body does not turn
-    /// and the hand comes no farther from where this was found: what was found then holds.
-    struct AmidFace {
-        std::uint64_t turns = 0; // SweptBox::turns
-        glm::dvec3 offset{0.0};  // of the hand from the body's centre
-        double room = -1.0;      // along the face; < 0: not amid one
-        glm::dvec3 normal{0.0};
-        double half = 0.0; // from the body's centre to the face
-    };
     /// What is remembered of a part of a body near a hand.
     struct NearBody {
         PartId part = 0;
@@ -201,6 +200,7 @@ private:
     Scratch<HandSpring> forces_;  // in the order of springs_
     Scratch<HandSpring> own_;     // of one body
     Scratch<SpringImpulse> work_; // of one body
+    PressingHands pressing_;
     HandProxies proxies_;
     Scratch<RubbedSpring> rubbed_;      // in the order of springs_, where there is friction
     Scratch<FrictionSpring> frictions_; // of one body

@@ -178,25 +178,30 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
     integration.mean.velocity += lost / (integration.drag * tick) - excess - (0.5 * tick) * driven;
 }
 
+BodyDynamics dynamics_of(const BodyIntegration& integration, const WorldState& state, Slot slot,
+                         const BodyResponse& response, const WorldConfig& config)
+{
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return {properties.half,
+            response.inverse_mass,
+            response.inverse_inertia,
+            rotates_uniformly(properties),
+            acceleration_without_hands(integration, state, slot, config),
+            (1.0 / config.tick) * integration.contact_angular_impulse,
+            integration.drag,
+            integration.support_normal,
+            properties.rounding,
+            properties.has_parts() ? properties.inertia : glm::dvec3{0.0}};
+}
+
 void integrate_velocity_with_hands(BodyIntegration& integration, const WorldState& state, Slot slot,
                                    const BodyResponse& response, const HandForces& hands)
 {
     const WorldConfig& config = hands.config;
     const Bodies& bodies = state.bodies;
     set_start(integration, state, slot, response);
-    const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const double per_second = 1.0 / config.tick;
-    const BodyDynamics dynamics{
-        bodies.properties[slot].half,
-        response.inverse_mass,
-        response.inverse_inertia,
-        rotates_uniformly(bodies.properties[slot]),
-        rate,
-        per_second * integration.contact_angular_impulse,
-        integration.drag,
-        integration.support_normal,
-        bodies.properties[slot].rounding,
-        bodies.properties[slot].has_parts() ? bodies.properties[slot].inertia : glm::dvec3{0.0}};
+    const BodyDynamics dynamics = dynamics_of(integration, state, slot, response, config);
     const MovingBody start{bodies.position.at(slot), bodies.orientation.at(slot),
                            integration.start.velocity, bodies.angular_momentum.at(slot)};
     MovingBody body = start;

@@ -76,6 +76,11 @@ struct HandForces {
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
                         const BodyResponse& response, const WorldConfig& config);
 
+/// What acts on a body with hands on it, beside those.
+[[nodiscard]] BodyDynamics dynamics_of(const BodyIntegration& integration, const WorldState& state,
+                                       Slot slot, const BodyResponse& response,
+                                       const WorldConfig& config);
+
 /// The same with the hands' springs on it, which tell their work.
 void integrate_velocity_with_hands(BodyIntegration& integration, const WorldState& state, Slot slot,
                                    const BodyResponse& response, const HandForces& hands);
@@ -109,6 +114,14 @@ struct Ways {
     bool any_kept = false; // some body was held back
     bool any_far = false;  // some body goes far, turning included: ContinuousCollision has work
 };
+
+/// Whether a body does, turning included.
+[[nodiscard]] inline bool goes_far(const BodyProperties& body, const BodyMotion& mean,
+                                   const Scales& scales)
+{
+    return sum_of_sizes(mean.velocity) + sum_of_sizes(body.half) * sum_of_sizes(mean.spin) >
+           far_way * scales.least * scales.rate;
+}
 
 /// A body is on its way between what it began with and what it ends with. When the correction of
 /// overlaps throws it far out of that, it goes only as far as it cannot pass through anything, and

@@ -5,6 +5,7 @@
 #include "scene/collide/sweep.hpp"
 #include "scene/hand/midpoint.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/rigid/step_steady.hpp"
 #include "scene/rigid/step_velocities.hpp"
 
 #include <algorithm>
@@ -87,6 +88,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& description, const Wo
       continuous_{config, state.bodies, scales_},
       any_round_{state.bodies.any_is_round()}
 {
+    steady_.is_possible = can_be_steady(config, state);
     if constexpr (sleeps) {
         for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group)
             sleep_.join(joints_.bodies_of(group));
@@ -102,6 +104,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     const std::uint64_t hits = state.interventions.sweeps_continued;
     if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
+    if (steady_.is_likely && step_steadily(config, state)) return;
     collide_hands(config, state);
     wake_disturbed(state);
     begin_contacts(state);
@@ -135,6 +138,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     }
     active_.clear();
     report_hand_forces(config, state);
+    if (steady_.is_possible && !bounced && !changed) look_for_steadiness(config, state);
     update_sleep(state);
 }
 
@@ -149,6 +153,7 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::on_body_shifted(WorldState& state, BodyId body)
 {
+    steady_.is_likely = false;
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(state.bodies, body);
@@ -343,6 +348,14 @@ void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
         block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
 }
 
+/// The same of the mean velocities.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::set_least_ways(ContactBlock& block)
+{
+    for (std::uint32_t i = 0; i < block.count; ++i)
+        block.speed_min[i] = position_bias(block.separation[i], scales_);
+}
+
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldState& state)
 {
@@ -457,8 +470,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::correct_positions(WorldState& state)
 {
     for (ContactBlock& block : solver_.blocks()) {
-        for (std::uint32_t i = 0; i < block.count; ++i)
-            block.speed_min[i] = position_bias(block.separation[i], scales_);
+        set_least_ways(block);
         if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }

@@ -50,6 +50,7 @@ public:
     /// What was done, for tests and measurements.
     struct Counts {
         std::uint64_t contacts_left_out = 0; // beyond the bound
+        std::uint64_t steady_ticks = 0;      // in which everything went on as before
         std::uint32_t contacts = 0;          // of the last tick
         std::uint32_t sweeps = 0;            // of the last tick
         double change = 0.0;                 // m/s, of the last sweep
@@ -62,6 +63,12 @@ private:
     struct NoSleep {
         NoSleep(const WorldConfig& /*config*/, const Bodies& /*bodies*/) {}
     };
+
+    // Instead of the stages, where everything goes on.
+    bool step_steadily(const WorldConfig& config, WorldState& state);
+    [[nodiscard]] bool finds_the_same(const WorldConfig& config, WorldState& state);
+    [[nodiscard]] bool can_be_steady(const WorldConfig& config, const WorldState& state) const;
+    void look_for_steadiness(const WorldConfig& config, const WorldState& state);
 
     // The stages of a step, in their order.
     void update_pairs(const WorldState& state);
@@ -100,6 +107,7 @@ private:
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
     ContactBlock* add_contact(std::uint32_t points, ContactMemory& memory);
     void set_least_speeds(ContactBlock& block);
+    void set_least_ways(ContactBlock& block);
     void integrate_hand_springs(const WorldConfig& config, WorldState& state);
 
     Scales scales_;
@@ -119,6 +127,16 @@ private:
     Joints joints_;
     JointEnergy joint_energy_;
     ContinuousCollision continuous_;
+    /// What the last tick leaves for one in which everything goes on; the rest of it lies where
+    /// that left it.
+    struct Steady {
+        bool is_possible = false; // in this scene
+        bool is_likely = false;   // the last tick was in balance
+        BodyId body = 0;
+        std::uint64_t turns = 0; // SweptBox::turns
+        BodyDynamics dynamics;
+    };
+    Steady steady_;
     bool any_far_ = false; // some body could pass another in this tick
     bool any_round_;       // some body is a sphere or a capsule
     Counts counts_;

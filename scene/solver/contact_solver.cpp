@@ -123,20 +123,16 @@ SolverOutcome ContactSolver::solve_velocities_anew(const SolverLimits& limits,
 
 SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
 {
-    const auto overlaps = [&](const ContactBlock& block) {
+    const auto overlaps_now = [&](const ContactBlock& block) {
         ContactVector velocity =
             normal_velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
         if (block.turns) {
             for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.centripetal_velocity[i];
         }
-        for (std::size_t i = 0; i < block.count; ++i) {
-            if (block.normal_speed(velocity, i) < block.speed_min[i] - limits.tolerance)
-                return true;
-        }
-        return false;
+        return overlaps(block, velocity, limits);
     };
     const std::span<ContactBlock> blocks = blocks_.all();
-    if (std::none_of(blocks.begin(), blocks.end(), overlaps) &&
+    if (std::none_of(blocks.begin(), blocks.end(), overlaps_now) &&
         (joints_.is_empty() || !joints_.corrects_ways()))
         return {};
     // The new part of the impulses counts half in the mean velocities, as a force's would. For an

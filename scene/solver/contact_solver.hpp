@@ -76,6 +76,16 @@ public:
                                         std::span<const std::uint8_t> picked);
     /// The same for the mean velocities, without friction, and impulses that begin at zero.
     SolverOutcome correct_positions(const SolverLimits& limits);
+    /// Whether a contact with such mean velocities overlaps more than it may at the end.
+    [[nodiscard]] static bool overlaps(const ContactBlock& block, const ContactVector& velocity,
+                                       const SolverLimits& limits)
+    {
+        for (std::size_t i = 0; i < block.count; ++i) {
+            if (block.normal_speed(velocity, i) < block.speed_min[i] - limits.tolerance)
+                return true;
+        }
+        return false;
+    }
     /// Once more, when bodies answer otherwise.
     SolverOutcome correct_positions_again(const SolverLimits& limits);
     /// Solves one block for given velocities, which stay as they are; returns the impulse.

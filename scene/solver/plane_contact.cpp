@@ -44,16 +44,28 @@ void PlaneContact::prepare(ContactBlock& block, const ContactMemory& memory)
     block.feature = pressure.feature;
     block.along_1 = pressure.along_1;
     block.along_2 = pressure.along_2;
-    block.separation = separation_;
     block.torsion_arm = pressure.torsion_arm;
-    // Midway between the two surfaces.
-    block.arm_b = pressure.across + (0.5 * (pressure.rise - height_)) * corners_.normal;
-    block.arm_a = block.arm_b; // of a plane, which does not move
+    set_heights(block);
     block.impulse = pressure.impulse;
     block.start_impulse = pressure.impulse.normal;
     block.start_push = pressure.push;
     block.has_matrix = false;
     block.is_on_plane = true;
+}
+
+bool PlaneContact::prepare_again(ContactBlock& block, const ContactMemory& memory) const
+{
+    if (touching_ == 0 || !has_pressure_of(memory)) return false;
+    set_heights(block);
+    return true;
+}
+
+inline void PlaneContact::set_heights(ContactBlock& block) const
+{
+    block.separation = separation_;
+    // Midway between the two surfaces.
+    block.arm_b = pressure_.across + (0.5 * (pressure_.rise - height_)) * corners_.normal;
+    block.arm_a = block.arm_b; // of a plane, which does not move
 }
 
 void PlaneContact::renew(const BoxOverPlane& box)

@@ -36,6 +36,9 @@ public:
     [[nodiscard]] bool lies_on(double within) const;
     /// Sets the block's geometry, and starts it from last tick's impulses.
     void prepare(ContactBlock& block, const ContactMemory& memory);
+    /// The same for a block that prepare() has set, since when only the height is new. False, and
+    /// the block is as it was, when more is.
+    [[nodiscard]] bool prepare_again(ContactBlock& block, const ContactMemory& memory) const;
 
 private:
     template <typename T>
@@ -67,6 +70,7 @@ private:
     [[nodiscard]] bool has_pressure_of(const ContactMemory& memory) const;
     void renew(const BoxOverPlane& box);
     void renew(const ContactMemory& memory);
+    void set_heights(ContactBlock& block) const;
 
     Corners corners_;
     Pressure pressure_;

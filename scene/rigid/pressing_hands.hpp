@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/sweep.hpp"
+#include "scene/hand/constant_contact.hpp"
+#include "scene/maths/lanes.hpp"
+#include "scene/state.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+
+namespace hapnet::scene {
+
+/// A face that a hand is in front of and amid. It stays so as long as the body does not turn
+/// and the hand comes no farther from where this was found: what was found then holds.
+struct AmidFace {
+    std::uint64_t turns = 0; // SweptBox::turns
+    glm::dvec3 offset{0.0};  // of the hand from the body's centre
+    double room = -1.0;      // along the face; < 0: not amid one
+    glm::dvec3 normal{0.0};
+    double half = 0.0; // from the body's centre to the face
+};
+
+/// One or two hands that press a body amid faces, side by side in lanes, as long as they go on
+/// doing so: what they press and what they feel is what HandContacts would find, bit for bit. One
+/// hand stands in both lanes.
+class PressingHands {
+public:
+    struct Hand {
+        std::uint32_t hand = 0;
+        const AmidFace& face;
+        const HandSpring& spring;
+    };
+    PressingHands() = default;
+    /// The same hand twice, or two.
+    PressingHands(BodyId body, const Hand& a, const Hand& b);
+
+    [[nodiscard]] std::uint32_t hand(std::size_t lane) const { return hand_[lane]; }
+    [[nodiscard]] const PressingSprings& springs() const { return springs_; }
+    /// Whether a hand, one of these or not, may do what it did; `near`: the bodies that it may
+    /// reach.
+    [[nodiscard]] bool is_where_it_was(std::uint32_t hand, const HandInput& input,
+                                       std::span<const PartId> near) const;
+    /// Finds the springs of this tick, and where the hands are from the body's centre; nullopt when
+    /// a hand is not amid its face any more, or does not press it.
+    [[nodiscard]] std::optional<TwoVectors> press(const WorldState& state, const SweptBox& now,
+                                                  const glm::dvec3& velocity);
+    /// Reports to all hands what came of it, with the impulses on the body.
+    void report(const WorldConfig& config, WorldState& state, const TwoVectors& impulse) const;
+
+private:
+    BodyId body_ = 0;
+    std::array<std::uint32_t, 2> hand_{};
+    PressingSprings springs_;
+    TwoVectors found_{};    // AmidFace::offset
+    Two room_{}, half_{};   // likewise
+    Two depth_{};           // in this tick
+    TwoVectors at_start_{}; // the force on the hand, likewise
+};
+
+} // namespace hapnet::scene
