@@ -28,8 +28,9 @@ session:
      reached a side, over drawn networks and under an attacker who owns the path: forces, energy
      and counters in each millisecond, with keys what is accepted, and whether the copies agree
      afterwards; a seed that fails is printed with the command that repeats it;
-     with --peers N (2 to 8) instead 1000 sessions of N peers, half of them with keys, over links
-     that lose up to 30 %, in which one peer after the other is killed and started again;
+     with --peers N (2 to 8; 2-5: all of these in turn) instead 1000 sessions of N peers, half of
+     them with keys, over links that lose up to 30 %, in which one peer after the other is killed
+     and started again, and two halves may have begun apart;
 daemons:
   9. as many daemons as --peers says (default 3), with simulated devices and keys, through one
      emulator with a link for every two (30 % loss, 40 ms +- 10 ms), in rounds of 60 s for N
@@ -85,7 +86,7 @@ while (($# > 0)); do
         first=$2 && shift 2
         ;;
     --peers)
-        [[ ${2:-} =~ ^[2-8]$ ]] || refuse "--peers: a number from 2 to 8"
+        [[ ${2:-} =~ ^[2-8](-[2-8])?$ ]] || refuse "--peers: a number from 2 to 8, or two: 2-5"
         peers=$2 && shift 2
         ;;
     --minutes)
@@ -119,6 +120,7 @@ seconds=${seconds:-600}
 if [[ -n $programs || -n $out || $task != T7 ]]; then
     [[ $subject == daemons ]] || refuse "--task, --out and --programs belong to daemons"
 fi
+[[ $subject == session || $peers != *-* ]] || refuse "--peers $peers: a range is for session"
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 targets=()
