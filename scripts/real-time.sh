@@ -14,10 +14,10 @@ after the other, 30 s each, so that they do not disturb each other. Writes DIR/r
 DIR/manifest.json says of it, and DIR/real-time/WHERE/ALGORITHM/ with the records of each session.
 A session whose own timing was off is named and excluded: leave the machine alone meanwhile.
 --quick plays base and dead-reckoning for 10 s over loopback alone. --peers N plays task T7 with so
-many peers (3 to 8) and the algorithm base instead, through one emulator with a link for every two
-and 40 ms each way, over loopback alone; the discrepancy is that of the two farthest apart.
---programs DIR takes the programs in DIR and builds nothing. Exits 0 when done, 1 when a program failed, 3 when something
-that it needs cannot be installed."
+many peers (3 to 8) and the algorithm base instead, for 60 s through one emulator with a link for
+every two and 5 ms each way, over loopback alone; the discrepancy is that of the two farthest apart.
+--programs DIR takes the programs in DIR and builds nothing. Exits 0 when done, 1 when a program
+failed, 3 when something that it needs cannot be installed."
 
 command_line="scripts/real-time.sh${*:+ $*}"
 refuse() {
@@ -43,12 +43,14 @@ while (($# > 0)); do
     esac
 done
 [[ -n $out ]] || refuse "--out is required"
+[[ $peers =~ ^[2-8]$ ]] || refuse "--peers: a number from 2 to 8, not '$peers'"
 algorithms=(base sep dead-reckoning)
 [[ -z $quick ]] || algorithms=(base dead-reckoning)
-[[ -n $seconds ]] || seconds=$([[ -z $quick ]] && echo 30 || echo 10)
+if [[ -z $seconds ]]; then
+    seconds=$([[ -z $quick ]] && echo 30 || echo 10)
+    ((peers == 2)) || seconds=$((2 * seconds))
+fi
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || refuse "--duration: a whole number of seconds, not '$seconds'"
-[[ $peers =~ ^[2-8]$ ]] || refuse "--peers: a number from 2 to 8, not '$peers'"
-
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=real-time bin=${programs:-build/release/bin}
 # shellcheck source=scripts/lib/session.sh
@@ -75,7 +77,7 @@ play_many() {
     local folder=$out/real-time/loopback/t7-$peers id records=()
     mkdir -p "$folder"
     printf '\nreal-time: T7 with %d peers for %s s; what peer 1 says:\n' "$peers" "$seconds"
-    start_links "$folder" "$peers" --delay 40ms --seed 42
+    start_links "$folder" "$peers" --delay 5ms --seed 42
     play_circle "$folder" "$seconds" "$peers" --task T7
     for ((id = 1; id <= peers; id++)); do records+=("$folder/peer-$id.rec"); done
     "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"

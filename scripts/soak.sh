@@ -48,9 +48,9 @@ stop:
  11. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its
      force is zero 300 ms after the last message, about 10 minutes.
 About 4 N + 25 minutes and an hour. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000 scenes,
-200 sessions, one round of 11 s, 10 signals of each kind, about 7 minutes. Run the parts of emulator,
-daemons and stop as root, or where SCHED_FIFO is allowed, on a machine that does nothing else: 2 to
-5 and 9 to 11 measure time. A round whose programs did not keep their time says so under 'valid'.
+200 sessions, a round of 11 s, 10 signals of each kind, about 7 minutes. Run emulator, daemons and
+stop as root, or where SCHED_FIFO is allowed, on a machine that does nothing else: 2 to 5 and 9 to
+11 measure time. A round whose programs did not keep their time says so under 'valid'.
 What is written in full is in build/soak/. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument."
 

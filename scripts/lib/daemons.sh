@@ -21,8 +21,8 @@ start_daemon() {
         ((other == id)) || others+=(--peer "$other=${places[$id-$other]}")
     done
     round_runs[id]=$run
-    "${bin:?}/hapnet-peer" --key "${out:?}/keys/peer-$id.key" --listen "$loopback.$id:7000" "${others[@]}" \
-        --task "${task:?}" --duration "${round_seconds:?}s" --seed 1 \
+    "${bin:?}/hapnet-peer" --key "${out:?}/keys/peer-$id.key" --listen "$loopback.$id:7000" \
+        "${others[@]}" --task "${task:?}" --duration "${round_seconds:?}s" --seed 1 \
         --record "$round_folder/peer-$id.$run.rec" --stats "$round_folder/peer-$id.json" \
         >"$round_folder/peer-$id.$run.out" 2>"$round_folder/peer-$id.$run.log" &
     round_processes[id]=$!
@@ -83,7 +83,7 @@ judge_round() {
 # soak_daemons ROUNDS AWAY WHEN...: so many rounds through one emulator. Fails when one was broken.
 soak_daemons() {
     local rounds=$1 round verdict=0
-    trap 'echo "$program: interrupted; rounds so far: $out/table.txt; records of this one: $round_folder" >&2
+    trap 'echo "$program: interrupted; the table so far and the records are in $out" >&2
           exit 130' INT TERM
     rm -rf "$out"
     mkdir -p "$out"

@@ -219,7 +219,7 @@ double degrees_between(const glm::dquat& a, const glm::dquat& b)
 
 base::Result<Verdict> judge(const record::Record& record)
 {
-    if (record.config.value("force_limit_n", 0.0) <= 0.0)
+    if (!record.config.is_object() || record.config.value("force_limit_n", 0.0) <= 0.0)
         return base::fail("its config has no force_limit_n");
     return Judge{record}.run();
 }
