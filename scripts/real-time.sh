@@ -6,30 +6,34 @@
 # in three network namespaces, beside the same sessions in virtual time.
 set -euo pipefail
 
-usage="usage: scripts/real-time.sh --out DIR [--quick] [--duration SECONDS] [--programs DIR]
+usage="usage: scripts/real-time.sh --out DIR [--quick] [--peers N] [--duration SECONDS]
+                            [--programs DIR]
 Installs what is missing, builds, plays task P1 with a delay of 160 ms each way with the algorithms
 base, sep and dead-reckoning in real time, over loopback and, as root, in network namespaces; one
 after the other, 30 s each, so that they do not disturb each other. Writes DIR/real_time.csv, what
 DIR/manifest.json says of it, and DIR/real-time/WHERE/ALGORITHM/ with the records of each session.
 A session whose own timing was off is named and excluded: leave the machine alone meanwhile.
---quick plays base and dead-reckoning for 10 s over loopback alone. --programs DIR takes the
-programs in DIR and builds nothing. Exits 0 when done, 1 when a program failed, 3 when something
-that it needs cannot be installed."
+--quick plays base and dead-reckoning for 10 s over loopback alone. --peers N plays task T7 with so
+many peers (3 to 8) and the algorithm base instead, for 60 s through one emulator with a link for
+every two and 5 ms each way, over loopback alone; the discrepancy is that of the two farthest apart.
+--programs DIR takes the programs in DIR and builds nothing. Exits 0 when done, 1 when a program
+failed, 3 when something that it needs cannot be installed."
 
 command_line="scripts/real-time.sh${*:+ $*}"
 refuse() {
     echo "real-time: $1"$'\n'"$usage" >&2
     exit 2
 }
-out='' quick='' seconds='' programs=''
+out='' quick='' seconds='' programs='' peers=2
 while (($# > 0)); do
     case $1 in
     --quick) quick=yes && shift ;;
-    --out | --duration | --programs)
+    --out | --duration | --programs | --peers)
         (($# > 1)) || refuse "$1: which value?"
         case $1 in
         --out) out=$(realpath -m "$2") ;;
         --programs) programs=$(realpath "$2") ;;
+        --peers) peers=$2 ;;
         *) seconds=${2%s} ;;
         esac
         shift 2
@@ -39,11 +43,14 @@ while (($# > 0)); do
     esac
 done
 [[ -n $out ]] || refuse "--out is required"
+[[ $peers =~ ^[2-8]$ ]] || refuse "--peers: a number from 2 to 8, not '$peers'"
 algorithms=(base sep dead-reckoning)
 [[ -z $quick ]] || algorithms=(base dead-reckoning)
-[[ -n $seconds ]] || seconds=$([[ -z $quick ]] && echo 30 || echo 10)
+if [[ -z $seconds ]]; then
+    seconds=$([[ -z $quick ]] && echo 30 || echo 10)
+    ((peers == 2)) || seconds=$((2 * seconds))
+fi
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || refuse "--duration: a whole number of seconds, not '$seconds'"
-
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=real-time bin=${programs:-build/release/bin}
 # shellcheck source=scripts/lib/session.sh
@@ -65,12 +72,23 @@ play_all() {
     done
 }
 
+# play_many: one session of so many peers.
+play_many() {
+    local folder=$out/real-time/loopback/t7-$peers id records=()
+    mkdir -p "$folder"
+    printf '\nreal-time: T7 with %d peers for %s s; what peer 1 says:\n' "$peers" "$seconds"
+    start_links "$folder" "$peers" --delay 5ms --seed 42
+    play_circle "$folder" "$seconds" "$peers" --task T7
+    for ((id = 1; id <= peers; id++)); do records+=("$folder/peer-$id.rec"); done
+    "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
+}
+
 [[ -n $programs ]] || build_programs hapnet-emulator hapnet-peer hapnet-lab
 start=$(date -u +%FT%TZ)
 started=$SECONDS
 rm -rf "$out/real-time"
-play_all loopback
-if [[ -z $quick ]]; then
+if ((peers > 2)); then play_many; else play_all loopback; fi
+if [[ -z $quick ]] && ((peers == 2)); then
     if use_namespaces; then
         play_all namespaces --a "$(socket_of 1)" --b "$(socket_of 2)"
     else

@@ -8,9 +8,12 @@
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
+#include "proto/record/reader.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <spdlog/fmt/fmt.h>
 #include <vector>
 
 namespace hapnet::lab {
@@ -32,11 +35,33 @@ std::vector<fs::path> session_folders(const fs::path& place)
     return folders;
 }
 
+/// Of each of the peers 1, 2, ... as its record says it.
+base::Result<std::vector<base::Duration>> phases_in(const fs::path& folder, std::size_t peers)
+{
+    constexpr base::Duration tick{std::chrono::milliseconds{1}};
+    std::vector<base::Duration> phases;
+    for (std::size_t id = 1; id <= peers; ++id) {
+        const auto path = (folder / fmt::format("peer-{}.rec", id)).string();
+        const auto record = record::read(path);
+        if (!record) return tl::unexpected{record.error()};
+        if (record->ticks.empty()) return base::fail(path + " has no ticks");
+        phases.push_back(record->ticks.back().due.time_since_epoch() % tick);
+    }
+    return phases;
+}
+
 base::Result<results::RealTimeResult> result_in(const fs::path& folder, const std::string& where)
 {
     auto files = read_session_files(folder.string());
     if (!files) return tl::unexpected{files.error()};
-    const results::RealTimeSession session{where, *std::move(files)};
+    results::RealTimeSession session{where, *std::move(files)};
+    // Two play over paths beside which a tick is short; the many over a few milliseconds.
+    const std::size_t others = session.files.peer.value("others", Json::array()).size();
+    if (others > 1) {
+        auto phases = phases_in(folder, others + 1);
+        if (!phases) return tl::unexpected{phases.error()};
+        session.phases = *std::move(phases);
+    }
     const auto setting = twin_of(session, net::text_of_file);
     if (!setting) return base::fail(folder.string() + ": " + setting.error().message);
     const auto twin = play(*setting);

@@ -132,6 +132,10 @@ base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
         player.person = parts.take(device::parse_operator(person, "the peer's operator"));
     }
     if (parts.error()) return base::fail(*parts.error());
+    if (session.phases.size() == setting.players.size()) {
+        for (std::size_t i = 0; i < session.phases.size(); ++i)
+            setting.players[i].phase = session.phases[i];
+    }
     if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     return setting;
 }

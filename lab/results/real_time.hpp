@@ -24,11 +24,14 @@ namespace hapnet::lab::results {
 struct RealTimeSession {
     std::string where; // "loopback" or "namespaces"
     SessionFiles files{};
+    /// When in a millisecond the peers tick, in the order of their ids, as their records say;
+    /// empty: all at once.
+    std::vector<base::Duration> phases{};
 };
 
-/// The session in virtual time that has the same task, hands, algorithm, scene, seeds, length and
-/// conditions. Scenes that are files are asked from `open`. Fails when the files do not say, or
-/// when it was no simulated hand.
+/// The session in virtual time that has the same task, hands, algorithm, scene, seeds, length,
+/// conditions and phases. Scenes that are files are asked from `open`. Fails when the files do not
+/// say, or when it was no simulated hand.
 [[nodiscard]] base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
                                                           const base::OpenFile& open);
 

@@ -96,8 +96,10 @@ void Circle::after_hello(std::size_t of, base::TimePoint now)
         }
     }
     if (!agreed_) return;
+    if (const auto& earlier = members_[of].handshake().earlier()) agreed_ = earlier;
     for (Member& member : members_) {
-        if (member.handshake().has_met() && !member.session()) member.join(*agreed_, late, now);
+        const bool knows_it = member.session() && member.session()->start == agreed_->start;
+        if (member.handshake().has_met() && !knows_it) member.join(*agreed_, late, now);
     }
 }
 

@@ -23,7 +23,8 @@ struct Roster {
 
 /// The others of a session. Two agree on a start by their handshake. Among more the lowest id sets
 /// it, as soon as all that are waited for hear each other; everyone who knows it tells it to those
-/// that it meets, who join if it has begun.
+/// that it meets, who join if it has begun. Where those that meet know two starts, because their
+/// circles began apart, the earlier one counts and the others join it.
 class Circle {
 public:
     /// With more than two peers, one whose hellos stopped so long ago is not heard any more.

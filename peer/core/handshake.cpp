@@ -70,6 +70,8 @@ void Handshake::meet(const wire::Hello& hello)
     last_heard_.reset();
     start_heard_.reset();
     other_start_.reset();
+    starts_differ_ = false;
+    earlier_.reset();
     acknowledged_ = false;
     if (!session_) return;
     // The other side was restarted: this one goes on and lets it join.
@@ -110,9 +112,35 @@ void Handshake::agree_in_circle(const wire::Hello& hello, base::TimePoint arrive
         asked_ = true;
         return;
     }
-    if (hello.start) start_heard_ = hello.start;
+    if (hello.start) compare_starts(hello, arrived);
     if (hello.start_heard == session_->start) acknowledged_ = true;
-    asked_ = owns_start_ ? !acknowledged_ : true;
+    const bool knows_a_former_one = hello.start_heard && hello.start_heard != session_->start;
+    asked_ = !owns_start_ || !acknowledged_ || knows_a_former_one;
+}
+
+/// Two circles that began apart have met when the starts are not the same one.
+void Handshake::compare_starts(const wire::Hello& hello, base::TimePoint arrived)
+{
+    start_heard_ = hello.start;
+    earlier_.reset();
+    const auto later = later_there();
+    starts_differ_ = later.has_value();
+    if (!later || *later > base::Duration{0} || !has_come_often(*hello.start)) return;
+    const base::TimePoint start = session_->start + *later;
+    const bool is_over = arrived - start >= length();
+    if (!is_over) earlier_ = Session{number(), start, hello.seed, length(), is_left(), true};
+}
+
+/// By how much the start that the other side tells is later than the one known here; nullopt when
+/// they are the same, or cannot be compared.
+std::optional<base::Duration> Handshake::later_there() const
+{
+    const auto there = clock();
+    if (!start_heard_ || !there) return std::nullopt;
+    const base::Duration later = *start_heard_ - there->offset - session_->start;
+    if (is_same(later, there->uncertainty) || std::chrono::abs(later) > start_away_max)
+        return std::nullopt;
+    return later;
 }
 
 /// A side that is in session says the length that was agreed on; so it stays as it is.
@@ -131,11 +159,15 @@ void Handshake::propose(base::TimePoint start)
 void Handshake::tell(const Session& agreed, bool late)
 {
     base::ensure(remote_.has_value());
+    const bool had_another = session_ && session_->start != agreed.start;
     session_ = agreed;
     session_->number = number();
     session_->is_left = is_left();
     owns_start_ = true;
     stayed_ = late;
+    if (!had_another) return;
+    earlier_.reset();
+    starts_differ_ = !start_heard_ || later_there();
 }
 
 void Handshake::adopt(const wire::Hello& hello, base::TimePoint arrived)
@@ -152,7 +184,12 @@ void Handshake::adopt(const wire::Hello& hello, base::TimePoint arrived)
 bool Handshake::may_replace_start(base::TimePoint start, base::TimePoint arrived)
 {
     const bool has_begun = acknowledged_ || arrived >= session_->start;
-    if (has_begun) return false;
+    return !has_begun && has_come_often(start);
+}
+
+/// Whether the other side has told this start so often, one time after the other.
+bool Handshake::has_come_often(base::TimePoint start)
+{
     if (other_start_ != start) {
         other_start_ = start;
         times_other_start_ = 0;
@@ -187,7 +224,8 @@ std::optional<wire::Echo> Handshake::echo(base::TimePoint now) const
 
 std::optional<wire::Hello> Handshake::hello(base::TimePoint now, std::uint32_t heard)
 {
-    const bool settled = session_ && (owns_start_ ? acknowledged_ : start_heard_.has_value());
+    const bool settled =
+        session_ && !starts_differ_ && (owns_start_ ? acknowledged_ : start_heard_.has_value());
     if (settled && !asked_) return std::nullopt;
     if (last_hello_ && now - *last_hello_ < hello_every) return std::nullopt;
     last_hello_ = now;
@@ -201,7 +239,7 @@ std::optional<wire::Hello> Handshake::hello(base::TimePoint now, std::uint32_t h
     hello.seed = session_ ? session_->seed : self_.seed;
     hello.sent = now;
     hello.echo = echo(now);
-    if (session_ && owns_start_) hello.start = session_->start;
+    if (session_ && (owns_start_ || starts_differ_)) hello.start = session_->start;
     hello.start_heard = start_heard_;
     hello.in_session = stayed_;
     hello.task = self_.task;

@@ -73,8 +73,18 @@ public:
     [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now, std::uint32_t heard);
 
     /// Takes over the start, seed and length that its circle has agreed on, and tells them to the
-    /// other side, which must have been met. One that is met `late` is told that it joins.
+    /// other side, which must have been met. One that is met `late` is told that it joins. Another
+    /// start than before is told until the other side tells it, too.
     void tell(const Session& agreed, bool late);
+    /// Among more than two: the session that the other side is in, when it has told `starts_needed`
+    /// times that this began earlier than the one known here, and it is not over. See `is_same()`.
+    [[nodiscard]] const std::optional<Session>& earlier() const { return earlier_; }
+    /// Two starts are one when they are at most so far apart on clocks of such an uncertainty: a
+    /// start that came by way of another peer was converted three times, and each clock has moved.
+    [[nodiscard]] static bool is_same(base::Duration apart, base::Duration uncertainty)
+    {
+        return std::chrono::abs(apart) <= std::chrono::milliseconds{20} + 4 * uncertainty;
+    }
 
     /// The clock echo for the next message to the other side.
     [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
@@ -119,6 +129,9 @@ private:
     [[nodiscard]] std::uint32_t number() const;
     void agree(const wire::Hello& hello, base::TimePoint arrived);
     void agree_in_circle(const wire::Hello& hello, base::TimePoint arrived);
+    void compare_starts(const wire::Hello& hello, base::TimePoint arrived);
+    [[nodiscard]] std::optional<base::Duration> later_there() const;
+    [[nodiscard]] bool has_come_often(base::TimePoint start);
     void propose(base::TimePoint start);
     void adopt(const wire::Hello& hello, base::TimePoint arrived);
     [[nodiscard]] bool may_replace_start(base::TimePoint start, base::TimePoint arrived);
@@ -137,6 +150,8 @@ private:
     std::optional<base::TimePoint> start_heard_; // the other side's start, on its clock
     std::optional<base::TimePoint> other_start_; // that was heard instead, and how often
     int times_other_start_ = 0;
+    bool starts_differ_ = false;     // among more than two: this side and the other tell two starts
+    std::optional<Session> earlier_; // that the other side is in
     std::optional<base::TimePoint> last_hello_;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N]: plays the attacked sessions of the
-// seeds FIRST .. FIRST + COUNT - 1, without or with keys, and of more seeds until so many datagrams
-// have reached their sides; with --peers instead sessions of N peers, one of whom is dead now and
-// then. Prints every seed in which an invariant broke, and at the end what was played. Exits 0 when
-// none did.
+// soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M]: plays the attacked sessions of
+// the seeds FIRST .. FIRST + COUNT - 1, without or with keys, and of more seeds until so many
+// datagrams have reached their sides; with --peers instead sessions of N peers, or of N to M in
+// turn, one of whom is dead now and then. Prints every seed in which an invariant broke, and at the
+// end what was played. Exits 0 when none did.
 #include "tests/support/session/attacked_session.hpp"
 #include "tests/support/session/troubled_group.hpp"
 
@@ -41,14 +41,30 @@ hapnet::test::AttackedSession play(std::uint64_t seed, std::size_t peers, hapnet
     return {.complaint = group.complaint, .datagrams = group.datagrams, .compared = group.compared};
 }
 
-/// The number after --peers, taken out of the arguments; 0: it is not there.
-std::size_t taken_peers(std::vector<std::string>& arguments)
+/// How many peers play; 0 and 0: not a group.
+struct Peers {
+    std::size_t fewest = 0, most = 0;
+
+    [[nodiscard]] bool are_known() const
+    {
+        return most == 0 || (fewest >= 2 && fewest <= most && most <= 8);
+    }
+    [[nodiscard]] std::size_t of(std::uint64_t seed) const
+    {
+        return fewest + seed % (most - fewest + 1);
+    }
+};
+
+/// What stands after --peers, taken out of the arguments.
+Peers taken_peers(std::vector<std::string>& arguments)
 {
     const auto option = std::ranges::find(arguments, "--peers");
-    if (arguments.end() - option < 2) return 0;
-    const auto peers = std::strtoull((option + 1)->c_str(), nullptr, 10);
+    if (arguments.end() - option < 2) return {};
+    char* end = nullptr;
+    const auto fewest = std::strtoull((option + 1)->c_str(), &end, 10);
+    const auto most = *end == '-' ? std::strtoull(end + 1, &end, 10) : fewest;
     arguments.erase(option, option + 2);
-    return peers;
+    return *end == '\0' ? Peers{fewest, std::max<std::size_t>(most, 1)} : Peers{1, 1};
 }
 
 } // namespace
@@ -56,13 +72,13 @@ std::size_t taken_peers(std::vector<std::string>& arguments)
 int main(int argc, char** argv)
 {
     std::vector<std::string> arguments(argv + 1, argv + argc);
-    const std::size_t peers = taken_peers(arguments);
+    const Peers peers = taken_peers(arguments);
     const bool keys = !arguments.empty() && arguments[0] == "keys";
     const bool are_known = arguments.size() >= 3 && arguments.size() <= 4 &&
-                           (keys || arguments[0] == "none") && peers != 1 && peers <= 8;
+                           (keys || arguments[0] == "none") && peers.are_known();
     if (!are_known) {
         fmt::print(stderr,
-                   "usage: soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers 2..8]\n");
+                   "usage: soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M]\n");
         return 2;
     }
     const auto seal = keys ? hapnet::test::Seal::keys : hapnet::test::Seal::none;
@@ -73,7 +89,7 @@ int main(int argc, char** argv)
     Tally tally;
     for (std::uint64_t seed = number(1); tally.played < number(2) || tally.datagrams < number(3);
          ++seed) {
-        const auto session = play(seed, peers, seal);
+        const auto session = play(seed, peers.of(seed), seal);
         ++tally.played;
         tally.compared += session.compared ? 1 : 0;
         tally.datagrams += session.datagrams;
@@ -82,7 +98,8 @@ int main(int argc, char** argv)
             ++tally.broken;
             fmt::print("  seed {}: {} (repeat it: build/release/bin/soak_session {} {} 1{})\n",
                        seed, *session.complaint, arguments[0], seed,
-                       peers == 0 ? std::string{} : fmt::format(" --peers {}", peers));
+                       peers.most == 0 ? std::string{}
+                                       : fmt::format(" --peers {}", peers.of(seed)));
         }
         if (tally.played % often == 0) report(tally);
     }

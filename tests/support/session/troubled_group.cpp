@@ -30,6 +30,28 @@ constexpr base::Duration zero_until = 900ms;        // after a death; gone after
 constexpr double group_force_max_n = 3.3 + 1e-12;
 constexpr double group_agreement_m = 0.1e-3;
 
+/// Two halves of a group that cannot hear each other at first; each has at least two peers, as many
+/// as start without the others.
+struct Partition {
+    std::size_t half = 0; // the sides below it are in the one, the others in the other; 0: there is
+                          // no partition
+    base::Duration heals{};
+
+    /// Whether two sides had not heard each other for long at that time.
+    [[nodiscard]] bool parts(std::size_t a, std::size_t b, base::Duration at) const
+    {
+        return (a < half) != (b < half) && at < heals + 2 * longest_way;
+    }
+};
+
+Partition drawn_partition(base::Seed seed, std::size_t peers)
+{
+    Draws draw{seed, "partition of a troubled group"};
+    if (peers < 4 || !draw.one_in(3)) return {};
+    const std::size_t half = 2 + draw.below(static_cast<std::uint32_t>(peers) - 3);
+    return {half, draw.up_to(4s)};
+}
+
 GroupSetting drawn_group(base::Seed seed, std::size_t peers, Draws& draw, Seal seal)
 {
     GroupSetting setting{.task = device::Task::t7};
@@ -53,6 +75,7 @@ GroupSetting drawn_group(base::Seed seed, std::size_t peers, Draws& draw, Seal s
     }
     const bool comes_late = peers > 2 && draw.one_in(3);
     setting.wait_for = comes_late ? peers - 1 : 0;
+    if (drawn_partition(seed, peers).half > 0) setting.wait_for = 2;
     return setting;
 }
 
@@ -73,6 +96,7 @@ private:
     [[nodiscard]] base::Duration since_begin() const { return world_.now() - World::start; }
     [[nodiscard]] std::size_t peers() const { return world_.sides(); }
     void come_and_go();
+    void part(bool is_cut);
     void judge_side(std::size_t side);
     void judge_absence(const Absence& absence);
     void compare();
@@ -87,6 +111,7 @@ private:
 
     Draws draw_;
     World world_;
+    Partition partition_;
     std::vector<Absence> absences_;         // one after the other
     std::vector<base::TimePoint> apart_at_; // when a side last did not touch
     TroubledGroup result_;
@@ -95,8 +120,10 @@ private:
 GroupPlay::GroupPlay(std::uint64_t seed, std::size_t peers, Seal seal)
     : draw_{base::Seed{seed}, "troubled group"},
       world_{drawn_group(base::Seed{seed}, peers, draw_, seal)},
+      partition_{drawn_partition(base::Seed{seed}, peers)},
       apart_at_(peers, World::start)
 {
+    part(true);
     base::Duration next = 500ms + draw_.up_to(2s);
     if (world_.setting().wait_for > 0) {
         absences_.push_back({peers - 1, 0s, 1s + draw_.up_to(2s)});
@@ -114,6 +141,7 @@ TroubledGroup GroupPlay::run() &&
     const base::Duration end = last_death + group_length + 20s;
     while (!result_.complaint && !result_.compared && since_begin() < end) {
         come_and_go();
+        if (partition_.half > 0 && since_begin() >= partition_.heals) part(false);
         world_.step();
         for (std::size_t side = 0; side < peers(); ++side) {
             if (world_.is_alive(side) && world_.side(side).stepped_at == world_.now())
@@ -149,6 +177,12 @@ void GroupPlay::come_and_go()
     }
 }
 
+void GroupPlay::part(bool is_cut)
+{
+    for (std::size_t a = 0; a < partition_.half; ++a)
+        for (std::size_t b = partition_.half; b < peers(); ++b) world_.cut(a, b, is_cut);
+}
+
 void GroupPlay::judge_side(std::size_t side)
 {
     const VirtualPlayer& player = world_.side(side);
@@ -174,8 +208,9 @@ void GroupPlay::judge_absence(const Absence& absence)
         const std::size_t other = absence.side < side ? absence.side : absence.side - 1;
         if (player.peer().others()[other].freshness(world_.now() + player.clock_ahead) > 0.0)
             complain("peer {} counts the hand of {}, which is dead", side + 1, absence.side + 1);
-        const bool must_be_zero =
-            absence.was_touching && since_begin() < absence.begin + zero_until;
+        const bool must_be_zero = absence.was_touching &&
+                                  since_begin() < absence.begin + zero_until &&
+                                  !partition_.parts(side, absence.side, absence.begin);
         if (must_be_zero && player.told() != base::Force{})
             complain("peer {} feels {} N beside {}, which died touching", side + 1,
                      base::norm(player.told()), absence.side + 1);

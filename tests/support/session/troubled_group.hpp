@@ -19,7 +19,8 @@ struct TroubledGroup {
 };
 
 /// Plays T7 with two to eight peers over links that lose up to 30 % and delay by 40 ms +- 10 ms;
-/// one of them is killed every few seconds and started again, and the last may come late. Judges
+/// one of them is killed every few seconds and started again, and the last may come late. Four and
+/// more may have begun in two halves that cannot hear each other until later. Judges
 /// each tick: forces finite and limited; 300 ms after the last message of a killed peer no other
 /// counts its hand any more, and if it was touching, the others feel nothing until it counts as
 /// gone. At the end of hands off all copies of the body are within 0.1 mm.

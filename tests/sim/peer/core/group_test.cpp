@@ -4,8 +4,10 @@
 #include "tests/support/seeds.hpp"
 #include "tests/unit/peer/core/group.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numeric>
 
 namespace hapnet::peer {
 namespace {
@@ -196,6 +198,102 @@ TEST_P(Groups, OfAnySizeAgreeInTheEndWhateverHappened)
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, Groups, testing::Range(std::uint64_t{0}, test::seeds(50)));
+
+/// Beyond 20 ms and four times half of a round trip, of at most 70 ms each way, starts are two.
+constexpr base::Duration one_start_within = 20ms + 4 * 70ms;
+
+/// How far apart the starts of all are.
+base::Duration starts_apart(const Group& group)
+{
+    const auto starts = std::minmax_element(
+        group.peers.begin(), group.peers.end(),
+        [](const auto& a, const auto& b) { return a->session()->start < b->session()->start; });
+    return (*starts.second)->session()->start - (*starts.first)->session()->start;
+}
+
+/// Four to six peers in two halves, drawn from a seed, that cannot hear each other.
+struct Partition {
+    explicit Partition(base::Seed seed);
+
+    void cut(bool is_cut)
+    {
+        for (std::size_t a = 0; a < half; ++a)
+            for (std::size_t b = half; b < order.size(); ++b) group.cut(order[a], order[b], is_cut);
+    }
+    /// Those at these places of the order, who wait for one other.
+    void start(std::size_t from, std::size_t to)
+    {
+        for (std::size_t i = from; i < to; ++i) {
+            Settings settings = settings_for(group, order[i]);
+            settings.roster.wait_for = 2;
+            group.start(order[i], settings);
+        }
+    }
+
+    base::RandomStream draw;
+    Group group;
+    std::vector<std::size_t> order; // the first `half` of it, at least two, and the others likewise
+    std::size_t half;
+};
+
+Partition::Partition(base::Seed seed)
+    : draw{seed.stream("partition")},
+      group{4 + draw.below(3, 0), seed},
+      order(group.peers.size()),
+      half{2 + draw.below(static_cast<std::uint32_t>(order.size()) - 3, 5)}
+{
+    group.move = carry;
+    for (std::uint32_t i = 0; i < group.paths.size(); ++i)
+        group.paths[i] = {.delay = base::from_seconds(0.05 * draw.uniform(1, i)),
+                          .spread_us = 1 + static_cast<std::uint32_t>(draw.below(20'000, 2, i)),
+                          .loss = 0.3 * draw.uniform(3, i)};
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        const auto left = static_cast<std::uint32_t>(order.size()) - i;
+        std::swap(order[i], order[i + draw.below(left, 4, i)]);
+    }
+    cut(true);
+}
+
+class Partitions : public testing::TestWithParam<std::uint64_t> {};
+
+/// One half comes later than the other. When the network heals, before the hands of the first let
+/// go, they become one session.
+TEST_P(Partitions, ThatBeganBeforeTheStartEndAsOneSession)
+{
+    Partition partition{base::Seed{GetParam()}};
+    auto& [draw, group, order, half] = partition;
+    partition.start(0, half);
+    run_to(group, group.now + base::from_seconds(2.0 * draw.uniform(6)));
+    partition.start(half, order.size());
+    const auto all_agreed = [&group = group] {
+        return std::ranges::all_of(group.peers,
+                                   [](const auto& peer) { return peer->session().has_value(); });
+    };
+    for (int ms = 0; ms < 5000 && !all_agreed(); ++ms) group.step();
+    ASSERT_TRUE(all_agreed());
+    run_to(group, group.now + base::from_seconds(3.0 * draw.uniform(7)));
+    std::vector<base::TimePoint> before;
+    for (const auto& peer : group.peers) before.push_back(peer->session()->start);
+    const base::TimePoint earliest = *std::ranges::min_element(before);
+    partition.cut(false);
+    run_to(group, group.now + 2s);
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(group.all_play());
+    EXPECT_LE(starts_apart(group), one_start_within);
+    for (std::size_t side = 0; side < before.size(); ++side) {
+        const base::TimePoint start = group.peers[side]->session()->start;
+        EXPECT_LE(std::chrono::abs(start - earliest), one_start_within);
+        EXPECT_LE(start, before[side]); // it never goes back
+    }
+    run_to(group, earliest + length - 500ms);
+    ASSERT_FALSE(HasFatalFailure());
+    EXPECT_LE(group.apart_m(), 0.1e-3);
+    run_to(group, earliest + length + 500ms);
+    for (const auto& peer : group.peers) EXPECT_TRUE(peer->finished());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seed, Partitions, testing::Range(std::uint64_t{0}, test::seeds(25)));
 
 } // namespace
 } // namespace hapnet::peer

@@ -116,6 +116,44 @@ TEST(Circle, LetsAnyOfItBeRestartedAlsoTheOneThatSetTheStart)
     }
 }
 
+TEST(Circle, ThatBeganApartFromAnotherBecomesOneWithItWhereTheEarlierStartCounts)
+{
+    for (const bool lower_ids_come_first : {true, false}) {
+        Group group{4};
+        for (const std::size_t a : {0U, 1U})
+            for (const std::size_t b : {2U, 3U}) group.cut(a, b, true);
+        const auto start = [&](std::size_t side) {
+            Settings settings = group.settings_of_group(side);
+            settings.roster.wait_for = 2;
+            settings.introduction.seed = 70 + side;
+            group.start(side, settings);
+        };
+        const std::size_t first = lower_ids_come_first ? 0 : 2, last = 2 - first;
+        start(first);
+        start(first + 1);
+        group.run_for(3s);
+        const auto earlier = group.peers[first]->session()->start;
+        start(last);
+        start(last + 1);
+        group.run_for(3s);
+        ASSERT_TRUE(group.peers[last]->session());
+        EXPECT_GE(group.peers[last]->session()->start, earlier + 2s);
+        for (const std::size_t a : {0U, 1U})
+            for (const std::size_t b : {2U, 3U}) group.cut(a, b, false);
+        group.run_for(500ms);
+        ASSERT_TRUE(group.all_play());
+        expect_one_start(group, 1us);
+        EXPECT_LE(std::chrono::abs(group.peers[0]->session()->start - earlier), 1us);
+        EXPECT_EQ(group.peers[0]->session()->seed, 70 + first);
+        // All know it now: nothing more is said about it.
+        const auto hellos = group.peers[0]->counters().hellos;
+        group.run_for(2s);
+        EXPECT_EQ(group.peers[0]->counters().hellos, hellos);
+        group.run_for(30s);
+        for (const auto& peer : group.peers) EXPECT_TRUE(peer->finished());
+    }
+}
+
 TEST(Circle, HasEveryPairNumberItsMessagesForItself)
 {
     Group group{3};
