@@ -156,6 +156,7 @@ struct Experiment {
     std::vector<NamedScene> scenes{}; // none: each task's own
     Hands hands{};
     bool energy_limit = false;
+    bool keyed = false;    // the players seal their messages
     emulator::Path path{}; // the conditions that all sessions have in common
 };
 

@@ -198,7 +198,9 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "where they play; without it each task has its own"),
         base::field("hands", &Experiment::hands, HandsFormat{}, "whose hands play").always(),
         base::field("energy_limit", &Experiment::energy_limit,
-                    "limits the energy into each hand as hapnet-peer does"));
+                    "limits the energy into each hand as hapnet-peer does"),
+        base::field("keyed", &Experiment::keyed,
+                    "the players seal their messages, as `hapnet-peer --key` does"));
 }
 
 /// What a text describes that names only kind and tasks.

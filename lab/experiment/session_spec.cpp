@@ -54,6 +54,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
         setting.players[seat].algorithm = one.algorithm.algorithm;
         setting.players[seat].person = seat % 2 == 0 ? one.hands.left : one.hands.right;
+        if (experiment.keyed) setting.players[seat].circle = setting.seed;
     }
     return spec;
 }
@@ -81,9 +82,10 @@ std::string key_of(const SessionSpec& spec, std::string_view program)
     const auto all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}{}\n", label, program, setting.tick.count(),
                                  spec.rows_per_s, emulator::to_text(setting.profile), players,
                                  scene::to_text(setting.scene));
-    // Without a limit the key is the one that sessions had before there was one.
+    // Without them the key is the one that sessions had before there were any.
     const std::string_view limit = setting.energy_limit ? "energy_limit = true\n" : "";
-    return fmt::format("{} {:016x}", label, hash_of(all + std::string{limit}));
+    const std::string_view keyed = setting.players.front().circle ? "keyed = true\n" : "";
+    return fmt::format("{} {:016x}", label, hash_of(fmt::format("{}{}{}", all, limit, keyed)));
 }
 
 } // namespace hapnet::lab::experiment

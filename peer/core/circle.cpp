@@ -105,9 +105,9 @@ void Circle::after_hello(std::size_t of, base::TimePoint now)
 
 void Circle::say_hello(base::TimePoint now)
 {
-    const std::uint32_t bits = heard(now);
     for (Member& member : members_) {
-        if (const auto hello = member.handshake().hello(now, bits))
+        if (!member.handshake().is_hello_due(now)) continue;
+        if (const auto hello = member.handshake().hello(now, heard(now)))
             member.post(wire::encode(*hello));
     }
 }

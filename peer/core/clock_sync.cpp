@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hapnet::peer {
 
@@ -57,9 +58,12 @@ void ClockSync::consider(const Window& sample)
 {
     if (sample.at - *first_ < settles_within) return;
     // In a long silence the two drift apart.
-    const base::Duration drift = std::chrono::duration_cast<base::Duration>(
-        slew_max * std::chrono::abs(sample.at - said_at_));
-    if (std::chrono::abs(unexplained(sample)) > drift) {
+    const base::Duration beyond = std::chrono::abs(unexplained(sample));
+    const auto drift = [&] {
+        return std::chrono::duration_cast<base::Duration>(slew_max *
+                                                          std::chrono::abs(sample.at - said_at_));
+    };
+    if (beyond > base::Duration{0} && beyond > drift()) {
         agreeing_left_ = samples_needed;
     } else if (agreeing_left_ > 0) {
         --agreeing_left_;
@@ -147,11 +151,12 @@ ClockSync::Fit ClockSync::fit(base::TimePoint now) const
 void ClockSync::follow(base::TimePoint now)
 {
     const base::Duration apart = fit_.at_time(now) - said_;
+    const base::Duration passed = now - std::exchange(said_at_, now);
+    if (apart == base::Duration{0}) return;
     const bool is_settling = now - *first_ < settles_within;
-    const base::Duration most =
-        std::chrono::duration_cast<base::Duration>(slew_max * (now - said_at_));
+    const base::Duration most = std::chrono::duration_cast<base::Duration>(
+        slew_max * std::max(base::Duration{0}, passed)); // receive stamps may step back
     said_ += is_settling ? apart : std::clamp(apart, -most, most);
-    said_at_ = now;
 }
 
 std::optional<ClockEstimate> ClockSync::estimate() const

@@ -78,6 +78,7 @@ private:
 
         [[nodiscard]] base::Duration at_time(base::TimePoint now) const
         {
+            if (skew == 0.0) return offset;
             return offset + std::chrono::duration_cast<base::Duration>(skew * (now - when));
         }
     };

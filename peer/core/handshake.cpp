@@ -224,10 +224,7 @@ std::optional<wire::Echo> Handshake::echo(base::TimePoint now) const
 
 std::optional<wire::Hello> Handshake::hello(base::TimePoint now, std::uint32_t heard)
 {
-    const bool settled =
-        session_ && !starts_differ_ && (owns_start_ ? acknowledged_ : start_heard_.has_value());
-    if (settled && !asked_) return std::nullopt;
-    if (last_hello_ && now - *last_hello_ < hello_every) return std::nullopt;
+    if (!is_hello_due(now)) return std::nullopt;
     last_hello_ = now;
     asked_ = false;
     wire::Hello hello;

@@ -24,10 +24,10 @@ public:
     [[nodiscard]] std::optional<Value> take()
     {
         if (size_ == 0) return std::nullopt;
-        const Value value = values_[first_];
+        const Value& oldest = values_[first_]; // stays as it is until put() needs its place
         first_ = (first_ + 1) % capacity;
         --size_;
-        return value;
+        return oldest;
     }
 
 private:

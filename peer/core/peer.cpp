@@ -4,6 +4,7 @@
 
 #include "peer/core/passivity.hpp"
 #include "proto/base/ensure.hpp"
+#include "proto/base/nearest.hpp"
 #include "scene/maths/rotation.hpp"
 
 #include <algorithm>
@@ -556,7 +557,7 @@ void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
     state.holding = tick.touched.holding;
     state.hip = hand.hip;
     state.hip_velocity = hand.velocity;
-    state.work_uj = static_cast<std::uint32_t>(std::llround(1e6 * hand.work_j));
+    state.work_uj = static_cast<std::uint32_t>(base::nearest(1e6 * hand.work_j));
     state.intention_velocity = hand.velocity;
     if (intention_.is_known()) {
         state.intention = intention_.place() - hand.hip;

@@ -23,7 +23,7 @@ public:
     [[nodiscard]] std::optional<std::span<const std::byte>>
     open(std::span<const std::byte> datagram, const secure::Place& from)
     {
-        if (from != place_) {
+        if (!secure::is_same(from, place_)) {
             ++strangers_;
             return std::nullopt;
         }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/monitor.hpp"
 
+#include "proto/wire/message.hpp"
+
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
@@ -37,11 +39,13 @@ std::string with_name(std::string_view words, std::uint16_t about)
     return text;
 }
 
-double longest_ms(const std::map<std::uint16_t, base::Duration>& round_trips)
+/// The longest of them in milliseconds; on one machine it is a matter of microseconds.
+std::string longest_of(const std::map<std::uint16_t, base::Duration>& round_trips)
 {
     base::Duration longest{0};
     for (const auto& [id, round_trip] : round_trips) longest = std::max(longest, round_trip);
-    return base::to_seconds(longest) * 1e3;
+    const double ms = base::to_seconds(longest) * 1e3;
+    return ms < 1.0 ? fmt::format("{:5.3f}", ms) : fmt::format("{:5.1f}", ms);
 }
 
 std::string line_of(const StatusLine& status, const StatusLine& before, bool is_pair)
@@ -66,9 +70,9 @@ std::string line_of(const StatusLine& status, const StatusLine& before, bool is_
                            at, base::to_seconds(status.session->length));
     }
     return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube x {:+6.1f} mm  force {:4.2f} N  "
-                       "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
+                       "received {:4.0f}/s  round trip {} ms  missed ticks {}",
                        at, base::to_seconds(status.session->length), phase, tick.cube.x() * 1e3,
-                       base::norm(tick.device), rate, longest_ms(status.round_trips),
+                       base::norm(tick.device), rate, longest_of(status.round_trips),
                        status.missed);
 }
 
@@ -176,6 +180,7 @@ void Monitor::drain()
             take(*row);
         } else if (const auto* message = std::get_if<loop::HeardMessage>(&*entry)) {
             ++status_.messages;
+            note_round_trip(*message);
             if (recorder_) recorder_->put(message->row());
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
             on_event(*event);
@@ -209,8 +214,19 @@ void Monitor::take(const record::Row& row)
         status_.missed += tick->missed_before;
     } else if (const auto* session = std::get_if<record::SessionRow>(&row)) {
         status_.session = *session;
-        status_.round_trips[session->other] = 2 * session->offset_uncertainty;
     }
+}
+
+/// By the echo in a message, on this side's clock alone.
+void Monitor::note_round_trip(const loop::HeardMessage& heard)
+{
+    const auto message = wire::decode(heard.message.bytes());
+    const auto* const state = message ? std::get_if<wire::State>(&*message) : nullptr;
+    if (state == nullptr || !state->echo) return;
+    const base::Duration took = (heard.received_at - state->echo->of) - state->echo->age;
+    if (took < base::Duration{0}) return;
+    const auto [shortest, is_first] = round_trips_.try_emplace(heard.from, took);
+    shortest->second = std::min(shortest->second, took);
 }
 
 /// Tells once that the record has ended before its time.
@@ -269,6 +285,8 @@ void Monitor::show(base::TimePoint now)
     if (!status_.tick) return;
     if (next_show_ && !base::is_due(next_show_, now)) return;
     const base::Duration every = line_.is_terminal() ? on_terminal_every : elsewhere_every;
+    for (const auto& [id, shortest] : std::exchange(round_trips_, {}))
+        status_.round_trips[id] = shortest;
     if (next_show_ || line_.is_terminal()) {
         const std::string line = line_of(status_, shown_, is_pair());
         if (line_.is_terminal()) {

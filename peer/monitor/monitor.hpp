@@ -24,7 +24,8 @@ struct StatusLine {
     std::vector<std::uint16_t> awaited; // the others that have not answered; 0: whoever does
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
-    std::map<std::uint16_t, base::Duration> round_trips; // the shortest, to each of the others
+    /// To each of the others: the shortest since the line before, or the last that was known.
+    std::map<std::uint16_t, base::Duration> round_trips;
     std::uint64_t messages = 0;
     std::uint64_t ticks_in_session = 0;
     std::uint64_t missed = 0;
@@ -73,6 +74,7 @@ public:
 
 private:
     void take(const record::Row& row);
+    void note_round_trip(const loop::HeardMessage& heard);
     void look_at_record();
     [[nodiscard]] bool is_pair() const { return others_.size() <= 1; }
     void on_event(const loop::TimedEvent& event);
@@ -89,6 +91,7 @@ private:
     std::uint16_t peer_id_;
     std::vector<std::uint16_t> others_;
     net::TerminalLine line_;
+    std::map<std::uint16_t, base::Duration> round_trips_; // the shortest since the last line
     StatusLine status_;
     StatusLine shown_;
     std::optional<base::TimePoint> next_show_;

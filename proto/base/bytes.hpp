@@ -54,6 +54,8 @@ public:
         return taken;
     }
 
+    /// Whether so many bytes are left.
+    [[nodiscard]] bool holds(std::size_t count) const { return left_.size() >= count; }
     /// Whether every read was served.
     [[nodiscard]] bool ok() const { return !short_; }
     /// Whether every read was served and nothing is left over.

@@ -4,6 +4,7 @@
 
 #include "proto/base/bytes.hpp"
 #include "proto/base/ensure.hpp"
+#include "proto/base/nearest.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -39,7 +40,7 @@ constexpr auto echo_age_max = base::Duration{std::numeric_limits<std::uint32_t>:
 
 std::uint8_t flag_if(bool condition, std::uint8_t flag) { return condition ? flag : 0; }
 
-void put_header(ByteWriter& out, Type type, std::uint32_t session)
+inline void put_header(ByteWriter& out, Type type, std::uint32_t session)
 {
     out.u16(magic);
     out.u8(protocol_version);
@@ -53,14 +54,14 @@ constexpr std::int64_t time_max_ns = std::int64_t{1} << 60;
 
 bool is_near(std::int64_t ns) { return ns >= -time_max_ns && ns <= time_max_ns; }
 
-void put_time(ByteWriter& out, base::TimePoint time)
+inline void put_time(ByteWriter& out, base::TimePoint time)
 {
     const std::int64_t nanoseconds = time.time_since_epoch().count();
     base::ensure(is_near(nanoseconds));
     out.i64(nanoseconds);
 }
 
-base::TimePoint take_time(ByteReader& in, bool& canonical)
+inline base::TimePoint take_time(ByteReader& in, bool& canonical)
 {
     const std::int64_t nanoseconds = in.i64();
     canonical = canonical && is_near(nanoseconds);
@@ -69,7 +70,7 @@ base::TimePoint take_time(ByteReader& in, bool& canonical)
 
 using Words = std::array<std::uint32_t, 3>; // of three singles
 
-void put_vector(ByteWriter& out, const glm::dvec3& v)
+inline void put_vector(ByteWriter& out, const glm::dvec3& v)
 {
     constexpr double most = std::numeric_limits<float>::max();
     base::ensure(std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most);
@@ -80,7 +81,7 @@ void put_vector(ByteWriter& out, const glm::dvec3& v)
     out.raw(std::as_bytes(std::span{words}));
 }
 
-glm::dvec3 take_vector(ByteReader& in)
+inline glm::dvec3 take_vector(ByteReader& in)
 {
     const auto bytes = in.raw(sizeof(Words));
     if (bytes.empty()) return glm::dvec3{0.0};
@@ -93,7 +94,7 @@ glm::dvec3 take_vector(ByteReader& in)
 }
 
 /// Optional fields always take their room; absent ones are all zero.
-void put_echo(ByteWriter& out, const std::optional<Echo>& echo)
+inline void put_echo(ByteWriter& out, const std::optional<Echo>& echo)
 {
     base::ensure(!echo || (echo->age >= base::Duration{0} && echo->age <= echo_age_max));
     put_time(out, echo ? echo->of : base::TimePoint{});
@@ -101,7 +102,7 @@ void put_echo(ByteWriter& out, const std::optional<Echo>& echo)
 }
 
 /// nullopt when absent; canonical is cleared when an absent field is not all zero.
-std::optional<Echo> take_echo(ByteReader& in, bool present, bool& canonical)
+inline std::optional<Echo> take_echo(ByteReader& in, bool present, bool& canonical)
 {
     const Echo echo{take_time(in, canonical), base::Duration{in.u32()}};
     if (present) return echo;
@@ -203,14 +204,14 @@ Fault take(ByteReader& in, Hello& hello)
 constexpr std::uint16_t flag_turning = 0x8000;
 static_assert((BodyState::id_max & flag_turning) == 0);
 
-void put_sums(ByteWriter& out, const Sums& sums)
+inline void put_sums(ByteWriter& out, const Sums& sums)
 {
     for (const std::uint32_t sum : sums) out.u32(sum);
 }
 
-Sums take_sums(ByteReader& in) { return {in.u32(), in.u32(), in.u32()}; }
+inline Sums take_sums(ByteReader& in) { return {in.u32(), in.u32(), in.u32()}; }
 
-void put(ByteWriter& out, const BodyState& body)
+inline void put(ByteWriter& out, const BodyState& body)
 {
     base::ensure(body.body <= BodyState::id_max);
     const std::uint16_t turning = body.turning ? flag_turning : 0;
@@ -226,7 +227,7 @@ void put(ByteWriter& out, const BodyState& body)
     put_sums(out, body.turning->caused_angular_impulse_unms);
 }
 
-BodyState take_body(ByteReader& in, bool& canonical)
+inline BodyState take_body(ByteReader& in, bool& canonical)
 {
     const std::uint16_t id = in.u16();
     BodyState body{.body = static_cast<std::uint16_t>(id & ~flag_turning),
@@ -250,18 +251,18 @@ BodyState take_body(ByteReader& in, bool& canonical)
 constexpr double intention_step = 1e-5, intention_velocity_step = 2e-4;
 constexpr std::int16_t steps_max = 0x7fff;
 
-void put_steps(ByteWriter& out, const glm::dvec3& v, double step)
+inline void put_steps(ByteWriter& out, const glm::dvec3& v, double step)
 {
     for (const double component : {v.x, v.y, v.z}) {
         base::ensure(std::isfinite(component));
         const double limit = steps_max;
         const auto steps =
-            static_cast<std::int16_t>(std::lround(std::clamp(component / step, -limit, limit)));
+            static_cast<std::int16_t>(base::nearest(std::clamp(component / step, -limit, limit)));
         out.u16(static_cast<std::uint16_t>(steps));
     }
 }
 
-glm::dvec3 take_steps(ByteReader& in, double step, bool& canonical)
+inline glm::dvec3 take_steps(ByteReader& in, double step, bool& canonical)
 {
     glm::dvec3 v{0.0};
     for (glm::length_t i = 0; i < 3; ++i) {
@@ -272,7 +273,7 @@ glm::dvec3 take_steps(ByteReader& in, double step, bool& canonical)
     return v;
 }
 
-void put(ByteWriter& out, const State& state)
+inline void put(ByteWriter& out, const State& state)
 {
     base::ensure(state.sequence != 0);
     base::ensure(state.touching || !state.holding);
@@ -294,13 +295,13 @@ void put(ByteWriter& out, const State& state)
     for (const BodyState& body : state.bodies) put(out, body);
 }
 
-bool is_finite(const BodyState& body)
+inline bool is_finite(const BodyState& body)
 {
     return base::is_finite(body.position) && base::is_finite(body.velocity) &&
            (!body.turning || base::is_finite(base::Velocity{body.turning->angular_velocity}));
 }
 
-bool is_finite(const State& state)
+inline bool is_finite(const State& state)
 {
     const auto& bodies = state.bodies;
     return base::is_finite(state.hip) && base::is_finite(state.hip_velocity) &&
@@ -309,8 +310,13 @@ bool is_finite(const State& state)
                        [](const BodyState& body) { return is_finite(body); });
 }
 
+// What all states have after their type, and what a body adds.
+constexpr std::size_t head_bytes = 82, body_bytes = 50;
+
 Fault take(ByteReader& in, State& state)
 {
+    // Asked first, so that the reads below need not ask.
+    if (!in.holds(head_bytes)) return "state: wrong length";
     bool canonical = true;
     state.session = in.u32();
     state.sequence = in.u32();
@@ -326,15 +332,15 @@ Fault take(ByteReader& in, State& state)
     state.intention = {take_steps(in, intention_step, canonical)};
     state.intention_velocity = {take_steps(in, intention_velocity_step, canonical)};
     state.work_uj = in.u32();
-    while (in.ok() && !in.complete()) {
+    while (!in.complete()) {
+        const bool fits = in.holds(body_bytes) && state.bodies.size() < bodies_max;
+        if (!fits) return "state: wrong length";
         const BodyState body = take_body(in, canonical);
-        const bool fits = state.bodies.size() < bodies_max;
         const bool ascends = state.bodies.empty() || (state.bodies.end() - 1)->body < body.body;
-        if (!in.ok() || !fits) return "state: wrong length";
+        if (!in.ok()) return "state: wrong length";
         if (!ascends) return "state: not canonical";
         state.bodies.add(body);
     }
-    if (!in.complete()) return "state: wrong length";
     canonical = canonical && ((flags & flag_body) != 0) == !state.bodies.empty();
     if (!is_finite(state)) return "state: not finite";
     if (state.sequence == 0 || reserved != 0 || (flags & ~flags_known) != 0 || !canonical ||
@@ -362,7 +368,7 @@ Fault take(ByteReader& in, Bye& bye)
 
 /// Read where it is to be: a state is long, and comes a thousand times a second.
 template <typename Kind>
-Result<Message> taken(ByteReader& in)
+[[gnu::flatten]] Result<Message> taken(ByteReader in)
 {
     Result<Message> result{tl::in_place, std::in_place_type<Kind>};
     if (const Fault fault = take(in, *std::get_if<Kind>(&*result))) result = fail(fault);
@@ -490,12 +496,6 @@ BodyStates& BodyStates::operator=(const BodyStates& other)
     return *this;
 }
 
-BodyState& BodyStates::add(const BodyState& body)
-{
-    base::ensure(count_ < all_.size() && (count_ == 0 || all_[count_ - 1].body < body.body));
-    return *std::construct_at(&all_[count_++], body);
-}
-
 const BodyState* BodyStates::find(std::uint16_t body) const
 {
     const auto* const found =
@@ -508,8 +508,9 @@ bool operator==(const BodyStates& a, const BodyStates& b)
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
+/// With all calls in place: the writer stays in registers, whatever its bytes may alias.
 template <typename Kind>
-Datagram Datagram::of(const Kind& message)
+[[gnu::flatten]] Datagram Datagram::of(const Kind& message)
 {
     Datagram datagram;
     ByteWriter out{datagram.bytes_};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/ensure.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -156,7 +158,11 @@ public:
     BodyStates& operator=(const BodyStates& other);
 
     /// Ensures that there is room, and that the id is greater than those before it.
-    BodyState& add(const BodyState& body);
+    BodyState& add(const BodyState& body)
+    {
+        base::ensure(count_ < all_.size() && (count_ == 0 || all_[count_ - 1].body < body.body));
+        return *std::construct_at(&all_[count_++], body);
+    }
     void clear() { count_ = 0; }
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
@@ -183,6 +189,9 @@ private:
 
 /// One tick of one peer.
 struct State {
+    State() {
+    } // NOLINT(*-use-equals-default): without it State{} would clear the room of all bodies
+
     std::uint32_t session = 0;
     std::uint32_t sequence = 0; // 1, 2, 3, ... within the session
     base::TimePoint sent;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <utility>
 #include <variant>
 
@@ -21,8 +22,7 @@ std::span<const std::byte> view(const std::vector<std::byte>& bytes) { return by
 std::string text_of(std::span<const std::byte> bytes)
 {
     std::string text(bytes.size(), '\0');
-    std::transform(bytes.begin(), bytes.end(), text.begin(),
-                   [](std::byte each) { return static_cast<char>(each); });
+    if (!bytes.empty()) std::memcpy(text.data(), bytes.data(), bytes.size());
     return text;
 }
 

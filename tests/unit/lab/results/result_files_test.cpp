@@ -264,7 +264,12 @@ TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)
     changed = spec;
     changed.rows_per_s = 100;
     add(changed);
-    EXPECT_EQ(keys.size(), 11U);
+    experiment::Experiment keyed = experiment;
+    keyed.keyed = true;
+    const auto sealed = make_session_spec(keyed, {base, experiment.hands, device::Task::t1, 1}, {});
+    EXPECT_TRUE(sealed.setting.players[0].circle && sealed.setting.players[1].circle);
+    add(sealed);
+    EXPECT_EQ(keys.size(), 12U);
     EXPECT_EQ(key_of(perfect_twin(spec), "this"), key_of(spec, "this"));
 }
 

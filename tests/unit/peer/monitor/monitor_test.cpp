@@ -113,6 +113,47 @@ TEST(Monitor, NoLongerWaitsForAPeerThatAnswered)
     testing::internal::GetCapturedStderr();
 }
 
+TEST(Monitor, ShowsTheShortestRoundTripSinceTheLineBeforeToTheMicrosecond)
+{
+    testing::internal::CaptureStderr();
+    loop::Journal journal;
+    net::TextQueue screen{STDERR_FILENO};
+    Monitor monitor{journal, screen, std::nullopt, 1};
+    base::TimePoint now{100s};
+    const auto hear = [&](base::Duration round_trip) {
+        wire::State state;
+        state.session = 1;
+        state.sequence = 1;
+        state.sent = base::TimePoint{1h}; // on the other's clock, which says nothing here
+        state.echo = wire::Echo{now - 20ms - round_trip, 20ms};
+        journal.put(loop::HeardMessage{1, now, 2, line::Datagram{wire::encode(state).bytes()}});
+    };
+    const auto show = [&] {
+        record::SessionRow session;
+        session.start = now;
+        journal.put(record::Row{session});
+        record::TickRow tick;
+        tick.due = now + 1s;
+        journal.put(record::Row{tick});
+        monitor.drain();
+        monitor.show(now += 5s);
+    };
+    show(); // the first line comes after 5 s
+    hear(2ms);
+    hear(52us);
+    hear(300us);
+    show();
+    show(); // nothing was heard
+    hear(160ms);
+    show();
+    monitor.close();
+    monitor.finish();
+    while (!screen.is_done()) std::this_thread::yield();
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(count_of("round trip 0.052 ms", said), 2U) << said;
+    EXPECT_EQ(count_of("round trip 160.0 ms", said), 1U) << said;
+}
+
 TEST(Monitor, NamesThePeersOfACircle)
 {
     testing::internal::CaptureStderr();

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace hapnet::base {
+
+/// The whole number nearest to `x`, halves away from zero: what std::llround gives, in place. That
+/// one is a call, and a tick rounds often. |x| < 2^63.
+[[nodiscard]] constexpr std::int64_t nearest(double x)
+{
+    const auto whole = static_cast<std::int64_t>(x);
+    const double rest = x - static_cast<double>(whole); // exact
+    return whole + static_cast<std::int64_t>(rest >= 0.5) - static_cast<std::int64_t>(rest <= -0.5);
+}
+
+} // namespace hapnet::base
