@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/records/analysis_report.hpp"
+#include "lab/records/bodies.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
 #include "proto/plot/plot.hpp"
 
 #include <array>
+#include <numbers>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
@@ -18,6 +20,10 @@ constexpr std::size_t curve_points_max = 4000; // a curve: finer than pixels, an
 constexpr plot::Size plot_size{900.0, 230.0};
 constexpr std::string_view colour_a = "var(--left)";
 constexpr std::string_view colour_b = "var(--right)";
+/// Of the bodies of a session, in their order; there are eight at most.
+constexpr std::array<std::string_view, 8> body_colours{
+    "var(--left)",   "var(--right)", "var(--sep)",        "var(--other)",
+    "var(--missed)", "var(--met)",   "var(--calibrated)", "var(--muted)"};
 
 plot::Curve curve_of(std::string_view name, std::string_view colour,
                      const std::vector<records::TimedValue>& values)
@@ -85,6 +91,54 @@ void add_plots(Section& section, const results::RecordedSession& session)
         "Magnitude of the force that each device was told to apply, after its governor.");
 }
 
+/// "cube 0.12 mm, tool 3.4 mm": the mean of each.
+std::string means_of(const std::vector<records::BodyAgreement>& bodies,
+                     std::optional<metrics::Spread> records::BodyAgreement::*apart, double scale,
+                     std::string_view unit)
+{
+    std::string text;
+    for (const records::BodyAgreement& one : bodies) {
+        if (!(one.*apart)) continue;
+        text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", escaped(name_of(one.body)),
+                            shown(scale * (one.*apart)->mean, 2), unit);
+    }
+    return text.empty() ? "there was nothing to compare" : text;
+}
+
+/// Distance and angle of the copies of each body, where |x_A - x_B| does not say it all.
+void add_body_plots(Section& section, const results::RecordedSession& session)
+{
+    const auto& bodies = session.curves.bodies;
+    const auto& agreement = session.analysis.agreement.bodies;
+    const auto add = [&](std::string_view name, const plot::PlotTitles& titles,
+                         std::vector<records::TimedValue> records::BodyCurves::*values,
+                         const std::string& caption) {
+        std::vector<plot::Curve> drawn;
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            if ((bodies[i].*values).empty()) continue;
+            drawn.push_back(
+                curve_of(bodies[i].name, body_colours[i % body_colours.size()], bodies[i].*values));
+        }
+        if (drawn.empty()) return;
+        section.add_figure(
+            fmt::format("session-{}-{}", session.name, name),
+            plot::svg_plot(titles, drawn,
+                           {.size = plot_size, .x = span_of(session.curves), .can_zoom = true}),
+            caption);
+    };
+    add("bodies", {"Distance of the two copies of each body", "s from the start", "mm"},
+        &records::BodyCurves::apart_mm,
+        "Distance in space at equal times; on average while both hands were on: " +
+            means_of(agreement, &records::BodyAgreement::discrepancy, 1e3, "mm") + ".");
+    add("angles", {"Angle between the two copies of each body", "s from the start", "deg"},
+        &records::BodyCurves::turned_apart_deg,
+        "Angle of the rotation from one copy's orientation to the other's; on average while both "
+        "hands were on: " +
+            means_of(agreement, &records::BodyAgreement::turned_apart, 180.0 / std::numbers::pi,
+                     "deg") +
+            ".");
+}
+
 void add_session(Section& section, const results::RecordedSession& session)
 {
     const auto title = session.task.empty() ? session.name : "Task " + session.task;
@@ -97,6 +151,7 @@ void add_session(Section& section, const results::RecordedSession& session)
     section.html += "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to "
                     "zoom; all follow. <span class='zoom-buttons'></span></p>\n";
     add_plots(section, session);
+    add_body_plots(section, session);
     section.html += "</div>\n<div class='panels'>\n";
     for (const records::TextTable& table : tables_of(session.analysis))
         section.html += html_of(table);
