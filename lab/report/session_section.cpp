@@ -6,6 +6,7 @@
 #include "lab/report/words.hpp"
 #include "proto/plot/plot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <spdlog/fmt/fmt.h>
@@ -67,14 +68,14 @@ std::string apart_caption(const records::Analysis& analysis)
                        shown(1e3 * x->mean, 2), shown(1e3 * x->max, 1));
 }
 
-void add_plots(Section& section, const results::RecordedSession& session)
+void add_plots(Section& section, const results::RecordedSession& session, const std::string& prefix)
 {
     const records::SessionCurves& curves = session.curves;
     const plot::Range time = span_of(curves);
     const auto add = [&](std::string_view name, const plot::PlotTitles& titles,
                          std::span<const plot::Curve> drawn, const std::string& caption) {
         section.add_figure(
-            fmt::format("session-{}-{}", session.name, name),
+            fmt::format("session-{}-{}", prefix, name),
             plot::svg_plot(titles, drawn, {.size = plot_size, .x = time, .can_zoom = true}),
             caption);
     };
@@ -106,7 +107,8 @@ std::string means_of(const std::vector<records::BodyAgreement>& bodies,
 }
 
 /// Distance and angle of the copies of each body, where |x_A - x_B| does not say it all.
-void add_body_plots(Section& section, const results::RecordedSession& session)
+void add_body_plots(Section& section, const results::RecordedSession& session,
+                    const std::string& prefix)
 {
     const auto& bodies = session.curves.bodies;
     const auto& agreement = session.analysis.agreement.bodies;
@@ -121,7 +123,7 @@ void add_body_plots(Section& section, const results::RecordedSession& session)
         }
         if (drawn.empty()) return;
         section.add_figure(
-            fmt::format("session-{}-{}", session.name, name),
+            fmt::format("session-{}-{}", prefix, name),
             plot::svg_plot(titles, drawn,
                            {.size = plot_size, .x = span_of(session.curves), .can_zoom = true}),
             caption);
@@ -139,7 +141,9 @@ void add_body_plots(Section& section, const results::RecordedSession& session)
             ".");
 }
 
-void add_session(Section& section, const results::RecordedSession& session)
+/// `prefix`: of the names of its figures.
+void add_session(Section& section, const results::RecordedSession& session,
+                 const std::string& prefix)
 {
     const auto title = session.task.empty() ? session.name : "Task " + session.task;
     section.html += fmt::format("<h3>{}</h3>\n<p>A is peer {}, B is peer {}", escaped(title),
@@ -150,8 +154,8 @@ void add_session(Section& section, const results::RecordedSession& session)
     section.html += ".</p>\n" + validity_of(session.analysis);
     section.html += "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to "
                     "zoom; all follow. <span class='zoom-buttons'></span></p>\n";
-    add_plots(section, session);
-    add_body_plots(section, session);
+    add_plots(section, session, prefix);
+    add_body_plots(section, session, prefix);
     section.html += "</div>\n<div class='panels'>\n";
     for (const records::TextTable& table : tables_of(session.analysis))
         section.html += html_of(table);
@@ -169,7 +173,14 @@ std::optional<Section> session_section(const results::Results& results)
     Section section{"sessions", results.sessions.size() == 1 ? "The session" : "The sessions",
                     "<p>Times count from the start of the session on A’s clock. Each session ends "
                     "with hands off: then the two copies of the cube should agree again.</p>\n"};
-    for (const results::RecordedSession& session : results.sessions) add_session(section, session);
+    for (const results::RecordedSession& session : results.sessions) {
+        const bool is_one_of_many =
+            std::ranges::count(results.sessions, session.name, &results::RecordedSession::name) > 1;
+        const auto prefix =
+            is_one_of_many ? fmt::format("{}-{}-{}", session.name, session.peer_a, session.peer_b)
+                           : session.name;
+        add_session(section, session, prefix);
+    }
     return section;
 }
 
