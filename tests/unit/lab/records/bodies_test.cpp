@@ -87,7 +87,7 @@ TEST(Bodies, HaveTheirNamesAndFreedomFromTheScene)
 {
     auto a = first(), b = second();
     a.content().config["scene_toml"] =
-        "[[body]]\nname = \"sled\"\nsize = \"60mm\"\nmass = \"0.1kg\"\nrotation = \"locked\"\n"
+        "[[body]]\nname = \"sled\"\nsize = \"60mm\"\nmass = \"0.1kg\"\nturning = \"locked\"\n"
         "[[body]]\nfixed = true\nsize = \"60mm\"\n"
         "[[body]]\nsize = \"60mm\"\nmass = \"0.1kg\"\n";
     const Agreement agreement = analysis_of(a, b).agreement;
