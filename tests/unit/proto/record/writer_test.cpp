@@ -178,6 +178,9 @@ TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)
     EXPECT_EQ(header["format"], "hapnet-record");
     EXPECT_EQ(header["row_bytes"], row_bytes);
     EXPECT_EQ(header["message_row_bytes"], 859);
+    EXPECT_EQ(header["version"], 3);
+    EXPECT_FALSE(header.contains("body_row_bytes")) << "one body that does not turn has no rows";
+    EXPECT_EQ(header["schema"].size(), 3U);
     const auto& fields = header["schema"]["tick"]["fields"];
     ASSERT_EQ(fields.size(), 24);
     EXPECT_EQ(fields[1],
