@@ -195,8 +195,9 @@ device::GovernorLimits limits_of(const Options& options, const device::Capabilit
     return limits;
 }
 
-/// The longest message of a session in this scene: a state with all its shared bodies, or a hello.
-std::size_t message_bytes_max(const scene::Description& scene)
+/// Of the records of sessions in this scene: its longest message is a state with all its shared
+/// bodies, or a hello.
+record::Layout layout_for(const scene::Description& scene)
 {
     wire::State state;
     state.sequence = 1;
@@ -211,7 +212,10 @@ std::size_t message_bytes_max(const scene::Description& scene)
     hello.nonce = 1;
     hello.peer_id = 1;
     hello.task = wire::TaskName::from_text("T7").value();
-    return std::max(wire::encode(state).bytes().size(), wire::encode(hello).bytes().size());
+    const auto layout = record::Layout::for_messages_of(
+        std::max(wire::encode(state).bytes().size(), wire::encode(hello).bytes().size()));
+    const bool is_one = state.bodies.size() == 1 && !state.bodies.first()->turning;
+    return is_one ? layout : layout.with_bodies();
 }
 
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
@@ -227,8 +231,7 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     const glm::dvec3& offset = mount.offset.value;
     configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
     configuration["governor_toml"] = device::print_limits(rig.governor().limits());
-    return record::Writer{*options.record, configuration,
-                          record::Layout::for_messages_of(message_bytes_max(options.scene))};
+    return record::Writer{*options.record, configuration, layout_for(options.scene)};
 }
 
 /// Introduces a real device to its holder, and says what of the forces asked for it cannot render.
@@ -355,7 +358,7 @@ base::Result<int> run(const Options& options)
     loop::Watchdog watchdog{rig.device(), &crash};
     line::Lines lines = lines_of(options, endpoints->remotes, settings.introduction.nonce);
     loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate,
-                       std::chrono::milliseconds{1}, message_bytes_max(options.scene)}};
+                       std::chrono::milliseconds{1}, layout_for(options.scene)}};
     // Last of all that may fail: the file is emptied.
     monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
                              options.id, settings.roster.others};

@@ -6,36 +6,59 @@
 # emulator, over real UDP, under the 160 ms of the paper.
 set -euo pipefail
 
-usage="usage: scripts/demo.sh [--peers N] [--out DIR]
+usage="usage: scripts/demo.sh [--peers N] [--scene turning] [--duration SECONDS] [--programs DIR]
+                       [--out DIR]
 Installs what is missing, builds, runs task P1 for 30 s and T3 for 20 s with a delay of 160 ms
 each way, and prints what was measured beside the paper's Table 1. Writes everything to DIR
 (results/demo-<time> when not given). With --peers N, 3 to 8, N hands carry the cube together
-instead (T7), for 20 s through an emulator with a link for every two, 40 ms each way; their
-analysis is printed. Exits 0 when it went well, 1 when a program failed or the measurement misses,
-2 for an unknown argument, 3 when something that it needs cannot be installed."
+instead (T7), for 20 s or --duration SECONDS through an emulator with a link for every two, 40 ms
+each way; their analysis is printed. With --scene turning, two hands or N turn a cube (T8) that
+way. --programs DIR takes the programs in DIR and builds nothing. Exits 0 when it went well, 1 when
+a program failed or the measurement misses, 2 for an unknown argument, 3 when something that it
+needs cannot be installed."
 
 command_line="scripts/demo.sh${*:+ $*}"
-out=
-peers=2
+refuse() {
+    echo "demo: $1" >&2
+    exit 2
+}
+out='' peers=2 scene='' seconds='' programs=''
 while (($# > 0)); do
     case $1 in
-    --out)
-        (($# > 1)) || { echo "demo: --out: which directory?" >&2 && exit 2; }
-        out=$2 && shift 2
+    --out | --programs)
+        (($# > 1)) || refuse "$1: which directory?"
+        case $1 in
+        --out) out=$2 ;;
+        *) programs=$(realpath "$2") ;;
+        esac
+        shift 2
         ;;
     --peers)
-        (($# > 1)) || { echo "demo: --peers: how many? 2 to 8" >&2 && exit 2; }
+        (($# > 1)) || refuse "--peers: how many? 2 to 8"
         peers=$2 && shift 2
         ;;
+    --scene)
+        (($# > 1)) || refuse "--scene: which? turning"
+        scene=$2 && shift 2
+        ;;
+    --duration)
+        (($# > 1)) || refuse "--duration: how many seconds?"
+        seconds=${2%s} && shift 2
+        ;;
     -h | --help) echo "$usage" && exit 0 ;;
-    *) echo "demo: unknown argument '$1'"$'\n'"$usage" >&2 && exit 2 ;;
+    *) refuse "unknown argument '$1'"$'\n'"$usage" ;;
     esac
 done
-[[ $peers =~ ^[2-8]$ ]] || { echo "demo: --peers $peers: write 2 to 8" >&2 && exit 2; }
+[[ $peers =~ ^[2-8]$ ]] || refuse "--peers $peers: write 2 to 8"
+[[ -z $scene || $scene == turning ]] || refuse "--scene $scene: write turning, or leave it out"
+[[ -z $seconds || $seconds =~ ^[1-9][0-9]*$ ]] || refuse "--duration: a whole number of seconds"
+circle=''
+if ((peers > 2)) || [[ -n $scene ]]; then circle=yes; fi
+[[ -n $circle || -z $seconds ]] || refuse "--duration goes with --peers 3 to 8 or --scene turning"
 [[ -z $out ]] || out=$(realpath -m "$out")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out=${out:-$PWD/results/demo-$(date -u +%Y%m%dT%H%M%SZ)}
-program=demo bin=build/release/bin
+program=demo bin=${programs:-build/release/bin}
 # shellcheck source=scripts/lib/session.sh
 . scripts/lib/session.sh
 
@@ -56,16 +79,19 @@ conclude() {
     done
 }
 
-# So many hands at one cube, and how far apart their copies of it were.
+# run_circle TASK: so many hands at one cube, and how far apart their copies of it were.
 run_circle() {
-    local folder=$out/t7 records=() id
+    local folder=$out/${1,,} records=() id
     mkdir -p "$folder"
-    printf '\ndemo: task T7 with %s hands for 20 s, 40 ms each way; what peer 1 says:\n' "$peers"
+    printf '\ndemo: task %s with %s hands for %s s, 40 ms each way; what peer 1 says:\n' \
+        "$1" "$peers" "$seconds"
     start_links "$folder" "$peers" --delay 40ms --seed 42
-    play_circle "$folder" 20 "$peers" --task T7
+    play_circle "$folder" "$seconds" "$peers" --task "$1"
     for ((id = 1; id <= peers; id++)); do
         records+=("$folder/peer-$id.rec")
         "$bin/hapnet-lab" export "$folder/peer-$id.rec" --csv >"$folder/peer-$id.csv"
+        "$bin/hapnet-lab" export "$folder/peer-$id.rec" --csv --rows bodies \
+            >"$folder/peer-$id-bodies.csv"
     done
     "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
     echo
@@ -75,20 +101,24 @@ run_circle() {
     printf 'demo: records, rows (CSV) and statistics are beside it\n'
 }
 
-if ((peers > 2)); then
-    build_programs hapnet-emulator hapnet-peer hapnet-lab
-    run_circle
+if [[ -n $circle ]]; then
+    [[ -n $programs ]] || build_programs hapnet-emulator hapnet-peer hapnet-lab
+    seconds=${seconds:-20} task=T7
+    [[ -z $scene ]] || task=T8
+    run_circle "$task"
     exit
 fi
-build_programs hapnet-emulator hapnet-peer
+[[ -n $programs ]] || build_programs hapnet-emulator hapnet-peer
 mkdir -p "$out"
-echo "demo: hapnet-lab, which the results need, is built beside the sessions"
-build_beside "$out/build.log" hapnet-lab
+if [[ -z $programs ]]; then
+    echo "demo: hapnet-lab, which the results need, is built beside the sessions"
+    build_beside "$out/build.log" hapnet-lab
+fi
 start=$(date -u +%FT%TZ)
 started=$SECONDS
 run_task P1 30
 run_task T3 20
-finish_build
+[[ -n $programs ]] || finish_build
 conclude P1
 conclude T3
 verdict=0

@@ -100,6 +100,10 @@ base::Result<int> run(const ExportCommand& command)
         print(records::message_csv_header() + '\n');
         for (const auto& row : record->messages)
             print(records::csv_line(row, zero, sessions) + '\n');
+    } else if (command.rows == ExportRows::bodies) {
+        print(records::body_csv_header() + '\n');
+        records::for_each_body_csv_line(*record, zero,
+                                        [](const std::string& line) { print(line + '\n'); });
     } else {
         print(records::tick_csv_header() + '\n');
         for (const auto& row : record->ticks) print(records::csv_line(row, zero) + '\n');

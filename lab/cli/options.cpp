@@ -84,8 +84,9 @@ void add_analyse(cli::Command& command, AnalyseCommand& analyse)
 
 base::Result<ExportRows> parse_export_rows(const std::string& text)
 {
-    return cli::one_of({"ticks", "messages"})(text).map([](const std::string& word) {
-        return word == "messages" ? ExportRows::messages : ExportRows::ticks;
+    return cli::one_of({"ticks", "messages", "bodies"})(text).map([](const std::string& word) {
+        if (word == "messages") return ExportRows::messages;
+        return word == "bodies" ? ExportRows::bodies : ExportRows::ticks;
     });
 }
 
@@ -101,9 +102,11 @@ void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
     command.positional("OTHER", "The record of the other peer, to join the two",
                        cli::into(exported.other));
     command.flag("--csv", "As CSV: the only format, and the default", as_csv);
-    command.option("--rows", "ticks|messages",
-                   "Ticks of the haptic loop, or messages received (default ticks)",
-                   cli::into(exported.rows, parse_export_rows));
+    command.option(
+        "--rows", "ticks|messages|bodies",
+        "Ticks of the haptic loop, messages received, or where each tick left the shared "
+        "bodies (default ticks)",
+        cli::into(exported.rows, parse_export_rows));
 }
 
 /// Facts that a script knows and hapnet-lab does not.
@@ -285,8 +288,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     if (replay.json && replay.csv) {
         return base::fail("--json and --csv exclude each other: give one of them");
     }
-    if (!exported.other.empty() && exported.rows == ExportRows::messages) {
-        return base::fail("export: the messages of two records cannot be joined: leave --rows out, "
+    if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
+        return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
                           "or give one record");
     }
     explain.sleeping = !no_sleeping;

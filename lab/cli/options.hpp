@@ -23,9 +23,9 @@ struct AnalyseCommand {
     bool json = false;
 };
 
-enum class ExportRows : std::uint8_t { ticks, messages };
+enum class ExportRows : std::uint8_t { ticks, messages, bodies };
 
-/// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages]`
+/// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages|bodies]`
 struct ExportCommand {
     std::string record;
     std::string other; // of the other peer: the ticks of both are joined; empty: of one alone

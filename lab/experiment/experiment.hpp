@@ -4,7 +4,7 @@
 
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
-#include "emulator/core/conditions.hpp"
+#include "emulator/core/profile/profile.hpp"
 #include "lab/experiment/impairment.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "peer/core/sync/algorithm.hpp"
@@ -158,6 +158,8 @@ struct Experiment {
     bool energy_limit = false;
     bool keyed = false;    // the players seal their messages
     emulator::Path path{}; // the conditions that all sessions have in common
+    /// What single links have of their own, whatever is tried on all of them.
+    std::vector<emulator::PathPatch> links{};
 };
 
 /// Every number of peers in every scene.

@@ -58,23 +58,13 @@ void read_algorithms(TableReader& table, std::vector<NamedAlgorithm>& algorithms
     }
 }
 
-void read_path(TableReader& table, emulator::Path& path)
+/// The conditions of all links, and what single ones have of their own.
+void read_network(TableReader& table, Experiment& experiment)
 {
-    Reading& reading = table.reading();
-    std::vector<emulator::Setting> settings;
-    base::Place place = table.place();
-    const auto read = [&](std::string_view key, std::optional<emulator::Direction> direction) {
-        const Node* node = table.find(key);
-        if (node == nullptr) return;
-        settings.push_back({direction, emulator::read_direction(*node, reading)});
-        place = node->place;
-    };
-    read("both", std::nullopt);
-    read("up", emulator::Direction::up);
-    read("down", emulator::Direction::down);
-    auto read_path = emulator::with_settings({}, settings);
-    if (!read_path) return reading.complain(place, read_path.error().message);
-    path = *std::move(read_path);
+    emulator::Profile profile;
+    emulator::read_conditions(table, {.any = true}, profile);
+    experiment.path = std::move(profile.path);
+    experiment.links = std::move(profile.paths);
 }
 
 void read_kind(TableReader& table, Kind& kind)
@@ -125,13 +115,15 @@ Experiment read_experiment(const Node& document, Reading& reading)
     std::ignore = table.require("kind"); // it decides which keys are known
     base::read_fields(table, experiment);
     read_algorithms(table, experiment.algorithms);
-    read_path(table, experiment.path);
+    read_network(table, experiment);
     read_kind(table, experiment.kind);
     table.finish();
-    const Node* peers = table.find("peers");
-    const Node* scene = table.find("scene");
-    if (reading.is_good() && (peers != nullptr || scene != nullptr))
-        check_parties(experiment, peers != nullptr ? peers->place : scene->place, reading);
+    for (const char* key : {"matrix", "link", "scene", "peers"}) {
+        const Node* node = table.find(key);
+        if (node == nullptr || !reading.is_good()) continue;
+        check_parties(experiment, node->place, reading);
+        break;
+    }
     return experiment;
 }
 
@@ -142,17 +134,21 @@ base::Result<Experiment> read_tree(const Node& document, Reading reading)
     return experiment;
 }
 
-/// The first setting with which the text is no experiment any more is the one to complain of.
+/// The setting from which on the text is no experiment any more is the one to complain of;
+/// `experiment` says what is wrong in the end. A text that is none by itself may become one.
 base::Result<Experiment> complain_of_settings(Node document, const Overrides& overrides,
                                               const base::OpenFile& open,
                                               base::Result<Experiment> experiment)
 {
+    bool was_good = read_tree(document, Reading{"", open}).has_value();
+    auto complaint = experiment;
     for (const std::string& setting : overrides.settings) {
         overlay(document, *setting_table(setting));
         auto adjusted = read_tree(document, Reading{"--set " + setting, open, false});
-        if (!adjusted) return adjusted;
+        if (was_good && !adjusted) complaint = adjusted;
+        was_good = adjusted.has_value();
     }
-    return experiment;
+    return complaint;
 }
 
 } // namespace
@@ -171,9 +167,8 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
     auto [document, quick] = *parts;
     Node quick_document = document;
     overlay(quick_document, quick);
-    if (auto read = read_tree(quick_document, Reading{source, open}); !read) return read;
-    if (overrides.quick) document = std::move(quick_document);
-    Node adjusted = document;
+    const Node& chosen = overrides.quick ? quick_document : document;
+    Node adjusted = chosen;
     for (const std::string& setting : overrides.settings) {
         const auto table = setting_table(setting);
         if (!table) {
@@ -182,10 +177,15 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
         overlay(adjusted, *table);
     }
     auto experiment = read_tree(adjusted, Reading{source, open});
-    if (experiment || overrides.settings.empty()) return experiment;
-    auto plain = read_tree(document, Reading{source, open});
-    if (!plain) return plain;
-    return complain_of_settings(std::move(document), overrides, open, std::move(experiment));
+    if (!experiment) {
+        if (overrides.settings.empty()) return experiment;
+        return complain_of_settings(chosen, overrides, open, std::move(experiment));
+    }
+    // What the text says for another day is to be right today, if the rest is so by itself.
+    if (overrides.settings.empty() || read_tree(document, Reading{source, open})) {
+        if (auto read = read_tree(quick_document, Reading{source, open}); !read) return read;
+    }
+    return experiment;
 }
 
 base::Result<Experiment> load_experiment(const std::string& file_or_name,

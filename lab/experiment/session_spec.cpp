@@ -50,6 +50,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     setting.tick = experiment.tick;
     setting.energy_limit = experiment.energy_limit;
     setting.profile.path = path;
+    setting.profile.paths = experiment.links;
     setting.players.resize(one.party.peers);
     for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
         setting.players[seat].algorithm = one.algorithm.algorithm;

@@ -31,9 +31,8 @@ std::string commented_lines(const T& value)
             using Member = std::remove_cvref_t<decltype(member)>;
             if constexpr (base::Described<Member> && !std::is_same_v<Member, ByOrder>) {
                 text += fmt::format("\n[{}]\n{}", field.key, commented_lines(member));
-            } else {
-                text += fmt::format("{}{} = {}\n", comment(field.about), field.key,
-                                    field.format.print(member));
+            } else if (const auto printed = base::field_text(field, member)) {
+                text += fmt::format("{}{} = {}\n", comment(field.about), field.key, *printed);
             }
         },
         value);

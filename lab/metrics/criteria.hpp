@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -38,6 +39,8 @@ struct UsableCriteria {
     /// In excess of the perfect network's: a tap on a rigid cube alone has more than 0.1 N.
     double force_vibration_max_n = 0.1;
     double scored_share_min = 0.95;
+    std::optional<double> discrepancy_max_m{}; // nullopt: not judged
+    std::optional<double> turned_apart_max_rad{};
 
     friend bool operator==(const UsableCriteria&, const UsableCriteria&) = default;
 };
@@ -48,6 +51,8 @@ struct GoodCriteria {
     double force_discrepancy_max = 0.1;
     double contact_lost_max = 0.05;
     double drag_max_n = 0.3;
+    std::optional<double> discrepancy_max_m{};
+    std::optional<double> turned_apart_max_rad{};
 
     friend bool operator==(const GoodCriteria&, const GoodCriteria&) = default;
 };
@@ -65,6 +70,12 @@ struct Criteria {
 inline constexpr base::Number ratio_format{0.0, 1.0};
 inline constexpr base::Quantity vibration_format{base::length_kind, 0.0};
 inline constexpr base::Quantity newton_format{base::force_kind, 0.0};
+inline constexpr base::Quantity turn_format{base::angle_kind, 0.0};
+inline constexpr std::string_view about_discrepancy =
+    "D, the mean distance in x of the two copies farthest apart. Without it not judged.";
+inline constexpr std::string_view about_turned_apart =
+    "D of a body that turns, the mean angle between the two copies farthest apart. Without it not "
+    "judged.";
 
 /// By the order of the filter, as lengths.
 constexpr auto fields_of(base::Tag<ByOrder>)
@@ -90,7 +101,11 @@ constexpr auto fields_of(base::Tag<UsableCriteria>)
                     "E, what the network adds of it. A working limit, from no source."),
         base::field("scored_share_min", &Usable::scored_share_min, ratio_format,
                     "Of the time that both sides would run: a session that hardly took place does "
-                    "not count."));
+                    "not count."),
+        base::field("discrepancy_max", &Usable::discrepancy_max_m, vibration_format,
+                    about_discrepancy),
+        base::field("turned_apart_max", &Usable::turned_apart_max_rad, turn_format,
+                    about_turned_apart));
 }
 
 constexpr auto fields_of(base::Tag<GoodCriteria>)
@@ -107,7 +122,11 @@ constexpr auto fields_of(base::Tag<GoodCriteria>)
         base::field("contact_lost_max", &Good::contact_lost_max, ratio_format,
                     "F. A working limit, from no source."),
         base::field("drag_max", &Good::drag_max_n, newton_format,
-                    "I. A working limit, from no source."));
+                    "I. A working limit, from no source."),
+        base::field("discrepancy_max", &Good::discrepancy_max_m, vibration_format,
+                    about_discrepancy),
+        base::field("turned_apart_max", &Good::turned_apart_max_rad, turn_format,
+                    about_turned_apart));
 }
 
 constexpr auto fields_of(base::Tag<Criteria>)

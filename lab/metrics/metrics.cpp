@@ -3,6 +3,7 @@
 #include "lab/metrics/metrics.hpp"
 
 #include "device/simulated/press_schedule.hpp"
+#include "lab/metrics/angle.hpp"
 #include "lab/metrics/causality.hpp"
 #include "lab/metrics/columns.hpp"
 #include "lab/metrics/contact.hpp"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <vector>
 
@@ -78,36 +78,54 @@ std::optional<Spread> widest_spread(std::size_t sides, std::size_t count, const 
     return widest;
 }
 
-std::optional<Spread> body_discrepancy(const TraceColumns& columns)
+/// Where a side's sample has one of the bodies.
+virtual_time::Pose pose_of(const virtual_time::Trace& trace, std::size_t side, std::size_t sample,
+                           std::size_t body)
 {
-    return widest_spread(
-        columns.sides.size(), columns.count(), [&](std::size_t a, std::size_t b, std::size_t i) {
-            return std::abs(columns.sides[a].body_x[i] - columns.sides[b].body_x[i]);
-        });
+    if (body > 0) return trace.further[side][sample * trace.further_bodies + body - 1];
+    const virtual_time::Sample& first = trace.sides[side][sample];
+    return {first.body, first.orientation};
 }
 
-/// The angle of the rotation from one orientation to the other, 0 to pi.
-double angle_between(const glm::dquat& a, const glm::dquat& b)
+/// Of the body, and the two copies of it, that are farthest apart in the mean.
+std::optional<Spread> body_discrepancy(const virtual_time::Trace& trace)
 {
-    // By the imaginary part also where the angle is small, and with q and -q alike.
-    const glm::dquat turn = glm::conjugate(a) * b;
-    const double sine = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
-    return 2.0 * std::atan2(sine, std::abs(turn.w));
+    std::optional<Spread> widest;
+    for (std::size_t body = 0; body <= trace.further_bodies; ++body) {
+        const auto apart = [&](std::size_t a, std::size_t b, std::size_t i) {
+            return std::abs(pose_of(trace, a, i, body).position.x() -
+                            pose_of(trace, b, i, body).position.x());
+        };
+        widest =
+            worse(widest, widest_spread(trace.sides.size(), trace.sides.front().size(), apart));
+    }
+    return widest;
 }
 
+bool is_turned_by_any(const virtual_time::Trace& trace, std::size_t body)
+{
+    for (std::size_t side = 0; side < trace.sides.size(); ++side) {
+        const glm::dquat first = pose_of(trace, side, 0, body).orientation;
+        for (std::size_t i = 0; i < trace.sides[side].size(); ++i)
+            if (pose_of(trace, side, i, body).orientation != first) return true;
+    }
+    return false;
+}
+
+/// Likewise of the bodies that turn.
 std::optional<Spread> turned_apart(const virtual_time::Trace& trace)
 {
-    const auto turns = [](const std::vector<virtual_time::Sample>& side) {
-        return std::ranges::any_of(side, [&](const virtual_time::Sample& sample) {
-            return sample.orientation != side.front().orientation;
-        });
-    };
-    if (std::ranges::none_of(trace.sides, turns)) return std::nullopt;
-    return widest_spread(trace.sides.size(), trace.sides.front().size(),
-                         [&](std::size_t a, std::size_t b, std::size_t i) {
-                             return angle_between(trace.sides[a][i].orientation,
-                                                  trace.sides[b][i].orientation);
-                         });
+    std::optional<Spread> widest;
+    for (std::size_t body = 0; body <= trace.further_bodies; ++body) {
+        if (!is_turned_by_any(trace, body)) continue;
+        const auto angle = [&](std::size_t a, std::size_t b, std::size_t i) {
+            return angle_between(pose_of(trace, a, i, body).orientation,
+                                 pose_of(trace, b, i, body).orientation);
+        };
+        widest =
+            worse(widest, widest_spread(trace.sides.size(), trace.sides.front().size(), angle));
+    }
+    return widest;
 }
 
 std::optional<double> path_rms(const TraceColumns& columns, const Columns& side)
@@ -226,7 +244,7 @@ Metrics metrics_of(const virtual_time::Trace& trace)
     if (!columns.exercise.lifted.empty()) metrics.drops = drops(columns);
     const Columns &left = columns.sides[0], &right = columns.sides[1];
     if (columns.exercise.presses) metrics.force_discrepancy = force_discrepancy_of(left, right);
-    metrics.discrepancy_m = body_discrepancy(columns);
+    metrics.discrepancy_m = body_discrepancy(trace);
     metrics.turned_apart_rad = turned_apart(trace);
     metrics.energy_taken_j = energy_taken_of(work);
     if (columns.exercise.taps) metrics.response_s = response_of(left, right, columns.tick_s);

@@ -37,11 +37,11 @@ struct Metrics {
     std::array<BySide<double>, press_hertz.size()> stiffness_n_per_m{};
     /// C: mean ||F_L| - |F_R|| over the mean force, at equal times; of the first two hands.
     std::optional<double> force_discrepancy{};
-    /// D: |x_L - x_R| of the body at equal times, metres. Among more than two copies: of the two
-    /// that are farthest apart in the mean.
+    /// D: |x_L - x_R| of the body at equal times, metres. Among more than two copies, or several
+    /// bodies: of the two copies that are farthest apart in the mean.
     std::optional<Spread> discrepancy_m{};
     /// D of a body that turns: the angle between its orientations in two copies at equal times,
-    /// radians; of the two that are farthest apart in the mean. nullopt when no copy turns.
+    /// radians; of the two copies that are farthest apart in the mean. nullopt when none turns.
     std::optional<Spread> turned_apart_rad{};
     /// E: root mean square of the force on the hand in x above 20 Hz, newtons.
     BySide<ByOrder> force_vibration_n{};

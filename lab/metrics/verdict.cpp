@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/verdict.hpp"
 
+#include <numbers>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 
@@ -23,6 +24,8 @@ constexpr Wording scored_words{"time together", " %", 1e2};
 constexpr Wording force_discrepancy_words{"force discrepancy", " %", 1e2};
 constexpr Wording contact_words{"contact lost", " %", 1e2};
 constexpr Wording drag_words{"drag", " N", 1.0};
+constexpr Wording discrepancy_words{"copies apart", " mm", 1e3};
+constexpr Wording turned_apart_words{"copies turned apart", " deg", 180.0 / std::numbers::pi};
 
 std::string sentence(const Wording& words, double value, char relation, double limit)
 {
@@ -44,6 +47,13 @@ void at_least(std::optional<double> value, double limit, const Wording& words,
 {
     if (!value || *value >= limit) return;
     objections.push_back(sentence(words, *value, '<', limit));
+}
+
+/// What a text may leave out.
+void at_most(const std::optional<Spread>& value, std::optional<double> limit, const Wording& words,
+             std::vector<std::string>& objections)
+{
+    if (value && limit) at_most(value->mean, *limit, words, objections);
 }
 
 std::optional<double> judged(const std::optional<ByOrder>& values, FilterOrder order)
@@ -76,6 +86,9 @@ Judgement judge(const Scores& scores, const Criteria& criteria)
     at_least(stiffness, criteria.usable.stiffness_ratio_min, stiffness_words, failures);
     at_most(judged(scores.force_vibration_added_n, order), criteria.usable.force_vibration_max_n,
             force_vibration_words, failures);
+    at_most(scores.discrepancy_m, criteria.usable.discrepancy_max_m, discrepancy_words, failures);
+    at_most(scores.turned_apart_rad, criteria.usable.turned_apart_max_rad, turned_apart_words,
+            failures);
 
     auto& shortcomings = judgement.shortcomings;
     at_least(stiffness, criteria.good.stiffness_ratio_min, stiffness_words, shortcomings);
@@ -83,6 +96,9 @@ Judgement judge(const Scores& scores, const Criteria& criteria)
             shortcomings);
     at_most(scores.contact_lost, criteria.good.contact_lost_max, contact_words, shortcomings);
     at_most(scores.drag_n, criteria.good.drag_max_n, drag_words, shortcomings);
+    at_most(scores.discrepancy_m, criteria.good.discrepancy_max_m, discrepancy_words, shortcomings);
+    at_most(scores.turned_apart_rad, criteria.good.turned_apart_max_rad, turned_apart_words,
+            shortcomings);
     if (failures.empty()) judgement.tier = shortcomings.empty() ? Tier::good : Tier::usable;
     return judgement;
 }

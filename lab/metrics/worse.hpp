@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/metrics/high_pass.hpp"
+#include "lab/metrics/spread.hpp"
 #include "lab/metrics/steps.hpp"
 
 #include <cmath>
@@ -26,6 +27,12 @@ namespace hapnet::lab::metrics {
 {
     return {.largest_n = larger(a.largest_n, b.largest_n),
             .reversals = larger(a.reversals, b.reversals)};
+}
+
+/// By the mean.
+[[nodiscard]] inline Spread larger(const Spread& a, const Spread& b)
+{
+    return a.mean > b.mean || std::isnan(a.mean) ? a : b;
 }
 
 /// The only one that there is, or the larger.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/agreement.hpp"
 
+#include "lab/metrics/worse.hpp"
+#include "lab/records/bodies.hpp"
 #include "lab/records/moments.hpp"
 
 #include <algorithm>
@@ -13,6 +15,7 @@ namespace hapnet::lab::records {
 namespace {
 
 using namespace std::chrono_literals;
+using metrics::worse;
 using record::Phase;
 using record::TickRow;
 
@@ -32,17 +35,52 @@ std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& 
     return ForceDiscrepancy{spread->mean, spread->max};
 }
 
-std::optional<double> settled_discrepancy_of(const std::vector<Moment>& moments)
+/// The moments that say whether the copies agree again.
+std::vector<const Moment*> settled_moments(const std::vector<Moment>& moments)
 {
     std::optional<base::TimePoint> let_go;
-    std::optional<double> largest;
+    std::vector<const Moment*> settled;
     for (const Moment& moment : moments) {
         if (!moment.both_in(Phase::hands_off)) continue;
         if (!let_go) let_go = moment.a->due;
-        if (moment.a->due < *let_go + settling_time) continue;
-        largest = std::max(largest.value_or(0.0), norm(moment.cube_distance()));
+        if (moment.a->due >= *let_go + settling_time) settled.push_back(&moment);
     }
-    return largest;
+    return settled;
+}
+
+BodyAgreement agreement_of(const Session& session, const RecordedBody& body,
+                           const std::vector<Moment>& moments)
+{
+    BodyAgreement agreement{.body = body};
+    const Copies copies{session, body};
+    std::vector<double> along_x, distances, angles;
+    for (const Moment& moment : moments) {
+        if (!moment.both_in(Phase::running)) continue;
+        const auto apart = copies.apart_at(moment);
+        if (!apart) continue;
+        along_x.push_back(std::abs(apart->distance.x()));
+        distances.push_back(norm(apart->distance));
+        if (body.can_turn) angles.push_back(apart->angle_rad);
+    }
+    agreement.discrepancy_x = metrics::spread_of(along_x);
+    agreement.discrepancy = metrics::spread_of(distances);
+    agreement.turned_apart = metrics::spread_of(angles);
+    for (const Moment* moment : settled_moments(moments)) {
+        const auto apart = copies.apart_at(*moment);
+        if (!apart) continue;
+        agreement.settled_discrepancy =
+            worse(agreement.settled_discrepancy, std::optional{norm(apart->distance)});
+        if (!body.can_turn) continue;
+        agreement.settled_turned_apart =
+            worse(agreement.settled_turned_apart, std::optional{apart->angle_rad});
+    }
+    return agreement;
+}
+
+base::Duration::rep running_moments(const std::vector<Moment>& moments)
+{
+    return std::ranges::count_if(
+        moments, [](const Moment& moment) { return moment.both_in(Phase::running); });
 }
 
 TouchShares touch_shares_of(const std::vector<Moment>& moments)
@@ -83,18 +121,24 @@ double overlap_of(const Session& session, const std::vector<Moment>& moments)
 Agreement agreement_of(const Session& session)
 {
     const auto moments = moments_of(session);
-    std::vector<double> distances;
-    for (const Moment& moment : moments) {
-        if (moment.both_in(Phase::running)) {
-            distances.push_back(std::abs(moment.cube_distance().x()));
-        }
+    Agreement agreement{.bodies{},
+                        .discrepancy_x{},
+                        .force_discrepancy = force_discrepancy_of(moments),
+                        .settled_discrepancy{},
+                        .settled_turned_apart{},
+                        .touching = touch_shares_of(moments),
+                        .scored = running_moments(moments) * session.tick,
+                        .overlap = overlap_of(session, moments)};
+    for (const RecordedBody& body : session.bodies) {
+        const BodyAgreement& one =
+            agreement.bodies.emplace_back(agreement_of(session, body, moments));
+        agreement.discrepancy_x = worse(agreement.discrepancy_x, one.discrepancy_x);
+        agreement.settled_discrepancy =
+            worse(agreement.settled_discrepancy, one.settled_discrepancy);
+        agreement.settled_turned_apart =
+            worse(agreement.settled_turned_apart, one.settled_turned_apart);
     }
-    return {.discrepancy_x = metrics::spread_of(distances),
-            .force_discrepancy = force_discrepancy_of(moments),
-            .settled_discrepancy = settled_discrepancy_of(moments),
-            .touching = touch_shares_of(moments),
-            .scored = static_cast<base::Duration::rep>(distances.size()) * session.tick,
-            .overlap = overlap_of(session, moments)};
+    return agreement;
 }
 
 } // namespace hapnet::lab::records

@@ -7,6 +7,7 @@
 #include "proto/base/time.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -24,17 +25,35 @@ struct TouchShares {
     double both = 0.0;
 };
 
+/// How far the copies of one body are apart at equal times. Metres and radians.
+struct BodyAgreement {
+    RecordedBody body{};
+    /// |x_A - x_B| while both are running; nullopt when they never are.
+    std::optional<metrics::Spread> discrepancy_x{};
+    /// In space; otherwise the same.
+    std::optional<metrics::Spread> discrepancy{};
+    /// The angle between their orientations; nullopt, too, for a body that cannot turn.
+    std::optional<metrics::Spread> turned_apart{};
+    /// The largest distance and angle from 2 s after both let go to the end of the hands-off tail;
+    /// nullopt when that was not reached, and the angle of a body that cannot turn.
+    std::optional<double> settled_discrepancy{};
+    std::optional<double> settled_turned_apart{};
+};
+
 /// How well both copies of the scene agree at equal times, namely at each tick of A; B's state
 /// then is interpolated linearly between its ticks.
 struct Agreement {
-    /// |x_A - x_B| of the cube, in metres, while both are running; nullopt when they never are.
+    /// Each shared body.
+    std::vector<BodyAgreement> bodies;
+    /// |x_A - x_B| of the body that is farthest apart in the mean, in metres, while both are
+    /// running; nullopt when they never are.
     std::optional<metrics::Spread> discrepancy_x;
     /// ||F_A| - |F_B|| of the contact forces while both are running and touch; nullopt when they
     /// never do.
     std::optional<ForceDiscrepancy> force_discrepancy;
-    /// The largest distance of the cubes, in metres, from 2 s after both let go to the end of the
-    /// hands-off tail; nullopt when that was not reached.
+    /// The largest of all bodies.
     std::optional<double> settled_discrepancy;
+    std::optional<double> settled_turned_apart;
     /// Who touched the cube while both were running; all zero when they never were.
     TouchShares touching;
     /// How long both were running.

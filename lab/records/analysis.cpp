@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/analysis.hpp"
 
-#include "scene/text/text.hpp"
+#include "lab/metrics/worse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@ namespace hapnet::lab::records {
 namespace {
 
 using namespace std::chrono_literals;
+using metrics::worse;
 
 // A run that exceeds these is not worth a number: one tick of lateness is a tick of error.
 constexpr base::Duration lateness_max = 1ms;
@@ -41,7 +42,8 @@ void judge(const Agreement& agreement, std::vector<std::string>& objections)
     const bool finite =
         (!agreement.discrepancy_x || std::isfinite(agreement.discrepancy_x->std)) &&
         (!agreement.force_discrepancy || std::isfinite(agreement.force_discrepancy->mean)) &&
-        std::isfinite(agreement.settled_discrepancy.value_or(0.0));
+        std::isfinite(agreement.settled_discrepancy.value_or(0.0)) &&
+        std::isfinite(agreement.settled_turned_apart.value_or(0.0));
     if (!finite) objections.emplace_back("positions or forces were not finite");
 }
 
@@ -51,15 +53,15 @@ std::int64_t id_of(const record::Record& record)
     return id.is_number_integer() ? id.get<std::int64_t>() : 0;
 }
 
-std::optional<std::size_t> shared_body_in(const record::Record& record)
+/// Of two pairs of copies of one body the farther apart, quantity by quantity.
+BodyAgreement worse_of(const BodyAgreement& a, const BodyAgreement& b)
 {
-    const auto text = record.config.value("scene_toml", nlohmann::json{});
-    if (!text.is_string()) return std::nullopt;
-    const auto scene = scene::parse_scene(text.get<std::string>(), "scene_toml");
-    if (!scene) return std::nullopt;
-    const auto body = std::ranges::find_if(scene->bodies, &scene::BodyDescription::movable);
-    if (body == scene->bodies.end()) return std::nullopt;
-    return static_cast<std::size_t>(body - scene->bodies.begin());
+    return {.body = a.body,
+            .discrepancy_x = worse(a.discrepancy_x, b.discrepancy_x),
+            .discrepancy = worse(a.discrepancy, b.discrepancy),
+            .turned_apart = worse(a.turned_apart, b.turned_apart),
+            .settled_discrepancy = worse(a.settled_discrepancy, b.settled_discrepancy),
+            .settled_turned_apart = worse(a.settled_turned_apart, b.settled_turned_apart)};
 }
 
 } // namespace
@@ -82,11 +84,35 @@ const PairAnalysis* CircleAnalysis::worst() const
 std::optional<double> CircleAnalysis::settled_discrepancy() const
 {
     std::optional<double> largest;
-    for (const PairAnalysis& pair : pairs) {
-        if (const auto settled = pair.analysis.agreement.settled_discrepancy)
-            largest = std::max(largest.value_or(*settled), *settled);
-    }
+    for (const PairAnalysis& pair : pairs)
+        largest = worse(largest, pair.analysis.agreement.settled_discrepancy);
     return largest;
+}
+
+std::optional<double> CircleAnalysis::settled_turned_apart() const
+{
+    std::optional<double> largest;
+    for (const PairAnalysis& pair : pairs)
+        largest = worse(largest, pair.analysis.agreement.settled_turned_apart);
+    return largest;
+}
+
+std::vector<BodyAgreement> CircleAnalysis::bodies() const
+{
+    std::vector<BodyAgreement> bodies;
+    for (const PairAnalysis& pair : pairs) {
+        for (const BodyAgreement& one : pair.analysis.agreement.bodies) {
+            const auto known = std::ranges::find_if(bodies, [&](const BodyAgreement& other) {
+                return other.body.number == one.body.number;
+            });
+            if (known == bodies.end()) {
+                bodies.push_back(one);
+            } else {
+                *known = worse_of(*known, one);
+            }
+        }
+    }
+    return bodies;
 }
 
 base::Result<CircleAnalysis> analyse_circle(std::span<const record::Record> records)
@@ -117,7 +143,6 @@ base::Result<CircleAnalysis> analyse_circle(std::span<const record::Record> reco
         for (const std::string& objection : objections)
             circle.invalid_because.push_back(fmt::format("{}: {}", pair.name(), objection));
     }
-    if (!by_id.empty()) circle.body = shared_body_in(*by_id.front());
     return circle;
 }
 

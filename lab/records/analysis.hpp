@@ -51,8 +51,6 @@ struct CircleAnalysis {
     std::vector<PairAnalysis> pairs;
     /// The loop of each peer, by its id.
     std::map<std::int64_t, Loop> loops;
-    /// The number of the shared body in the scene; nullopt: the records do not say it.
-    std::optional<std::size_t> body;
     std::vector<std::string> invalid_because;
 
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
@@ -60,6 +58,9 @@ struct CircleAnalysis {
     [[nodiscard]] const PairAnalysis* worst() const;
     /// The largest of all; nullopt: none came so far.
     [[nodiscard]] std::optional<double> settled_discrepancy() const;
+    [[nodiscard]] std::optional<double> settled_turned_apart() const;
+    /// Of each body the largest of all pairs.
+    [[nodiscard]] std::vector<BodyAgreement> bodies() const;
 };
 
 /// Refuses what analyse() refuses of any two, naming them by their place.

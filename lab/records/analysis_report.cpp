@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/analysis_report.hpp"
 
+#include "lab/records/bodies.hpp"
+
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
@@ -14,7 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double mm = 1e3; // metres into millimetres
+constexpr double mm = 1e3;                           // metres into millimetres
+constexpr double degrees = 180.0 / std::numbers::pi; // radians into degrees
 
 double ms(base::Duration duration) { return 1e-6 * static_cast<double>(duration.count()); }
 double us(base::Duration duration) { return 1e-3 * static_cast<double>(duration.count()); }
@@ -22,13 +26,13 @@ double us(base::Duration duration) { return 1e-3 * static_cast<double>(duration.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
 
-Json json_of(const std::optional<metrics::Spread>& spread)
+Json json_of(const std::optional<metrics::Spread>& spread, double unit = mm)
 {
     if (!spread) return nullptr;
-    return {{"mean", number(mm * spread->mean)},
-            {"min", number(mm * spread->min)},
-            {"max", number(mm * spread->max)},
-            {"std", number(mm * spread->std)}};
+    return {{"mean", number(unit * spread->mean)},
+            {"min", number(unit * spread->min)},
+            {"max", number(unit * spread->max)},
+            {"std", number(unit * spread->std)}};
 }
 
 Json json_of(const std::optional<ForceDiscrepancy>& force)
@@ -80,6 +84,51 @@ std::optional<double> part(const std::optional<T>& whole, auto member, double un
 std::optional<double> scaled(std::optional<double> value, double unit)
 {
     return value ? std::optional{unit * *value} : std::nullopt;
+}
+
+/// By their numbers in the scene; records that do not say these have none.
+Json json_of(const std::vector<BodyAgreement>& bodies)
+{
+    Json out = Json::object();
+    for (const BodyAgreement& one : bodies) {
+        if (!one.body.number) continue;
+        out[std::to_string(*one.body.number)] = {
+            {"name", one.body.name.empty() ? Json(nullptr) : Json(one.body.name)},
+            {"discrepancy_mm", json_of(one.discrepancy)},
+            {"discrepancy_x_mm", json_of(one.discrepancy_x)},
+            {"turned_apart_deg", json_of(one.turned_apart, degrees)},
+            {"settled_discrepancy_mm", number(scaled(one.settled_discrepancy, mm))},
+            {"settled_turned_apart_deg", number(scaled(one.settled_turned_apart, degrees))}};
+    }
+    return out;
+}
+
+/// Whether there is more to say of bodies than the distances in x.
+bool has_many_or_turning(const std::vector<BodyAgreement>& bodies)
+{
+    return bodies.size() > 1 || (bodies.size() == 1 && bodies.front().body.can_turn);
+}
+
+TextTable bodies_table(const std::vector<BodyAgreement>& bodies)
+{
+    TextTable table{"How far the copies of each body were apart at equal times",
+                    "bodies",
+                    {"mean, mm", "max, mm", "mean, deg", "max, deg", "settled, mm", "settled, deg"},
+                    {},
+                    {},
+                    14};
+    for (const BodyAgreement& one : bodies) {
+        const auto& apart = one.discrepancy;
+        const auto& turned = one.turned_apart;
+        table.rows.push_back({name_of(one.body),
+                              {number_text(part(apart, &metrics::Spread::mean, mm), 3),
+                               number_text(part(apart, &metrics::Spread::max, mm), 3),
+                               number_text(part(turned, &metrics::Spread::mean, degrees), 3),
+                               number_text(part(turned, &metrics::Spread::max, degrees), 3),
+                               number_text(scaled(one.settled_discrepancy, mm), 4),
+                               number_text(scaled(one.settled_turned_apart, degrees), 4)}});
+    }
+    return table;
 }
 
 TextTable distances_table(const Agreement& agreement)
@@ -232,15 +281,16 @@ std::string verdict_text(const std::vector<std::string>& invalid_because)
 Json to_json(const Analysis& analysis)
 {
     const Agreement& agreement = analysis.agreement;
-    const auto settled = agreement.settled_discrepancy;
     return {{"discrepancy_x_mm", json_of(agreement.discrepancy_x)},
             {"force_discrepancy_n", json_of(agreement.force_discrepancy)},
-            {"settled_discrepancy_mm", settled ? number(mm * *settled) : Json(nullptr)},
+            {"settled_discrepancy_mm", number(scaled(agreement.settled_discrepancy, mm))},
+            {"settled_turned_apart_deg", number(scaled(agreement.settled_turned_apart, degrees))},
             {"touching",
              {{"a", agreement.touching.a},
               {"b", agreement.touching.b},
               {"either", agreement.touching.either},
               {"both", agreement.touching.both}}},
+            {"bodies", json_of(agreement.bodies)},
             {"scored_s", base::to_seconds(agreement.scored)},
             {"overlap", agreement.overlap},
             {"a_to_b", json_of(analysis.a_to_b)},
@@ -257,9 +307,13 @@ Json to_json(const Analysis& analysis)
 
 std::vector<TextTable> tables_of(const Analysis& analysis)
 {
-    return {distances_table(analysis.agreement), touching_table(analysis.agreement),
-            network_table(analysis.a_to_b, analysis.b_to_a),
-            loops_table({{"A", analysis.a}, {"B", analysis.b}})};
+    const Agreement& agreement = analysis.agreement;
+    std::vector<TextTable> tables{distances_table(agreement)};
+    if (has_many_or_turning(agreement.bodies)) tables.push_back(bodies_table(agreement.bodies));
+    tables.push_back(touching_table(agreement));
+    tables.push_back(network_table(analysis.a_to_b, analysis.b_to_a));
+    tables.push_back(loops_table({{"A", analysis.a}, {"B", analysis.b}}));
+    return tables;
 }
 
 std::string clock_text(const Clock& clock)
@@ -282,12 +336,11 @@ Json to_json(const CircleAnalysis& circle)
     if (circle.pairs.empty()) return Json::object();
     Json out = to_json(circle.pairs.front().analysis);
     const PairAnalysis* worst = circle.worst();
-    const auto settled = circle.settled_discrepancy();
-    const Json discrepancy =
+    out["discrepancy_x_mm"] =
         worst == nullptr ? Json(nullptr) : json_of(worst->analysis.agreement.discrepancy_x);
-    const Json settled_mm = settled ? number(mm * *settled) : Json(nullptr);
-    out["discrepancy_x_mm"] = discrepancy;
-    out["settled_discrepancy_mm"] = settled_mm;
+    out["settled_discrepancy_mm"] = number(scaled(circle.settled_discrepancy(), mm));
+    out["settled_turned_apart_deg"] = number(scaled(circle.settled_turned_apart(), degrees));
+    out["bodies"] = json_of(circle.bodies());
     out["valid"] = circle.valid();
     out["invalid_because"] = circle.invalid_because;
     out["worst_pair"] = worst == nullptr ? Json(nullptr) : Json(worst->name());
@@ -299,11 +352,6 @@ Json to_json(const CircleAnalysis& circle)
     }
     out["peers"] = Json::object();
     for (const auto& [id, loop] : circle.loops) out["peers"][std::to_string(id)] = json_of(loop);
-    out["bodies"] = Json::object();
-    if (circle.body) {
-        out["bodies"][std::to_string(*circle.body)] = {{"discrepancy_x_mm", discrepancy},
-                                                       {"settled_discrepancy_mm", settled_mm}};
-    }
     return out;
 }
 
@@ -312,7 +360,12 @@ std::vector<TextTable> tables_of(const CircleAnalysis& circle)
     std::vector<std::pair<std::string, Loop>> loops;
     for (const auto& [id, loop] : circle.loops)
         loops.emplace_back(fmt::format("peer {}", id), loop);
-    return {pairs_table(circle.pairs), ways_table(circle.pairs), loops_table(loops)};
+    std::vector<TextTable> tables{pairs_table(circle.pairs)};
+    const auto bodies = circle.bodies();
+    if (has_many_or_turning(bodies)) tables.push_back(bodies_table(bodies));
+    tables.push_back(ways_table(circle.pairs));
+    tables.push_back(loops_table(loops));
+    return tables;
 }
 
 std::string to_table(const CircleAnalysis& circle)

@@ -24,7 +24,7 @@ namespace hapnet::lab::records {
 [[nodiscard]] std::string to_table(const Analysis& analysis);
 
 /// Of more than two: the keys of the first two by their ids, but the discrepancies of the worst
-/// pair; `pairs` has all of each pair, `peers` the loop of each, `bodies` the shared body.
+/// pair; `pairs` has all of each pair, `peers` the loop of each.
 [[nodiscard]] nlohmann::ordered_json to_json(const CircleAnalysis& circle);
 [[nodiscard]] std::vector<TextTable> tables_of(const CircleAnalysis& circle);
 [[nodiscard]] std::string to_table(const CircleAnalysis& circle);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/csv.hpp"
 
+#include "lab/records/bodies.hpp"
 #include "lab/records/message_view.hpp"
 #include "proto/base/csv.hpp"
 #include "proto/record/fields.hpp"
@@ -32,6 +33,11 @@ struct Shown<base::Velocity> {
     static constexpr double scale = 1e3;
 };
 template <>
+struct Shown<record::AngularVelocity> {
+    static constexpr std::array suffixes{"_x_rad_per_s", "_y_rad_per_s", "_z_rad_per_s"};
+    static constexpr double scale = 1.0;
+};
+template <>
 struct Shown<base::Force> {
     static constexpr std::array suffixes{"_x_n", "_y_n", "_z_n"};
     static constexpr double scale = 1.0;
@@ -50,7 +56,8 @@ std::string seconds(base::Duration duration)
 }
 
 /// Calls add(name, suffix, cell) for every column but the first, which is the time.
-void for_each_column(const record::TickRow& row, const auto& add)
+template <typename R>
+void for_each_column(const R& row, const auto& add)
 {
     base::for_each_field(
         [&]<typename Value>(const auto& field, const Value& value) {
@@ -62,6 +69,11 @@ void for_each_column(const record::TickRow& row, const auto& add)
                 add(field.key, x, decimal(Shown<Value>::scale * value.x()));
                 add(field.key, y, decimal(Shown<Value>::scale * value.y()));
                 add(field.key, z, decimal(Shown<Value>::scale * value.z()));
+            } else if constexpr (std::is_same_v<Value, glm::dquat>) {
+                add(field.key, "_w", decimal(value.w));
+                add(field.key, "_x", decimal(value.x));
+                add(field.key, "_y", decimal(value.y));
+                add(field.key, "_z", decimal(value.z));
             } else if constexpr (std::is_same_v<Value, bool>) {
                 add(field.key, "", value ? "1" : "0");
             } else if constexpr (!std::is_same_v<Value, base::TimePoint>) {
@@ -71,16 +83,17 @@ void for_each_column(const record::TickRow& row, const auto& add)
         row);
 }
 
+template <typename R = record::TickRow>
 std::string column_names(std::string_view prefix)
 {
     std::string names;
-    for_each_column({}, [&](std::string_view name, std::string_view suffix, std::string_view) {
+    for_each_column(R{}, [&](std::string_view name, std::string_view suffix, std::string_view) {
         names += fmt::format(",{}{}{}", prefix, name, suffix);
     });
     return names;
 }
 
-std::string cells_of(const record::TickRow& row)
+std::string cells_of(const auto& row)
 {
     std::string cells;
     for_each_column(row, [&](std::string_view, std::string_view, std::string_view cell) {
@@ -110,6 +123,28 @@ std::string tick_csv_header() { return "time_s" + column_names(""); }
 std::string csv_line(const record::TickRow& row, base::TimePoint zero)
 {
     return seconds(row.at() - zero) + cells_of(row);
+}
+
+std::string body_csv_header() { return "time_s" + column_names<record::BodyRow>(""); }
+
+void for_each_body_csv_line(const record::Record& record, base::TimePoint zero,
+                            const std::function<void(const std::string&)>& take)
+{
+    const auto line_of = [&](const record::TickRow& tick, const record::BodyRow& row) {
+        take(seconds(tick.at() - zero) + cells_of(row));
+    };
+    const auto only_body = bodies_shared_in(record, record).front().number.value_or(0);
+    auto row = record.bodies.begin();
+    for (const record::TickRow& tick : record.ticks) {
+        if (record.bodies.empty()) {
+            line_of(tick, {.tick = tick.tick,
+                           .body = only_body,
+                           .position = tick.cube,
+                           .velocity = tick.cube_velocity});
+        }
+        while (row != record.bodies.end() && row->tick < tick.tick) ++row;
+        for (; row != record.bodies.end() && row->tick == tick.tick; ++row) line_of(tick, *row);
+    }
 }
 
 std::string joined_csv_header()

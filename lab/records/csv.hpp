@@ -22,6 +22,12 @@ namespace hapnet::lab::records {
 [[nodiscard]] std::string tick_csv_header();
 [[nodiscard]] std::string csv_line(const record::TickRow& row, base::TimePoint zero);
 
+/// The shared bodies after each tick, a line for each; of a record without rows of bodies the one
+/// that its ticks hold.
+[[nodiscard]] std::string body_csv_header();
+void for_each_body_csv_line(const record::Record& record, base::TimePoint zero,
+                            const std::function<void(const std::string&)>& take);
+
 /// The newest row of the session with each of the others, by its id; 0 in older records.
 using NewestSessions = std::map<std::uint16_t, record::SessionRow>;
 [[nodiscard]] NewestSessions newest_sessions(const record::Record& record);

@@ -2,20 +2,36 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/curves.hpp"
 
+#include "lab/records/bodies.hpp"
 #include "lab/records/moments.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace hapnet::lab::records {
 
 namespace {
 
 constexpr double mm_per_m = 1e3;
+constexpr double degrees_per_rad = 180.0 / std::numbers::pi;
 
 bool takes_part(const record::TickRow& row)
 {
     return row.phase == record::Phase::running || row.phase == record::Phase::hands_off ||
            row.phase == record::Phase::alone;
+}
+
+/// Calls take(seconds from the start, how far apart) while both take part.
+template <typename Take>
+void for_each_apart(const Session& session, const RecordedBody& body,
+                    const std::vector<Moment>& moments, const Take& take)
+{
+    const Copies copies{session, body};
+    for (const Moment& moment : moments) {
+        if (!takes_part(*moment.a) || !takes_part(*moment.before)) continue;
+        if (const auto apart = copies.apart_at(moment))
+            take(base::to_seconds(moment.a->at() - session.a.terms.start), *apart);
+    }
 }
 
 } // namespace
@@ -37,10 +53,19 @@ SessionCurves curves_of(const Session& session)
         curves.cube_b_mm.push_back({time_s, mm_per_m * row.cube.x()});
         curves.force_b_n.push_back({time_s, norm(row.device)});
     }
-    for (const Moment& moment : moments_of(session)) {
-        if (!takes_part(*moment.a) || !takes_part(*moment.before)) continue;
-        curves.apart_mm.push_back(
-            {seconds(moment.a->at()), mm_per_m * std::abs(moment.cube_distance().x())});
+    const auto moments = moments_of(session);
+    for_each_apart(session, session.bodies.front(), moments,
+                   [&](double time_s, const Apart& apart) {
+                       curves.apart_mm.push_back({time_s, mm_per_m * std::abs(apart.distance.x())});
+                   });
+    if (session.bodies.size() == 1 && !session.bodies.front().can_turn) return curves;
+    for (const RecordedBody& body : session.bodies) {
+        BodyCurves& of_body = curves.bodies.emplace_back(BodyCurves{name_of(body), {}, {}});
+        for_each_apart(session, body, moments, [&](double time_s, const Apart& apart) {
+            of_body.apart_mm.push_back({time_s, mm_per_m * norm(apart.distance)});
+            if (!body.can_turn) return;
+            of_body.turned_apart_deg.push_back({time_s, degrees_per_rad * apart.angle_rad});
+        });
     }
     return curves;
 }

@@ -4,6 +4,7 @@
 
 #include "lab/records/session.hpp"
 
+#include <string>
 #include <vector>
 
 namespace hapnet::lab::records {
@@ -14,13 +15,22 @@ struct TimedValue {
     double value = 0.0;
 };
 
+/// How far the copies of one body were apart over time.
+struct BodyCurves {
+    std::string name;
+    std::vector<TimedValue> apart_mm;         // in space
+    std::vector<TimedValue> turned_apart_deg; // empty: it cannot turn
+};
+
 /// How a session went over time: every tick in which a peer took part, hands off included.
 struct SessionCurves {
     std::vector<TimedValue> cube_a_mm; // x of each copy of the cube
     std::vector<TimedValue> cube_b_mm;
-    std::vector<TimedValue> apart_mm;  // |x_A - x_B| at equal times
+    std::vector<TimedValue> apart_mm;  // |x_A - x_B| of the first body at equal times
     std::vector<TimedValue> force_a_n; // the force that each device was told
     std::vector<TimedValue> force_b_n;
+    /// Of each, where there are several or one that can turn.
+    std::vector<BodyCurves> bodies;
 };
 
 [[nodiscard]] SessionCurves curves_of(const Session& session);

@@ -14,12 +14,6 @@ constexpr base::Duration gap_max{std::chrono::milliseconds{10}};
 
 } // namespace
 
-base::Displacement Moment::cube_distance() const
-{
-    const base::Displacement step = after->cube - before->cube;
-    return a->cube - (before->cube + share * step);
-}
-
 double Moment::force_distance() const
 {
     const base::Force step = after->contact - before->contact;

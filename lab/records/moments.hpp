@@ -25,8 +25,6 @@ struct Moment {
     {
         return a->touching && before->touching && after->touching;
     }
-    /// From B's copy of the cube to A's.
-    [[nodiscard]] base::Displacement cube_distance() const;
     /// ||F_A| - |F_B|| of the contact forces.
     [[nodiscard]] double force_distance() const;
 };

@@ -3,6 +3,7 @@
 #include "lab/records/replay.hpp"
 
 #include "device/governor.hpp"
+#include "lab/metrics/angle.hpp"
 #include "lab/records/recorded_settings.hpp"
 #include "peer/core/side.hpp"
 #include "peer/core/sync/text.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
 #include <utility>
@@ -73,6 +75,20 @@ std::size_t index_of(const std::vector<std::uint16_t>& others, std::uint16_t id)
     return static_cast<std::size_t>(std::ranges::find(others, id) - others.begin());
 }
 
+/// Infinite where one of two is no number and the other is.
+double difference(const auto& a, const auto& b)
+{
+    double most = 0.0;
+    for (const int axis : {0, 1, 2}) {
+        const double x = a.value[axis];
+        const double y = b.value[axis];
+        const bool same = x == y || (std::isnan(x) && std::isnan(y));
+        const double gap = same ? 0.0 : std::abs(x - y);
+        most = std::max(most, std::isnan(gap) ? std::numeric_limits<double>::infinity() : gap);
+    }
+    return most;
+}
+
 /// One peer as it was.
 class Replayer {
 public:
@@ -101,6 +117,33 @@ public:
         return {row.tick, row.at(), row.contact, side_.tick().force, row.device, side_.told()};
     }
 
+    /// After a tick: how far the bodies of which it has rows are from these.
+    struct BodyDifference {
+        double place_m = 0.0;
+        double turn_rad = 0.0;
+    };
+    [[nodiscard]] BodyDifference body_difference(std::uint64_t tick)
+    {
+        BodyDifference most;
+        const auto& rows = record_.bodies;
+        while (body_ < rows.size() && rows[body_].tick < tick) ++body_;
+        for (; body_ < rows.size() && rows[body_].tick == tick; ++body_) {
+            const record::BodyRow& row = rows[body_];
+            const auto& shared = side_.peer().shared();
+            const auto body = std::ranges::find(shared, row.body, &peer::SharedBody::id);
+            if (body == shared.end()) {
+                most.place_m = std::numeric_limits<double>::infinity();
+                continue;
+            }
+            const record::BodyRow now = side_.body_row(tick, *body);
+            most.place_m = std::max(most.place_m, difference(now.position, row.position));
+            const double turn = metrics::angle_between(now.orientation, row.orientation);
+            most.turn_rad = std::max(
+                most.turn_rad, std::isnan(turn) ? std::numeric_limits<double>::infinity() : turn);
+        }
+        return most;
+    }
+
     [[nodiscard]] std::size_t messages() const { return message_; }
 
 private:
@@ -109,21 +152,8 @@ private:
     RecordedRig rig_;
     peer::Side side_;
     std::size_t message_ = 0;
+    std::size_t body_ = 0; // the next row
 };
-
-/// Infinite where one of two is no number and the other is.
-double difference(const base::Force& a, const base::Force& b)
-{
-    double most = 0.0;
-    for (const int axis : {0, 1, 2}) {
-        const double x = a.value[axis];
-        const double y = b.value[axis];
-        const bool same = x == y || (std::isnan(x) && std::isnan(y));
-        const double gap = same ? 0.0 : std::abs(x - y);
-        most = std::max(most, std::isnan(gap) ? std::numeric_limits<double>::infinity() : gap);
-    }
-    return most;
-}
 
 std::optional<std::string> gap_in(const record::Record& record)
 {
@@ -180,7 +210,15 @@ base::Result<Replayed> replay(const record::Record& record,
         const double device = difference(tick.device, tick.recorded_device);
         replayed.contact_difference_max_n = std::max(replayed.contact_difference_max_n, contact);
         replayed.device_difference_max_n = std::max(replayed.device_difference_max_n, device);
-        const bool differs = contact > tolerance_n || device > tolerance_n;
+        bool differs = contact > tolerance_n || device > tolerance_n;
+        if (!record.bodies.empty()) {
+            const auto [place_m, turn_rad] = replayer.body_difference(row.tick);
+            auto& most_m = replayed.body_difference_max_m;
+            auto& most_rad = replayed.turn_difference_max_rad;
+            most_m = std::max(most_m.value_or(0.0), place_m);
+            most_rad = std::max(most_rad.value_or(0.0), turn_rad);
+            differs = differs || place_m > tolerance_m || turn_rad > tolerance_rad;
+        }
         if (differs && !replayed.differs_from) replayed.differs_from = row.tick;
     }
     replayed.messages = replayer.messages();
@@ -197,9 +235,16 @@ nlohmann::json to_json(const Replayed& replayed)
                        {"contact_difference_max_n", finite(replayed.contact_difference_max_n)},
                        {"device_difference_max_n", finite(replayed.device_difference_max_n)},
                        {"tolerance_n", tolerance_n},
+                       {"body_difference_max_mm", nullptr},
+                       {"turn_difference_max_deg", nullptr},
                        {"differs_from_tick", nullptr},
                        {"complete", replayed.is_complete},
                        {"reproduced", !replayed.differs_from}};
+    if (replayed.body_difference_max_m) {
+        out["body_difference_max_mm"] = finite(1e3 * *replayed.body_difference_max_m);
+        out["turn_difference_max_deg"] =
+            finite(180.0 / std::numbers::pi * *replayed.turn_difference_max_rad);
+    }
     if (replayed.differs_from) out["differs_from_tick"] = *replayed.differs_from;
     return out;
 }
@@ -211,6 +256,11 @@ std::string to_table(const Replayed& replayed)
                     "difference  contact force {:.3g} N, device force {:.3g} N at most\n",
                     replayed.ticks.size(), replayed.messages, replayed.algorithm,
                     replayed.contact_difference_max_n, replayed.device_difference_max_n);
+    if (replayed.body_difference_max_m) {
+        text += fmt::format("bodies      {:.3g} mm and {:.3g} deg apart at most\n",
+                            1e3 * *replayed.body_difference_max_m,
+                            180.0 / std::numbers::pi * *replayed.turn_difference_max_rad);
+    }
     if (!replayed.is_complete) {
         text += "incomplete  the record stops before the session's end: its writer was killed, its "
                 "disk was full, or it was cut off\n";

@@ -31,15 +31,22 @@ struct Replayed {
     std::vector<ReplayedTick> ticks;
     std::size_t messages = 0;
     std::string algorithm;
-    bool is_the_recorded_one = true;           // the algorithm
-    double contact_difference_max_n = 0.0;     // between recorded and replayed, over all ticks
-    double device_difference_max_n = 0.0;      // likewise
-    std::optional<std::uint64_t> differs_from; // the first tick with more than `tolerance_n`
+    bool is_the_recorded_one = true;       // the algorithm
+    double contact_difference_max_n = 0.0; // between recorded and replayed, over all ticks
+    double device_difference_max_n = 0.0;  // likewise
+    /// Likewise of the places and orientations of all bodies that the record has rows of; nullopt:
+    /// it has none.
+    std::optional<double> body_difference_max_m;
+    std::optional<double> turn_difference_max_rad;
+    /// The first tick with more than the tolerances.
+    std::optional<std::uint64_t> differs_from;
     bool is_complete = false; // its last tick is one of the session's end: nothing is cut off
 };
 
 /// Rounding that a printed and read-again description of a session may leave.
 inline constexpr double tolerance_n = 1e-9;
+inline constexpr double tolerance_m = 1e-9;
+inline constexpr double tolerance_rad = 1e-9;
 
 /// Plays one peer again on the cores that the daemon runs: the recorded messages arrive in the
 /// ticks that took them, and the recorded hand moves as it did, whatever force it is given. With

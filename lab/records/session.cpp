@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/session.hpp"
 
+#include "lab/records/bodies.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -84,9 +86,9 @@ Side side_of(const record::Record& record, std::uint32_t session, std::int64_t p
     };
     const std::size_t from = ticks_before(first);
     const auto others = others_of(record);
-    return {*newest, std::span{record.ticks}.subspan(from, ticks_before(next) - from),
-            record.messages, peer_id,
-            others.size() <= 1 || others.front() == std::int64_t{first->other}};
+    return {*newest,         std::span{record.ticks}.subspan(from, ticks_before(next) - from),
+            record.messages, record.bodies,
+            peer_id,         others.size() <= 1 || others.front() == std::int64_t{first->other}};
 }
 
 Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& terms_of_a)
@@ -127,7 +129,8 @@ base::Result<Session> common_session(const record::Record& a, const record::Reco
                    side_of(b, *session, peer_b->id),
                    {},
                    peer_a->tick,
-                   peer_a->task};
+                   peer_a->task,
+                   bodies_shared_in(a, b)};
     common.clock = clock_between(*peer_a, *peer_b, common.a.terms);
     return common;
 }

@@ -7,8 +7,10 @@
 #include "proto/record/reader.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -51,6 +53,8 @@ struct Side {
     std::span<const record::TickRow> ticks;
     /// All that the record holds: what belongs to the session says its messages themselves.
     std::span<const record::MessageRow> messages;
+    /// Likewise all that it holds, ascending in tick and number.
+    std::span<const record::BodyRow> bodies{};
     std::int64_t peer_id = 0;
     /// Whether `sent_sequence` of its ticks counts the messages to the other side of this session.
     bool numbers_sent = true;
@@ -59,6 +63,14 @@ struct Side {
 /// The clock of the other peer against that of the record which holds this row.
 [[nodiscard]] Clock clock_of(const record::SessionRow& row);
 
+/// One of the bodies that a session shared.
+struct RecordedBody {
+    std::optional<std::uint16_t> number{}; // in the scene, from 0; nullopt: not said
+    std::string name{};                    // of the scene; may be empty
+    bool can_turn = false;
+    bool has_rows = false; // of its own; otherwise the ticks hold it
+};
+
 /// What two records tell of the same session.
 struct Session {
     Side a;
@@ -66,6 +78,7 @@ struct Session {
     Clock clock;
     base::Duration tick{};
     std::string task; // as A's record names it; "" when it does not
+    std::vector<RecordedBody> bodies{};
 };
 
 /// The last session that both records know. Refers into both records. Refuses records that share

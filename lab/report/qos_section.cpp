@@ -43,6 +43,9 @@ void add_task(PlaneCellOnPage& cell, const results::QosRow& row)
         fmt::format("\n{}: {}, vibration {} mm, stiffness {}, force vibration {} N", row.task,
                     to_text(row.judged.tier), shown(row.judged.vibration_mm, 3),
                     shown(row.judged.stiffness_ratio, 2), shown(row.judged.force_vibration_n, 3));
+    if (row.judged.turned_apart_deg)
+        cell.tip +=
+            fmt::format(", copies turned apart {} deg", shown(row.judged.turned_apart_deg, 2));
 }
 
 /// One algorithm at one loss.

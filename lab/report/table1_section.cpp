@@ -5,6 +5,7 @@
 #include "lab/results/paper.hpp"
 #include "proto/plot/bars.hpp"
 
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
@@ -144,6 +145,10 @@ std::optional<Section> tasks_section(const results::Results& results)
                      "vibration<br>mm", "stiffness<br>ratio", "force<br>vibration, N",
                      "forces<br>apart, %", "contact<br>lost, %", "force<br>step, N", "drag<br>N",
                      "energy<br>mJ", "limited by"}};
+    const bool turn = std::ranges::any_of(results.tasks, [](const results::TaskRow& row) {
+        return row.turned_apart_deg.has_value();
+    });
+    if (turn) table.heads.emplace_back("turned<br>apart, max deg");
     const auto percent = [](std::optional<double> share) {
         return shown(share ? std::optional{100.0 * *share} : std::nullopt, 1);
     };
@@ -166,6 +171,7 @@ std::optional<Section> tasks_section(const results::Results& results)
                                   {shown(row.drag_n, 3)},
                                   {shown(row.energy_mj, 2)},
                                   {escaped(row.limited_by), "words"}});
+            if (turn) table.rows.back().push_back({shown(row.turned_apart_deg, 2)});
         }
     }
     return Section{"tasks", "The closed-loop tasks beside it",

@@ -176,6 +176,7 @@ struct Judged {
     std::optional<double> stiffness_ratio{};
     std::optional<double> force_vibration_n{};
     metrics::Tier tier{};
+    std::optional<double> turned_apart_deg{}; // mean of the worst seed; where a body turns
 };
 constexpr auto fields_of(base::Tag<Judged>)
 {
@@ -184,7 +185,9 @@ constexpr auto fields_of(base::Tag<Judged>)
         base::field("vibration_mm", &Judged::vibration_mm, thousandths),
         base::field("stiffness_ratio", &Judged::stiffness_ratio, ten_thousandths),
         base::field("force_vibration_n", &Judged::force_vibration_n, ten_thousandths),
-        base::field("tier", &Judged::tier));
+        base::field("tier", &Judged::tier),
+        base::field("turned_apart_deg", &Judged::turned_apart_deg,
+                    base::Spare<base::Decimals>{thousandths}));
 }
 
 /// Of curves.csv: a session that a search played.

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/summary.hpp"
 
+#include "lab/metrics/worse.hpp"
+#include "proto/base/quantity.hpp"
+
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
@@ -44,6 +47,8 @@ metrics::Scores worst_of(std::span<const metrics::Scores> all)
         lower(worst.stiffness_ratio[metrics::judged_press],
               scores.stiffness_ratio[metrics::judged_press]);
         raise(worst.force_discrepancy, scores.force_discrepancy);
+        worst.discrepancy_m = metrics::worse(worst.discrepancy_m, scores.discrepancy_m);
+        worst.turned_apart_rad = metrics::worse(worst.turned_apart_rad, scores.turned_apart_rad);
         raise(worst.force_vibration_n, scores.force_vibration_n);
         raise(worst.force_vibration_added_n, scores.force_vibration_added_n);
         raise(worst.contact_lost, scores.contact_lost);
@@ -95,6 +100,8 @@ Judged make_judged(const Summary& summary, const metrics::Criteria& criteria)
                   .tier = summary.tier};
     if (summary.typical_m) judged.mean_mm = 1e3 * summary.typical_m->mean;
     if (vibration_m) judged.vibration_mm = 1e3 * *vibration_m;
+    if (const auto turned = summary.worst.turned_apart_rad)
+        judged.turned_apart_deg = turned->mean / base::radians_per_degree;
     return judged;
 }
 

@@ -20,6 +20,7 @@ constexpr std::int64_t steps_between_looks = 1024; // at `stop`
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
+    std::vector<Pose> further; // Trace::further
 };
 
 /// Whether a link was full, so that a datagram was lost which the emulator would have kept.
@@ -86,6 +87,7 @@ void Play::note(std::size_t side)
         track.samples.reserve(static_cast<std::size_t>(ticks) + 1);
     }
     track.samples.push_back(player.sample());
+    player.add_further_bodies(track.further);
 }
 
 bool Play::has_any_session() const
@@ -104,16 +106,19 @@ struct Offset {
     [[nodiscard]] base::Duration::rep beyond() const { return share > 0.0 ? 1 : 0; }
 };
 
-/// The samples of a track from there on, `count` of them.
-void take(std::vector<Sample>& samples, const Offset& from, base::Duration::rep count)
+/// What a track has from there on, `count` ticks of it with `each` values.
+template <typename Value>
+void take(std::vector<Value>& values, const Offset& from, base::Duration::rep count,
+          std::size_t each = 1)
 {
+    const auto kept = each * static_cast<std::size_t>(count);
+    const auto skipped = each * static_cast<std::size_t>(from.tick);
+    const auto beyond = each * static_cast<std::size_t>(from.beyond());
     const bool moves = from.tick > 0 || from.share > 0.0;
-    for (base::Duration::rep i = 0; i < count && moves; ++i) {
-        const auto at = static_cast<std::size_t>(from.tick + i);
-        samples[static_cast<std::size_t>(i)] =
-            between(samples[at], samples[at + static_cast<std::size_t>(from.beyond())], from.share);
+    for (std::size_t i = 0; i < kept && moves; ++i) {
+        values[i] = between(values[skipped + i], values[skipped + i + beyond], from.share);
     }
-    samples.resize(static_cast<std::size_t>(count));
+    values.resize(kept);
 }
 
 Trace Play::trace() &&
@@ -141,9 +146,13 @@ Trace Play::trace() &&
     }
     if (common <= 0) return trace;
 
+    trace.further_bodies = world_.side(0).peer().shared().size() - 1;
     for (std::size_t side = 0; side < tracks_.size(); ++side) {
         take(tracks_[side].samples, offsets[side], common);
         trace.sides[side] = std::move(tracks_[side].samples);
+        if (trace.further_bodies == 0) continue;
+        take(tracks_[side].further, offsets[side], common, trace.further_bodies);
+        trace.further.push_back(std::move(tracks_[side].further));
     }
     const VirtualPlayer& player = world_.side(0);
     const base::TimePoint start = player.peer().session()->start - player.clock_ahead;

@@ -170,4 +170,12 @@ Sample VirtualPlayer::sample() const
             .remote_touching = tick.remote_touching};
 }
 
+void VirtualPlayer::add_further_bodies(std::vector<Pose>& poses) const
+{
+    for (const peer::SharedBody& body : peer().shared().subspan(1)) {
+        const scene::BodyState state = peer().world().body(body.id);
+        poses.push_back({state.position, body.turns() ? state.orientation : unturned});
+    }
+}
+
 } // namespace hapnet::lab::virtual_time

@@ -72,6 +72,8 @@ public:
     [[nodiscard]] base::Force told() const { return side->told(); }
     /// Its last tick, for the metrics.
     [[nodiscard]] Sample sample() const;
+    /// Likewise where the shared bodies after the first are.
+    void add_further_bodies(std::vector<Pose>& poses) const;
 
     // Open to tests and benches, which change them.
     device::Rig rig;

@@ -4,6 +4,15 @@
 
 namespace hapnet::lab::virtual_time {
 
+namespace {
+
+void turn(glm::dquat& from, const glm::dquat& to, double share)
+{
+    if (from != to) from = glm::slerp(from, to, share);
+}
+
+} // namespace
+
 Sample between(const Sample& earlier, const Sample& later, double share)
 {
     if (share == 0.0) return earlier;
@@ -11,13 +20,20 @@ Sample between(const Sample& earlier, const Sample& later, double share)
     const auto go = [share](auto& from, const auto& to) { from = from + share * (to - from); };
     go(sample.body, later.body);
     go(sample.body_velocity, later.body_velocity);
-    if (earlier.orientation != later.orientation)
-        sample.orientation = glm::slerp(earlier.orientation, later.orientation, share);
+    turn(sample.orientation, later.orientation, share);
     go(sample.hip, later.hip);
     go(sample.hip_velocity, later.hip_velocity);
     go(sample.on_hand, later.on_hand);
     go(sample.on_body, later.on_body);
     return sample;
+}
+
+Pose between(const Pose& earlier, const Pose& later, double share)
+{
+    if (share == 0.0) return earlier;
+    Pose pose{earlier.position + share * (later.position - earlier.position), earlier.orientation};
+    turn(pose.orientation, later.orientation, share);
+    return pose;
 }
 
 } // namespace hapnet::lab::virtual_time

@@ -7,6 +7,7 @@
 #include "proto/base/time.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct Sample {
     bool remote_touching = false; // as this side believes
 };
 
+/// Where a body is.
+struct Pose {
+    base::Position position;
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+};
+
 /// The sides of a session while all were running, at equal times: sample i of each is i ticks
 /// after the first. It comes from virtual time or from records; metrics do not know which.
 struct Trace {
@@ -35,6 +42,10 @@ struct Trace {
     /// Two or more, equally long, in the order of their ids: the 1st, 3rd, ... acts as L, the
     /// others as R.
     std::vector<std::vector<Sample>> sides = std::vector<std::vector<Sample>>(2);
+    /// Of each side where the further shared bodies are, `further_bodies` after each tick in the
+    /// order of their ids; empty where there is one body.
+    std::vector<std::vector<Pose>> further{};
+    std::size_t further_bodies = 0;
     /// The share of the session, 0 to 1, in which all were running; hands off not counted.
     double overlap = 0.0;
     base::Duration simulated{}; // that was played for it, from the first hello; 0 for records
@@ -43,5 +54,7 @@ struct Trace {
 /// A side between two of its samples, `share` (0 to 1) of the way, on a straight line. Its flags
 /// are the earlier sample's; with share 0 all of it is the earlier sample.
 [[nodiscard]] Sample between(const Sample& earlier, const Sample& later, double share);
+/// Likewise a body.
+[[nodiscard]] Pose between(const Pose& earlier, const Pose& later, double share);
 
 } // namespace hapnet::lab::virtual_time

@@ -66,6 +66,17 @@ record::TickRow Side::row(std::uint64_t number, const TickTime& time) const
     return row;
 }
 
+record::BodyRow Side::body_row(std::uint64_t number, const SharedBody& body) const
+{
+    const scene::BodyState state = peer_.world().body(body.id);
+    return {.tick = number,
+            .body = static_cast<std::uint16_t>(body.id),
+            .position = state.position,
+            .velocity = state.velocity,
+            .orientation = state.orientation,
+            .angular_velocity = {state.angular_velocity}};
+}
+
 device::Sample sample_of(const record::TickRow& row)
 {
     device::Sample sample;

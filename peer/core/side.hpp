@@ -79,6 +79,8 @@ public:
     [[nodiscard]] base::Force told() const { return told_; }
     /// All of it for a record; its number and time are the loop's to know.
     [[nodiscard]] record::TickRow row(std::uint64_t number, const TickTime& time) const;
+    /// Likewise one of the shared bodies.
+    [[nodiscard]] record::BodyRow body_row(std::uint64_t number, const SharedBody& body) const;
 
 private:
     [[nodiscard]] bool is_cue_due() const

@@ -48,8 +48,8 @@ struct HeardMessage {
     }
 };
 
-/// What the servo thread says for the record, the status line and the log. A row is of a tick or a
-/// session.
+/// What the servo thread says for the record, the status line and the log. A row is of a tick, a
+/// body or a session.
 using Entry = std::variant<record::Row, HeardMessage, TimedEvent, TimedDeviceNews, TimedLineNews>;
 
 /// The one way out of the servo thread: a bounded queue that never makes that thread wait. Entries
@@ -73,7 +73,8 @@ public:
     [[nodiscard]] std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
-    // 8 s of ticks and messages of two peers, 2 s of eight: the recorder has as many.
+    // 8 s of ticks and messages of two peers with one body, 2 s of eight, 1 s of eight with eight
+    // bodies: the recorder has as many.
     static constexpr std::size_t capacity = 16384;
 
     // The package has two queues. ThreadSanitizer can follow this one: it synchronises by atomics

@@ -106,12 +106,20 @@ void Servo::tick(const TickTime& time, base::TimePoint now)
     counters_.missed += time.missed_before;
     if (parts_.gate.is_stopping()) parts_.side.peer().leave(wire::ByeReason::interrupted);
     play(now);
-    parts_.journal.put(parts_.side.row(counters_.ticks, time));
+    note_tick(time);
     ++counters_.ticks;
     if (!first_tick_) first_tick_ = now;
     last_tick_ = now;
     status_slot_.fill_if_requested([this](ServoStatus& status) { describe(status); });
     running_.store(true, std::memory_order_release);
+}
+
+void Servo::note_tick(const TickTime& time)
+{
+    parts_.journal.put(parts_.side.row(counters_.ticks, time));
+    if (!parts_.layout.has_bodies()) return;
+    for (const SharedBody& body : parts_.side.peer().shared())
+        parts_.journal.put(parts_.side.body_row(counters_.ticks, body));
 }
 
 void Servo::play(base::TimePoint now)
@@ -199,7 +207,7 @@ void Servo::hear(const line::Lines::Opened& opened, base::TimePoint at)
         return;
     }
     const std::span<const std::byte> message = opened.message;
-    if (message.size() > parts_.recorded_bytes_max) {
+    if (message.size() > parts_.layout.message_bytes_max()) {
         ++counters_.too_long;
         return;
     }

@@ -14,6 +14,7 @@
 #include "peer/monitor/rate_limit.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/net/udp_socket.hpp"
+#include "proto/record/codec.hpp"
 
 #include <atomic>
 #include <vector>
@@ -40,8 +41,8 @@ public:
         Watchdog& watchdog;
         ForceGate& gate;
         base::Duration tick{std::chrono::milliseconds{1}};
-        /// What rows of the record have room for.
-        std::size_t recorded_bytes_max = record::MessageRow::bytes_max;
+        /// What the record has rows for, and room in them.
+        record::Layout layout{};
     };
 
     explicit Servo(const Parts& parts);
@@ -76,6 +77,7 @@ private:
     [[nodiscard]] bool goes_on() const;
     [[nodiscard]] bool on_device_cycle(DeviceTimer& timer);
     void tick(const TickTime& time, base::TimePoint now);
+    void note_tick(const TickTime& time);
     void play(base::TimePoint now);
     void report_device(base::TimePoint now);
     void receive(base::TimePoint now);

@@ -15,7 +15,8 @@ namespace hapnet::peer::monitor {
 /// it keeps nobody else from anything. Rows that find no room are dropped and counted.
 class Recorder {
 public:
-    /// 8 s of ticks and messages of two peers, 2 s of eight: longer than most stalls of a disk.
+    /// 8 s of ticks and messages of two peers with one body, 2 s of eight, 1 s of eight with eight
+    /// bodies: longer than most stalls of a disk.
     static constexpr std::size_t rows_max = 16384;
 
     explicit Recorder(record::Writer writer);

@@ -25,6 +25,7 @@ consteval std::size_t used_bytes()
 
 static_assert(used_bytes<TickRow>() <= row_bytes);
 static_assert(used_bytes<SessionRow>() <= row_bytes);
+static_assert(used_bytes<BodyRow>() == body_row_bytes);
 
 /// Calls visit(name, field) for the fields of a row that files of this layout have.
 template <typename R>
@@ -70,6 +71,7 @@ std::optional<std::size_t> Layout::bytes_of(std::byte kind) const
     case kind_code<TickRow>:
     case kind_code<SessionRow>: return row_bytes;
     case kind_code<MessageRow>: return message_row_bytes;
+    case kind_code<BodyRow>: return has_bodies() ? std::optional{body_row_bytes} : std::nullopt;
     default: return std::nullopt;
     }
 }
@@ -81,7 +83,9 @@ RowBytes encode(const Row& row, const Layout& layout)
         [&]<typename R>(const R& fields) {
             if constexpr (std::is_same_v<R, MessageRow>)
                 base::ensure(fields.bytes.size() <= layout.message_bytes_max());
-            bytes.resize(*layout.bytes_of(std::byte{kind_code<R>}));
+            const auto size = layout.bytes_of(std::byte{kind_code<R>});
+            base::ensure(size.has_value());
+            bytes.resize(*size);
             base::ByteWriter out{bytes};
             out.u8(kind_code<R>);
             for_each_field_of(layout, fields, [&]<typename T>(std::string_view, const T& field) {
@@ -104,6 +108,7 @@ base::Result<Row> decode(std::span<const std::byte> bytes, const Layout& layout)
     switch (kind) {
     case kind_code<TickRow>: return decode_fields<TickRow>(in, *size, layout);
     case kind_code<MessageRow>: return decode_fields<MessageRow>(in, *size, layout);
+    case kind_code<BodyRow>: return decode_fields<BodyRow>(in, *size, layout);
     default: return decode_fields<SessionRow>(in, *size, layout);
     }
 }

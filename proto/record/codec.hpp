@@ -14,16 +14,19 @@ namespace hapnet::record {
 
 /// A row of a tick or a session takes this many bytes.
 inline constexpr std::size_t row_bytes = 216;
+/// A row of a body takes this many.
+inline constexpr std::size_t body_row_bytes = 115;
 /// Of a row of a message, those before the message.
 inline constexpr std::size_t message_head_bytes = 21;
 
 /// How the rows of a file are laid out: all rows of one kind have one length.
 struct Layout {
-    /// Version 2 has no `from` in its messages, and less in its session rows.
+    /// Version 2 has no `from` in its messages, and less in its session rows; version 4 has rows of
+    /// bodies besides, and is otherwise version 3.
     static constexpr int version_min = 2;
-    static constexpr int version_now = 3;
+    static constexpr int version_max = 4;
 
-    int version = version_now;
+    int version = 3;
     std::size_t message_row_bytes = message_head_bytes + MessageRow::bytes_max;
 
     /// For messages of so many bytes at most.
@@ -31,6 +34,12 @@ struct Layout {
     {
         return {.message_row_bytes = message_head_bytes + bytes};
     }
+    /// The same with rows of bodies.
+    [[nodiscard]] constexpr Layout with_bodies() const
+    {
+        return {.version = 4, .message_row_bytes = message_row_bytes};
+    }
+    [[nodiscard]] constexpr bool has_bodies() const { return version >= 4; }
     [[nodiscard]] static constexpr Layout of_version_2()
     {
         return {.version = 2, .message_row_bytes = row_bytes};
@@ -47,8 +56,8 @@ struct Layout {
 using RowBytes = std::vector<std::byte>;
 
 /// One byte for the kind of the row, its fields (fields.hpp) little-endian and unaligned, then
-/// zeros. A message must be within its bounds; times beyond 36 years are written, but decode()
-/// refuses them.
+/// zeros. The layout must have such rows, and a message be within its bounds; times beyond 36 years
+/// are written, but decode() refuses them.
 [[nodiscard]] RowBytes encode(const Row& row, const Layout& layout = {});
 
 /// Refuses whatever encode() would not write: accepted bytes re-encode to themselves.

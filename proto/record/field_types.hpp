@@ -158,6 +158,27 @@ struct FieldType<base::Force> : VectorFieldType<base::Force> {
 };
 
 template <>
+struct FieldType<AngularVelocity> : VectorFieldType<AngularVelocity> {
+    static constexpr std::string_view unit = "rad/s";
+};
+
+/// A quaternion: w, x, y, z.
+template <>
+struct FieldType<glm::dquat> {
+    static constexpr std::string_view type = "f64[4]", unit = "";
+    static constexpr std::size_t bytes = 32;
+    static void put(base::ByteWriter& out, const glm::dquat& value)
+    {
+        for (const double part : {value.w, value.x, value.y, value.z}) out.f64(part);
+    }
+    static bool take(base::ByteReader& in, glm::dquat& value)
+    {
+        for (double* part : {&value.w, &value.x, &value.y, &value.z}) *part = in.f64();
+        return true;
+    }
+};
+
+template <>
 struct FieldType<double> {
     static constexpr std::string_view type = "f64", unit = "";
     static constexpr std::size_t bytes = 8;

@@ -82,6 +82,20 @@ constexpr auto fields_of(base::Tag<SessionRow>)
                      "by how much the remote's clock runs faster, in parts per million"));
 }
 
+constexpr auto fields_of(base::Tag<BodyRow>)
+{
+    return base::fields(
+        "body", base::member("tick", &BodyRow::tick, "number of the tick that it belongs to"),
+        base::member("body", &BodyRow::body, "its number in the scene, from 0, as in the messages"),
+        base::member("position", &BodyRow::position, "of its centre of mass"),
+        base::member("velocity", &BodyRow::velocity, "of its centre of mass"),
+        base::member("orientation", &BodyRow::orientation,
+                     "quaternion w, x, y, z from the body's frame to the scene's; 1, 0, 0, 0 where "
+                     "it cannot turn"),
+        base::member("angular_velocity", &BodyRow::angular_velocity,
+                     "about the axes of the scene"));
+}
+
 /// Calls visit(name, field) for every field of a row.
 template <typename R>
 requires base::Described<std::remove_const_t<R>>
@@ -100,5 +114,7 @@ template <>
 inline constexpr std::uint8_t kind_code<MessageRow> = 2;
 template <>
 inline constexpr std::uint8_t kind_code<SessionRow> = 3;
+template <>
+inline constexpr std::uint8_t kind_code<BodyRow> = 4;
 
 } // namespace hapnet::record

@@ -32,15 +32,20 @@ nlohmann::json schema_of()
 /// All of the header that is the same in every record of this layout.
 nlohmann::json description_of(const Layout& layout)
 {
-    return {{"format", "hapnet-record"},
-            {"version", layout.version},
-            {"row_bytes", row_bytes},
-            {"message_row_bytes", layout.message_row_bytes},
-            {"byte_order", "little"},
-            {"schema",
-             {{base::described_name<TickRow>, schema_of<TickRow>()},
-              {base::described_name<MessageRow>, schema_of<MessageRow>()},
-              {base::described_name<SessionRow>, schema_of<SessionRow>()}}}};
+    nlohmann::json description{{"format", "hapnet-record"},
+                               {"version", layout.version},
+                               {"row_bytes", row_bytes},
+                               {"message_row_bytes", layout.message_row_bytes},
+                               {"byte_order", "little"},
+                               {"schema",
+                                {{base::described_name<TickRow>, schema_of<TickRow>()},
+                                 {base::described_name<MessageRow>, schema_of<MessageRow>()},
+                                 {base::described_name<SessionRow>, schema_of<SessionRow>()}}}};
+    if (layout.has_bodies()) {
+        description["body_row_bytes"] = body_row_bytes;
+        description["schema"][base::described_name<BodyRow>] = schema_of<BodyRow>();
+    }
+    return description;
 }
 
 /// What decides how rows are read: a unit is for people, and its words may become better.
@@ -60,9 +65,9 @@ std::string header_line(const nlohmann::json& config, const Layout& layout)
 {
     const auto ours = description_of(layout);
     nlohmann::ordered_json header; // the format stands first, for whoever looks into the file
-    for (const char* key :
-         {"format", "version", "row_bytes", "message_row_bytes", "byte_order", "schema"}) {
-        header[key] = ours[key];
+    for (const char* key : {"format", "version", "row_bytes", "message_row_bytes", "body_row_bytes",
+                            "byte_order", "schema"}) {
+        if (ours.contains(key)) header[key] = ours[key];
     }
     header["config"] = config;
     // Text from the command line may be no UTF-8: better a replaced letter than no record.
@@ -78,13 +83,14 @@ base::Result<Header> parse_header(std::string_view line)
     };
     const bool is_record = found("format") == "hapnet-record";
     if (const auto version = found("version"); is_record && version.is_number_integer()) {
-        if (version < Layout::version_min || version > Layout::version_now) {
+        if (version < Layout::version_min || version > Layout::version_max) {
             return base::fail(fmt::format("it is of version {}, and this program reads versions {} "
                                           "to {}: use the hapnet-lab of the release that wrote it",
                                           version.dump(), Layout::version_min,
-                                          Layout::version_now));
+                                          Layout::version_max));
         }
         if (version == 2) layout = Layout::of_version_2();
+        if (version == 4) layout = layout.with_bodies();
     }
     if (const auto bytes = found("message_row_bytes"); bytes.is_number_unsigned()) {
         const auto most = layout.message_row_bytes;
@@ -96,6 +102,7 @@ base::Result<Header> parse_header(std::string_view line)
     const auto ours = description_of(layout);
     std::vector<const char*> keys{"format", "version", "row_bytes", "byte_order"};
     if (layout.version > 2) keys.push_back("message_row_bytes");
+    if (layout.has_bodies()) keys.push_back("body_row_bytes");
     for (const char* key : keys) {
         if (found(key) != ours[key]) {
             return base::fail(

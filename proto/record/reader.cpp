@@ -33,6 +33,7 @@ struct Append {
     Record& record;
     void operator()(const TickRow& row) const { record.ticks.push_back(row); }
     void operator()(const MessageRow& row) const { record.messages.push_back(row); }
+    void operator()(const BodyRow& row) const { record.bodies.push_back(row); }
     void operator()(const SessionRow& row) const
     {
         record.sessions.push_back(row);
@@ -74,6 +75,12 @@ base::Result<Record> read(const std::string& path)
         if (!row) {
             return base::fail(
                 fmt::format("{}: row {} is damaged: {}", path, number, row.error().message));
+        }
+        const auto* body = std::get_if<BodyRow>(&*row);
+        if (body != nullptr && !record.bodies.empty() && body->tick < record.bodies.back().tick) {
+            return base::fail(fmt::format("{}: row {} is damaged: a body row of tick {} after one "
+                                          "of tick {}",
+                                          path, number, body->tick, record.bodies.back().tick));
         }
         std::visit(Append{record}, *row);
     }

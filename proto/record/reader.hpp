@@ -18,6 +18,8 @@ struct Record {
     std::vector<TickRow> ticks;
     std::vector<MessageRow> messages;
     std::vector<SessionRow> sessions;
+    /// Ascending in their ticks.
+    std::vector<BodyRow> bodies{};
     /// For each of `sessions`, how many of `ticks` were written before it.
     std::vector<std::size_t> ticks_before_session;
     /// The file ends inside a row: the writer was killed. Nothing before that row is harmed.

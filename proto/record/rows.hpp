@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <variant>
 #include <vector>
 
@@ -115,6 +116,25 @@ struct SessionRow {
     friend bool operator==(const SessionRow&, const SessionRow&) = default;
 };
 
-using Row = std::variant<TickRow, MessageRow, SessionRow>;
+/// Radians per second about the axes of the scene.
+using AngularVelocity = base::Vector<struct AngularVelocityKind>;
+
+/// Where a tick left one of the shared bodies. A session that shares several, or one that can
+/// turn, has a row for each of them after each of its ticks; any other one has none, as the tick
+/// itself holds its only body.
+struct BodyRow {
+    /// The tick that the row belongs to.
+    std::uint64_t tick = 0;
+    /// Its number in the scene, as in the messages.
+    std::uint16_t body = 0;
+    base::Position position{};
+    base::Velocity velocity{};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    AngularVelocity angular_velocity{};
+
+    friend bool operator==(const BodyRow&, const BodyRow&) = default;
+};
+
+using Row = std::variant<TickRow, MessageRow, SessionRow, BodyRow>;
 
 } // namespace hapnet::record

@@ -159,6 +159,7 @@ const std::vector<KeyTable>& tables()
         {"tick-row", byte_table<record::TickRow>()},
         {"message-row", byte_table<record::MessageRow>()},
         {"session-row", byte_table<record::SessionRow>()},
+        {"body-row", byte_table<record::BodyRow>()},
     };
     return all;
 }
@@ -216,6 +217,7 @@ const std::set<std::string>& with_table()
                                              "ImpairmentGrid",
                                              "Calibration",
                                              "TickRow",
+                                             "BodyRow",
                                              "MessageRow",
                                              "SessionRow"};
     return names;

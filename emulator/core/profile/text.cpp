@@ -185,30 +185,6 @@ PathPatch path_patch(const std::vector<Setting>& settings, const std::string& na
             patch_of(own, name, Direction::down, after.down)};
 }
 
-/// What holds at the beginning.
-void read_beginning(TableReader& table, const PathNames& names, Profile& profile)
-{
-    std::vector<Setting> settings;
-    std::map<std::string, Place> places{{"", table.place()}};
-    for (Placed& placed : SettingsReader{table, names}.read()) {
-        places[placed.setting.path] = placed.place;
-        settings.push_back(std::move(placed.setting));
-    }
-    for (const auto& [name, place] : places) {
-        auto path = with_settings({}, settings, name);
-        if (!path) {
-            table.reading().complain(place, path.error().message);
-        } else if (name.empty()) {
-            profile.path = *std::move(path);
-        } else {
-            auto patch = path_patch(settings, name, *path);
-            if (patch.up != Patch{} || patch.down != Patch{}) {
-                profile.paths.push_back(std::move(patch));
-            }
-        }
-    }
-}
-
 void read_time(const Node* node, base::Duration& target, Reading& reading)
 {
     if (node == nullptr) return;
@@ -419,6 +395,29 @@ void print_change(std::string& out, const Change& change)
 
 } // namespace
 
+void read_conditions(TableReader& table, const PathNames& names, Profile& profile)
+{
+    std::vector<Setting> settings;
+    std::map<std::string, Place> places{{"", table.place()}};
+    for (Placed& placed : SettingsReader{table, names}.read()) {
+        places[placed.setting.path] = placed.place;
+        settings.push_back(std::move(placed.setting));
+    }
+    for (const auto& [name, place] : places) {
+        auto path = with_settings({}, settings, name);
+        if (!path) {
+            table.reading().complain(place, path.error().message);
+        } else if (name.empty()) {
+            profile.path = *std::move(path);
+        } else {
+            auto patch = path_patch(settings, name, *path);
+            if (patch.up != Patch{} || patch.down != Patch{}) {
+                profile.paths.push_back(std::move(patch));
+            }
+        }
+    }
+}
+
 base::Result<Profile> parse_profile(std::string_view text, const std::string& source,
                                     const OpenFile& open, const PathNames& names)
 {
@@ -433,7 +432,7 @@ base::Result<Profile> parse_profile(std::string_view text, const std::string& so
     const Node* name = table.find("name");
     if (name != nullptr) read_value(*name, profile.name, reading);
     profile.seed = read_seed(table.find("seed"), reading);
-    read_beginning(table, names, profile);
+    read_conditions(table, names, profile);
     read_timeline(table.find("at"), names, profile, reading);
     read_checks(table.find("check"), profile, reading);
     table.finish();

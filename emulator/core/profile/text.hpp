@@ -24,6 +24,10 @@ inline constexpr std::size_t checks_max = 100;
                                                   const OpenFile& open,
                                                   const PathNames& names = {.any = true});
 
+/// What holds at the beginning, by the tables of conditions among others: both, all, up, down,
+/// matrix and those of single paths. Sets `path` and `paths` of the profile.
+void read_conditions(TableReader& table, const PathNames& names, Profile& profile);
+
 /// The profile as TOML, in canonical form: it reads back as the same profile.
 [[nodiscard]] std::string to_text(const Profile& profile);
 

@@ -52,6 +52,10 @@ public:
         value.resize(bits() % (MessageRow::bytes_max + 1));
         for (std::byte& b : value) b = static_cast<std::byte>(bits() & 0xff);
     }
+    void operator()(std::string_view, glm::dquat& value)
+    {
+        for (glm::length_t i = 0; i < 4; ++i) value[i] = finite_bits();
+    }
     // Any finite double; not the rest, which equals nothing and could not be compared.
     void operator()(std::string_view, auto& vector)
     {

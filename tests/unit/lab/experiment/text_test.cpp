@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // What an experiment's text says, and what is said of texts that are none.
+#include "emulator/core/profile/paths.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/jobs.hpp"
 #include "lab/experiment/text.hpp"
@@ -96,6 +97,45 @@ TEST(ExperimentText, HasPeersAndScenesAsAxesOfAPlane)
     ASSERT_TRUE(again) << again.error().message << to_text(*read);
     EXPECT_EQ(to_text(*again), to_text(*read));
     expect_words(to_text(*read), {"peers = [2, 5]", "scene = [\"carry\", \"mine.toml\"]"});
+}
+
+TEST(ExperimentText, HasConditionsOfSingleLinksBesideThoseOfAll)
+{
+    const std::string plane = "kind = \"plane\"\ntasks = \"T7\"\nalgorithms = \"base\"\nseeds = 1\n"
+                              "peers = 3\n[plane]\ndelay = [\"10ms\", \"40ms\"]\n"
+                              "jitter = [\"0ms\"]\nloss = [\"0%\"]\n[all]\nloss = \"1%\"\n"
+                              "[link.\"1-2\"]\ndelay = \"90ms\"\n[link.\"3-1\"]\nloss = \"5%\"\n";
+    const auto read = parse_experiment(plane, "it");
+    ASSERT_TRUE(read) << read.error().message;
+    const auto jobs = make_jobs(*read);
+    ASSERT_EQ(jobs.size(), 2U);
+    const emulator::Profile& last = std::get<SessionJob>(jobs.back()).spec.setting.profile;
+    using std::chrono::milliseconds;
+    const auto of_12 = profile_of(last, "1-2").path, of_13 = profile_of(last, "1-3").path;
+    EXPECT_EQ(of_12.up.delay, emulator::constant(milliseconds{90})) << "whatever is tried on all";
+    EXPECT_EQ(of_12.down.delay, emulator::constant(milliseconds{40}));
+    EXPECT_EQ(of_13.up.delay, emulator::constant(milliseconds{40}));
+    EXPECT_NE(of_13.down.loss, of_13.up.loss);
+    EXPECT_EQ(of_13.up.loss, of_12.down.loss);
+    const auto again = parse_experiment(to_text(*read), "again");
+    ASSERT_TRUE(again) << again.error().message << to_text(*read);
+    EXPECT_EQ(again->links, read->links);
+    EXPECT_EQ(to_text(*again), to_text(*read));
+    expect_words(complaint(plane + "[link.\"1-4\"]\nloss = \"5%\"\n"), {"mine.toml:", "1-4"});
+    expect_words(complaint(with("[link.\"1-2\"]\nloss = \"5%\"\n")),
+                 {"mine.toml:", "there is no link 1-2 between two", "use both, up or down"});
+}
+
+TEST(ExperimentText, BecomesOneBySettings)
+{
+    const std::string plane = "kind = \"plane\"\ntasks = \"T3\"\nalgorithms = \"base\"\npeers = 3\n"
+                              "[plane]\ndelay = [\"0ms\"]\njitter = [\"0ms\"]\nloss = [\"0%\"]\n";
+    expect_words(complaint(plane), {"mine.toml:", "the scene 'paper' has 2 hands"});
+    EXPECT_EQ(complaint(plane, {"scene=carry"}), "");
+    EXPECT_EQ(complaint("kind = \"table1\"\n", {"tasks=T1"}), "") << "what it lacks";
+    expect_words(complaint(plane, {"scene=carry", "seeds=0"}), {"--set seeds=0: ", "1 to 1000"});
+    expect_words(complaint(plane, {"seeds=2"}), {"the scene 'paper' has 2 hands"});
+    expect_words(complaint(with("[quick]\nseeds = 0\n"), {"seeds=3"}), {"from 1 to 1000"});
 }
 
 TEST(ExperimentText, SaysWhoCannotPlay)

@@ -142,6 +142,24 @@ TEST(Metrics, OfABodyThatTurnsSayTheAngleBetweenItsCopies)
     EXPECT_EQ(apart->min, 0.0);
 }
 
+TEST(Metrics, OfSeveralBodiesAreThoseOfTheOneThatIsFarthestApart)
+{
+    virtual_time::Trace trace = resting(Task::t9, 1000);
+    trace.further_bodies = 2;
+    trace.further.assign(2, std::vector<virtual_time::Pose>(2000));
+    for (std::size_t i = 0; i < 1000; ++i) {
+        trace.sides[0][i].body.value.x = 0.001;
+        trace.further[1][2 * i].position.value.x = -0.004;
+        trace.further[1][2 * i + 1].orientation =
+            glm::dquat{std::cos(0.001 * static_cast<double>(i)), 0.0, 0.0,
+                       std::sin(0.001 * static_cast<double>(i))};
+    }
+    const Metrics metrics = metrics_of(trace);
+    EXPECT_NEAR(metrics.discrepancy_m->mean, 0.004, 1e-15);
+    ASSERT_TRUE(metrics.turned_apart_rad);
+    EXPECT_NEAR(metrics.turned_apart_rad->max, 2.0 * 0.999, 1e-12);
+}
+
 TEST(Metrics, TakeTheTasksToDoWhatTheirScriptsDo)
 {
     for (const Task task : device::all_tasks) {

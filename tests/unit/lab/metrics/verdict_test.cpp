@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/verdict.hpp"
+#include "proto/base/quantity.hpp"
 #include "tests/unit/lab/metrics/made_scores.hpp"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,22 @@ TEST(Verdict, IsUsableWhereItIsNotGoodAndSaysWhyNot)
         judgement.shortcomings,
         (std::vector<std::string>{"stiffness ratio 0.5 < 0.77", "force discrepancy 12 % > 10 %",
                                   "contact lost 7 % > 5 %", "drag 0.4 N > 0.3 N"}));
+}
+
+TEST(Verdict, JudgesHowFarCopiesAreApartOnlyWhereATextSaysSo)
+{
+    Scores scores = perfect();
+    scores.discrepancy_m = Spread{.mean = 0.012, .min = 0.0, .max = 0.05, .std = 0.0};
+    scores.turned_apart_rad = Spread{.mean = 0.35, .min = 0.0, .max = 1.0, .std = 0.0};
+    EXPECT_EQ(judge(scores, criteria()).tier, Tier::good);
+    Criteria strict = criteria();
+    strict.good.turned_apart_max_rad = 0.35; // met exactly
+    strict.good.discrepancy_max_m = 0.005;
+    EXPECT_EQ(judge(scores, strict).shortcomings,
+              std::vector<std::string>{"copies apart 12 mm > 5 mm"});
+    strict.usable.turned_apart_max_rad = 10.0 * base::radians_per_degree;
+    EXPECT_EQ(judge(scores, strict).failures,
+              std::vector<std::string>{"copies turned apart 20.1 deg > 10 deg"});
 }
 
 TEST(Verdict, KeepsALimitThatIsMetExactly)

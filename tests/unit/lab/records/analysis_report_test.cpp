@@ -45,6 +45,8 @@ TEST(Report, HasTheKeysAndUnitsThatProgramsReadInJson)
         "discrepancy_x_mm": {"mean": 250.0, "min": 250.0, "max": 250.0, "std": 0.0},
         "force_discrepancy_n": {"mean": 0.5, "max": 0.5},
         "settled_discrepancy_mm": null,
+        "settled_turned_apart_deg": null,
+        "bodies": {},
         "touching": {"a": 1.0, "b": 1.0, "either": 1.0, "both": 1.0},
         "scored_s": 0.002,
         "overlap": 1.0,

@@ -63,6 +63,18 @@ public:
         record_.config["stiffness_max_n_per_m"] = stiffness_max_n_per_m;
     }
 
+    /// They play in this scene. Before play().
+    void play_in(const scene::Description& scene)
+    {
+        for (const std::size_t side : {0U, 1U}) {
+            peer::Settings settings = peer::settings_of(side);
+            settings.scene = scene;
+            settings.introduction.scene_hash = scene::hash(scene);
+            players_[side].side = std::make_unique<peer::Side>(settings);
+            if (side == 0) record_.config = config_of(settings);
+        }
+    }
+
     /// The energy into its hand is limited. Before play().
     void limit_energy(const device::EnergyLimits& limits)
     {
@@ -86,7 +98,11 @@ public:
                     players_[1 - side].inbox.push_back(*datagram);
                 }
             }
-            record_.ticks.push_back(players_[0].side->row(number, {.due = now_}));
+            const peer::Side& side = *players_[0].side;
+            record_.ticks.push_back(side.row(number, {.due = now_}));
+            if (peer::is_one_without_turning(side.peer().shared())) continue;
+            for (const peer::SharedBody& body : side.peer().shared())
+                record_.bodies.push_back(side.body_row(number, body));
         }
         return record_;
     }

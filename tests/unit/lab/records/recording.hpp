@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -55,6 +57,21 @@ public:
     Recording& ticks(base::Duration from, base::Duration to, Phase phase = Phase::running)
     {
         return ticks(from, to, phase, [](record::TickRow&, base::Duration) {});
+    }
+
+    /// Rows of these bodies after each tick that is there by now, which it numbers; `fill` gets
+    /// each and the time of its tick since `start`.
+    Recording& bodies(const std::vector<std::uint16_t>& numbers, auto&& fill)
+    {
+        for (std::size_t i = 0; i < content_.ticks.size(); ++i) {
+            content_.ticks[i].tick = i;
+            for (const std::uint16_t number : numbers) {
+                record::BodyRow row{.tick = i, .body = number};
+                fill(row, content_.ticks[i].due - start);
+                content_.bodies.push_back(row);
+            }
+        }
+        return *this;
     }
 
     /// A state message of the newest session.

@@ -59,6 +59,26 @@ TEST(ReplayOfARecord, LimitsTheEnergyIntoTheHandAsTheRecordedGovernorDid)
     EXPECT_GT(replay(record, std::nullopt).value().device_difference_max_n, 0.1);
 }
 
+TEST(ReplayOfARecord, PutsEveryBodyWhereItWasAndNoticesOneThatWasNot)
+{
+    RecordedPair pair;
+    pair.play_in(scene::load_scene("stack-of-three", {}).value());
+    record::Record record = pair.play(3000);
+    ASSERT_EQ(record.bodies.size(), 9000U);
+    const auto replayed = replay(record, std::nullopt);
+    ASSERT_TRUE(replayed.has_value()) << replayed.error().message;
+    EXPECT_EQ(replayed->body_difference_max_m, 0.0);
+    EXPECT_EQ(replayed->turn_difference_max_rad, 0.0);
+    EXPECT_FALSE(replayed->differs_from);
+    const auto json = to_json(*replayed);
+    EXPECT_EQ(json["body_difference_max_mm"], 0.0);
+    record.bodies[3 * 2000 + 1].position.value.x += 0.001;
+    const auto other = replay(record, std::nullopt);
+    EXPECT_EQ(other.value().differs_from, 2000U);
+    EXPECT_NEAR(*other->body_difference_max_m, 0.001, 1e-12);
+    EXPECT_FALSE(replay(RecordedPair{}.play(10), std::nullopt).value().body_difference_max_m);
+}
+
 TEST(ReplayOfARecord, NoticesAMessageThatWasNotTheRecordedOne)
 {
     const record::Record record = RecordedPair{}.play(2500);

@@ -146,6 +146,17 @@ TEST(Report, ExcludesARealTimeRunThatIsNotValid)
     EXPECT_FALSE(holds(page, ">9.99</text>")); // no bar
 }
 
+TEST(Report, SaysHowFarCopiesAreTurnedApartWhereABodyTurns)
+{
+    EXPECT_FALSE(holds(page_of({sample_tasks()}), "turned"));
+    results::File tasks = sample_tasks();
+    tasks.text.insert(tasks.text.find('\n'), ",turned_apart_deg");
+    tasks.text.insert(tasks.text.size() - 1, ",12.345");
+    const std::string page = page_of({tasks});
+    EXPECT_TRUE(holds(page, "turned<br>apart, max deg"));
+    EXPECT_TRUE(holds(page, "<td>12.35</td>") || holds(page, "<td>12.34</td>"));
+}
+
 TEST(Report, MarksTheWorstOfTheTasksInThePlane)
 {
     const std::string page = page_of({sample_qos()});

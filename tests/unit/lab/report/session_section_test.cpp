@@ -57,6 +57,27 @@ TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecord
     EXPECT_EQ(page_subject(page), "session");
 }
 
+TEST(SessionSection, ShowsDistanceAndAngleOfEachBodyWhereTheyTurnOrAreSeveral)
+{
+    TwoRecords records;
+    EXPECT_FALSE(holds(page_of(results_of(records)), "Angle between")) << "the cube cannot turn";
+    records.a.bodies({0, 1}, [](record::BodyRow&, base::Duration) {});
+    records.b.bodies({0, 1}, [](record::BodyRow& row, base::Duration) {
+        row.position = {{0.003, 0.0, 0.004}};
+        if (row.body == 1) row.orientation = glm::dquat{0.0, 1.0, 0.0, 0.0};
+    });
+    const results::Results results = results_of(records);
+    const std::string page = page_of(results);
+    EXPECT_TRUE(holds(page, "body 1 5.00 mm, body 2 5.00 mm"));
+    EXPECT_TRUE(holds(page, "body 1 0.00 deg, body 2 180.00 deg"));
+    EXPECT_TRUE(holds(page, "<th scope='row'>body 2</th><td>5.000</td>"));
+    const auto files = report_of(results, "r");
+    for (const char* name : {"bodies", "angles"}) {
+        EXPECT_FALSE(text_of(files, "figures/session-T3-" + std::string{name} + ".svg").empty())
+            << name;
+    }
+}
+
 TEST(SessionSection, SaysWhetherTheSessionIsValidAndWhyNot)
 {
     TwoRecords records;

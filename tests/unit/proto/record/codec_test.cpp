@@ -46,7 +46,9 @@ TEST(RecordCodec, RefusesAnUnknownKindOfRow)
 {
     RowBytes bytes(row_bytes);
     EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 0");
-    bytes[0] = std::byte{4};
+    bytes[0] = std::byte{5};
+    EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 5");
+    bytes[0] = std::byte{4}; // one that version 4 has
     EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 4");
 }
 
@@ -118,6 +120,27 @@ TEST(RecordCodec, RefusesBytesBehindAMessageThatAreNotZero)
     RowBytes bytes = encode(row);
     bytes.back() = std::byte{1};
     EXPECT_EQ(decode(bytes).error().message, "padding of a message row is not zero");
+}
+
+TEST(RecordCodec, PutsABodyAtTheOffsetsOfVersion4AndOnlyThere)
+{
+    const BodyRow row{.tick = 7,
+                      .body = 0x0102,
+                      .position = {{1.0, 0.0, 0.0}},
+                      .orientation = {1.0, 0.0, 0.0, 0.0},
+                      .angular_velocity = {{0.0, 0.0, -2.0}}};
+    const auto layout = Layout{}.with_bodies();
+    const RowBytes bytes = encode(row, layout);
+    ASSERT_EQ(bytes.size(), body_row_bytes);
+    EXPECT_EQ(at(bytes, 0), 4); // a body row
+    EXPECT_EQ(at(bytes, 1), 7);
+    EXPECT_EQ(at(bytes, 9), 2); // its number
+    EXPECT_EQ(at(bytes, 10), 1);
+    EXPECT_EQ(at(bytes, 18), 0x3f);  // x of its position
+    EXPECT_EQ(at(bytes, 66), 0x3f);  // w of its orientation
+    EXPECT_EQ(at(bytes, 114), 0xc0); // z of its angular velocity
+    EXPECT_EQ(decode(bytes, layout).value(), Row{row});
+    EXPECT_FALSE(decode(bytes)) << "version 3 has no such row";
 }
 
 TEST(RecordCodec, ReadsTheRowsOfVersion2AsOfNobodyInParticular)

@@ -178,6 +178,9 @@ TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)
     EXPECT_EQ(header["format"], "hapnet-record");
     EXPECT_EQ(header["row_bytes"], row_bytes);
     EXPECT_EQ(header["message_row_bytes"], 859);
+    EXPECT_EQ(header["version"], 3);
+    EXPECT_FALSE(header.contains("body_row_bytes")) << "one body that does not turn has no rows";
+    EXPECT_EQ(header["schema"].size(), 3U);
     const auto& fields = header["schema"]["tick"]["fields"];
     ASSERT_EQ(fields.size(), 24);
     EXPECT_EQ(fields[1],
@@ -195,9 +198,11 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
     auto other = ours;
     other["version"] = 1;
     EXPECT_EQ(parse_header(other.dump()).error().message,
-              "it is of version 1, and this program reads versions 2 to 3: use the hapnet-lab of "
+              "it is of version 1, and this program reads versions 2 to 4: use the hapnet-lab of "
               "the release that wrote it");
-    other["version"] = 4;
+    other["version"] = 5;
+    EXPECT_FALSE(parse_header(other.dump()));
+    other["version"] = 4; // without what version 4 has
     EXPECT_FALSE(parse_header(other.dump()));
     other = ours;
     other["row_bytes"] = 200;
@@ -222,6 +227,42 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
     other["config"] = 1;
     EXPECT_FALSE(parse_header(other.dump()));
     EXPECT_TRUE(parse_header(ours.dump()));
+}
+
+TEST(RecordFile, OfSeveralBodiesHasARowForEachOfThemAndTheirLayout)
+{
+    const TemporaryPath file;
+    const std::vector<BodyRow> bodies{
+        {.tick = 1, .body = 0}, {.tick = 1, .body = 3}, {.tick = 2, .body = 0}};
+    {
+        Writer writer{file.text(), config, Layout{}.with_bodies()};
+        writer.write(tick(1));
+        writer.write(bodies[0]);
+        writer.write(bodies[1]);
+        writer.write(tick(2));
+        writer.write(bodies[2]);
+    }
+    const auto record = read(file.text());
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_EQ(record->ticks.size(), 2U);
+    EXPECT_EQ(record->bodies, bodies);
+    const auto header = nlohmann::json::parse(header_line(config, Layout{}.with_bodies()));
+    EXPECT_EQ(header["version"], 4);
+    EXPECT_EQ(header["body_row_bytes"], 115);
+    EXPECT_EQ(header["schema"]["body"]["fields"][4],
+              nlohmann::json::parse(R"({"name":"orientation","type":"f64[4]","offset":59})"));
+}
+
+TEST(RecordFile, RefusesBodiesWhoseTicksGoBack)
+{
+    const TemporaryPath file;
+    {
+        Writer writer{file.text(), config, Layout{}.with_bodies()};
+        writer.write(BodyRow{.tick = 2});
+        writer.write(BodyRow{.tick = 1});
+    }
+    EXPECT_EQ(read(file.text()).error().message,
+              file.text() + ": row 2 is damaged: a body row of tick 1 after one of tick 2");
 }
 
 TEST(RecordFile, OfVersion2IsStillRead)

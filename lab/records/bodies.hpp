@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/records/moments.hpp"
+#include "lab/records/session.hpp"
+#include "lab/virtual_time/trace.hpp"
+#include "proto/base/space.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::records {
+
+/// Which bodies a session shared, as its records hold them: those that both have rows of, or else
+/// the only one that the ticks hold. Never empty.
+[[nodiscard]] std::vector<RecordedBody> bodies_shared_in(const record::Record& a,
+                                                         const record::Record& b);
+
+/// "cube", or "body 3" of one without a name; "the body" when its record does not say.
+[[nodiscard]] std::string name_of(const RecordedBody& body);
+
+using virtual_time::Pose;
+
+/// Where one side's ticks left a body. Refers into the side.
+class Poses {
+public:
+    Poses(const Side& side, const RecordedBody& body) : side_{side}, body_{body} {}
+
+    /// nullopt: its row is lost.
+    [[nodiscard]] std::optional<Pose> at(const record::TickRow& tick) const;
+
+private:
+    const Side& side_;
+    const RecordedBody& body_;
+};
+
+/// How far two copies of a body are apart.
+struct Apart {
+    base::Displacement distance; // from B's copy to A's
+    double angle_rad = 0.0;      // between their orientations, 0 to pi
+};
+
+/// The copies of one body in a session.
+class Copies {
+public:
+    Copies(const Session& session, const RecordedBody& body)
+        : a_{session.a, body}, b_{session.b, body}
+    {}
+
+    /// At a moment; nullopt: a row of it is lost.
+    [[nodiscard]] std::optional<Apart> apart_at(const Moment& moment) const;
+
+private:
+    Poses a_;
+    Poses b_;
+};
+
+} // namespace hapnet::lab::records

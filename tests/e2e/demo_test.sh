@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# scripts/demo.sh refuses what it does not know, and lets two and three hands turn a cube, for a
+# short time here. Usage: demo_test.sh SCRIPT FOLDER-WITH-THE-PROGRAMS
+set -euo pipefail
+
+script=$(realpath "$1")
+programs=$(realpath "$2")
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+fail() {
+    echo "FAILED: $1" >&2
+    exit 1
+}
+
+refuses() {
+    local code=0
+    "$script" "$@" >"$out/said" 2>&1 || code=$?
+    ((code == 2)) || fail "demo.sh $* exits $code and not 2"
+}
+"$script" --help | grep -q -- '--scene turning' || fail "the help"
+refuses --scene nowhere
+grep -q 'write turning' "$out/said" || fail "what would be right is not said"
+refuses --peers 9
+refuses --scene
+refuses --duration 5
+
+for peers in 2 3; do
+    folder=$out/$peers
+    "$script" --scene turning --peers "$peers" --duration 6 --programs "$programs" --out "$folder" \
+        2>&1 | tee "$out/said"
+    [[ -s $folder/t8/report.html ]] || fail "no report of $peers hands"
+    grep -q '^cube  ' "$out/said" || fail "no table of bodies of $peers hands"
+    head -n 1 "$folder/t8/peer-1-bodies.csv" | grep -q '^time_s,tick,body,.*,orientation_w' ||
+        fail "the rows of bodies"
+    # The copies agree again by the end.
+    jq -e '.bodies["0"].name == "cube" and .bodies["0"].turned_apart_deg.max >= 0
+        and .settled_discrepancy_mm <= 0.1 and .settled_turned_apart_deg <= 0.1' \
+        "$folder/t8/analysis.json" >/dev/null ||
+        fail "the analysis of $peers hands: $(<"$folder/t8/analysis.json")"
+done
