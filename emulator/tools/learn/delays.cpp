@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/learn/delays.hpp"
 
+#include "emulator/core/delay/bounds.hpp"
 #include "emulator/tools/verify/draws.hpp"
 #include "emulator/tools/verify/tails.hpp"
 #include "proto/base/ensure.hpp"
@@ -35,9 +36,11 @@ struct Values {
     }
 };
 
+/// Rounded, and no longer than a profile may say.
 base::Duration in_microseconds(double nanoseconds)
 {
-    return std::chrono::microseconds{std::llround(nanoseconds / 1e3)};
+    const double most = base::to_nanoseconds(longest_delay);
+    return std::chrono::microseconds{std::llround(std::clamp(nanoseconds, -most, most) / 1e3)};
 }
 
 /// The largest distance of the distribution of the values from that of a law.
