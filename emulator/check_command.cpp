@@ -34,7 +34,9 @@ std::string in_words(std::string_view title, const Conditions& conditions,
 base::Result<int> run(const CheckOptions& options)
 {
     std::vector<std::string> netem_warnings;
-    const auto profile = profile_for(options.conditions, netem_warnings);
+    const std::string& path = options.stream.path;
+    const auto profile = path.empty() ? profile_for(options.conditions, netem_warnings)
+                                      : profile_for_path(options.conditions, path, netem_warnings);
     if (!profile) return tl::unexpected{profile.error()};
     // What holds at the beginning; changes are not in it.
     const Profile beginning{profile->name, profile->seed, profile->path, {}};
@@ -46,11 +48,12 @@ base::Result<int> run(const CheckOptions& options)
     if (up == down) {
         fmt::print("{}", in_words("both ways", up, stream, prediction.up));
     } else {
-        fmt::print("{}{}", in_words("up: from A to B", up, stream, prediction.up),
-                   in_words("down: from B to A", down, stream, prediction.down));
+        fmt::print("{}{}", in_words(way_in_words(path, Direction::up), up, stream, prediction.up),
+                   in_words(way_in_words(path, Direction::down), down, stream, prediction.down));
     }
     if (!profile->paths.empty()) {
-        fmt::print("# where {} have nothing of their own\n", fmt::join(paths_in(*profile), ", "));
+        fmt::print("# where {} have nothing of their own: --link NAME describes one of them\n",
+                   fmt::join(paths_in(*profile), ", "));
     }
     if (!profile->timeline.empty()) {
         fmt::print("# and {} changes later, the last at {:.6g} s\n", profile->timeline.size(),

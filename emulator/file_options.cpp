@@ -36,13 +36,25 @@ constexpr const char* learn_description =
     "that follows them. How well each law fits is told on stderr and in comments of the profile.";
 
 constexpr const char* learn_footer =
-    R"(FILE is what ping has printed, what probe --csv has written, or CSV with a column of delays:
-delay_ns, _us, _ms or _s, empty for a lost datagram, and perhaps one of times. A round trip does
-not tell its two ways apart: all that varies is put into the way down.
+    R"(FILE is one of these:
+  ping       what ping has printed
+  probe      what hapnet-emulator probe --csv has written
+  irtt       the JSON of irtt client -o FILE.json
+  CSV        a column of delays, delay_ns, _us, _ms or _s, empty for a lost
+             datagram, and perhaps one of times
+  capture    pcap or pcapng. Two, from both ends of the path, measure each way:
+             up is from the first to the second. One measures round trips, of
+             ping and of what comes back unchanged; one with two interfaces, as
+             --pcap writes it, each way between them
+Several files are one measurement after the other of the same path. A round trip
+does not tell its two ways apart: all that varies is put into the way down. On a
+terminal, delays and losses are drawn beside the law that was taken.
 
 Examples:
   ping -i 0.2 -c 5000 example.org > ping.txt
   hapnet-emulator learn ping.txt > home.toml
+  hapnet-emulator learn here.pcapng there.pcapng > path.toml
+  hapnet-emulator learn monday.json tuesday.json > week.toml
   hapnet-emulator learn walk.csv --columns "time=stamp:s, delay=rtt:ms")";
 
 constexpr const char* learn_exit_codes = R"(  0  done
@@ -109,12 +121,16 @@ cli::Command& add_learn(cli::Command& program, LearnOptions& options)
     command.describe(learn_description);
     command.add_footer(learn_footer);
     command.add_exit_codes(learn_exit_codes);
-    command.positional("FILE", "What was measured", cli::into(options.file)).required("ping.txt");
+    command.positional("FILE", "What was measured; may be repeated", cli::onto(options.files))
+        .repeated()
+        .required("ping.txt");
     command.option("--columns", "COLUMNS", "Columns of CSV with other names: \"delay=rtt:ms\"",
                    cli::into(options.columns));
     command.option("--rate", "NUMBER",
                    "Datagrams a second that were sent, where FILE does not say so",
                    cli::into(options.spacing, parse_even_spacing));
+    command.flag("--plot", "Draw delays and losses on stderr, also where it is no terminal",
+                 options.with_plots);
     return command;
 }
 

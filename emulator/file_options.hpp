@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -31,11 +32,12 @@ struct ReportOptions {
     std::string out;                  // "-": stdout
 };
 
-/// `hapnet-emulator learn FILE`
+/// `hapnet-emulator learn FILE ...`
 struct LearnOptions {
-    std::string file;
+    std::vector<std::string> files;
     std::string columns{};
-    std::optional<base::Duration> spacing{}; // instead of the one in FILE
+    std::optional<base::Duration> spacing{}; // instead of the one in the files
+    bool with_plots = false;                 // also where stderr is no terminal
 };
 
 /// Adds the command to the program; after parse() the options hold what was typed.

@@ -6,6 +6,10 @@
 
 #include <cstdio>
 #include <spdlog/fmt/fmt.h>
+#include <string>
+#include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -13,15 +17,26 @@ base::Result<int> run(const LearnOptions& options)
 {
     const auto named = parse_columns(options.columns);
     if (!named) return base::fail(fmt::format("--columns: {}", named.error().message));
-    const auto text = net::text_of_file(options.file);
-    if (!text) return tl::unexpected{text.error()};
-    auto measurement = tools::read_measurement(*text, *named);
-    if (!measurement) {
-        return base::fail(fmt::format("{}: {}", options.file, measurement.error().message));
+    std::vector<tools::MeasuredFile> files;
+    for (const std::string& file : options.files) {
+        auto bytes = net::text_of_file(file);
+        if (!bytes) return tl::unexpected{bytes.error()};
+        files.push_back({file, *std::move(bytes)});
     }
-    if (options.spacing) measurement->spacing = options.spacing;
+    auto measurement = tools::read_measurements(files, *named);
+    if (!measurement) return tl::unexpected{measurement.error()};
+    if (options.spacing) {
+        for (auto* way : {&measurement->round_trip, &measurement->up, &measurement->down}) {
+            if (*way) (*way)->spacing = options.spacing;
+        }
+    }
     const auto lesson = tools::learn(*measurement);
-    if (!lesson) return base::fail(fmt::format("{}: {}", options.file, lesson.error().message));
+    if (!lesson) {
+        return base::fail(fmt::format("{}: {}", options.files.front(), lesson.error().message));
+    }
+    if (options.with_plots || isatty(STDERR_FILENO) != 0) {
+        for (const std::string& plot : lesson->plots) fmt::print(stderr, "{}\n", plot);
+    }
     for (const std::string& remark : lesson->remarks) fmt::print(stderr, "{}\n", remark);
     fmt::print("{}", tools::to_text(*lesson));
     return 0;

@@ -3,6 +3,7 @@
 #include "emulator/options.hpp"
 
 #include "emulator/core/conditions.hpp"
+#include "emulator/core/path_name.hpp"
 #include "emulator/paths_options.hpp"
 #include "emulator/presets.hpp"
 #include "emulator/spacing.hpp"
@@ -77,6 +78,7 @@ constexpr const char* check_footer =
     R"(Examples:
   hapnet-emulator check --list
   hapnet-emulator check lte > mine.toml
+  hapnet-emulator check mesh.toml --link 1-2
   hapnet-emulator check --netem "delay 80ms 5ms loss 1%")";
 
 constexpr const char* check_exit_codes = R"(  0  the profile can be used
@@ -90,6 +92,7 @@ constexpr const char* predict_footer =
     R"(Examples:
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator predict --jitter 15ms
+  hapnet-emulator predict mesh.toml --link 1-2
   hapnet-emulator predict wifi-busy --packets 1000000 --json)";
 
 constexpr const char* predict_exit_codes = R"(  0  done
@@ -162,8 +165,13 @@ cli::Take by_key(ConditionOptions& into)
     };
 }
 
-/// `own_rate`: the command has a --rate of its own, which takes the condition, too.
-void add_conditions(cli::Command& command, ConditionOptions& into, bool own_rate)
+/// What differs among the commands that take conditions.
+struct ConditionsFor {
+    bool has_own_rate = false; // the command has a --rate of its own, which takes the condition too
+    bool has_paths = true;     // there may be several
+};
+
+void add_conditions(cli::Command& command, ConditionOptions& into, const ConditionsFor& what)
 {
     command.option(
         "--netem", "SENTENCE",
@@ -174,15 +182,16 @@ void add_conditions(cli::Command& command, ConditionOptions& into, bool own_rate
                    cli::into(into.seed, cli::seed));
     command
         .option("--set", "KEY=VALUE",
-                "Sets a condition by its key: up.delay=20ms, and of one of several paths "
-                "1-2.delay=20ms, "
-                "wan.up.loss=5% or client.3.delay=80ms; may be repeated",
+                fmt::format("Sets a condition by its key: up.delay=20ms{}; may be repeated",
+                            what.has_paths ? ", and of one of several paths 1-2.delay=20ms, "
+                                             "wan.up.loss=5% or client.3.delay=80ms"
+                                           : ", down.queue=codel"),
                 by_key(into))
         .repeated();
     for (const char* prefix : {"", "up.", "down."}) {
         for (const auto& [name, type, help] : listed_conditions()) {
             const std::string key = fmt::format("{}{}", prefix, name);
-            if (own_rate && key == "rate") continue;
+            if (what.has_own_rate && key == "rate") continue;
             auto& option = command.option("--" + key, type, help, as_setting(key, into))
                                .under(conditions_group);
             if (*prefix != '\0') option.hidden();
@@ -238,13 +247,13 @@ void add_relay_ends(cli::Command& program, Options& options)
 }
 
 /// What every run takes, wherever its datagrams come from.
-void add_run_options(cli::Command& program, Options& options)
+void add_run_options(cli::Command& program, Options& options, const ConditionsFor& conditions = {})
 {
     program.option("--profile", "FILE|NAME",
                    "Conditions and their timeline from a TOML file, or the name of a preset "
                    "(hapnet-emulator check --list)",
                    cli::into(options.conditions.profile));
-    add_conditions(program, options.conditions, /*own_rate*/ false);
+    add_conditions(program, options.conditions, conditions);
     program.option("--timing", "eco|precise|spin",
                    "eco: sleep until a datagram is due. precise (default): wake shortly before, by "
                    "as much as this machine needs, and watch the clock, as long as 70 % of a core "
@@ -305,6 +314,14 @@ cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
     };
 }
 
+/// The path that a name of one of its ways belongs to.
+base::Result<std::string> parse_path_name(const std::string& text)
+{
+    const auto way = parse_way(text);
+    if (way && !way->path.empty()) return way->path;
+    return parse_link_name(text);
+}
+
 /// The options of check and of predict.
 void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools::Stream& stream)
 {
@@ -318,9 +335,14 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools
                 "of the bit rate (as the emulator's --rate)",
                 stream_rate(stream, conditions_from))
         .repeated();
-    command.option("--bytes", "NUMBER", "Payload of each datagram (default 144)",
+    command.option("--bytes", "NUMBER",
+                   "Payload of each datagram (default 136: a state of two hands and a cube)",
                    cli::into(stream.bytes, base::Count{0, bytes_max}));
-    add_conditions(command, conditions_from, /*own_rate*/ true);
+    command.option("--link", "NAME",
+                   "Which path of a profile with several, with what holds on all of them: 1-2, "
+                   "wan or client.3",
+                   cli::into(stream.path, parse_path_name));
+    add_conditions(command, conditions_from, {.has_own_rate = true});
 }
 
 cli::Command& add_check(cli::Command& program, CheckOptions& options, bool& is_list)
@@ -471,7 +493,7 @@ net::CommandLine<AnyOptions> checked(BridgeOptions options)
 /// What the commands for frames have in common.
 void add_frames(cli::Command& command, auto& options)
 {
-    add_run_options(command, options.run);
+    add_run_options(command, options.run, {.has_paths = false});
     add_frame_options(command, options.frames);
 }
 

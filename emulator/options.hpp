@@ -109,13 +109,13 @@ struct BridgeOptions {
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
-    tools::Stream stream{.packets = 100'000};
+    tools::Stream stream{.packets = 100'000}; // its path: which one of several
 };
 
 /// `hapnet-emulator predict PROFILE --rate 1000`
 struct PredictOptions {
     ConditionOptions conditions;
-    tools::Stream stream{};
+    tools::Stream stream{}; // its path: which one of several
     /// So many at most, until mean and deviation have settled; nullopt: as many as stream says.
     std::optional<std::uint64_t> packets_max = 6'400'000;
     bool as_json = false;

@@ -167,15 +167,9 @@ std::string in_words(std::string_view title, const Predicted& predicted)
 base::Result<int> run(const PredictOptions& options)
 {
     std::vector<std::string> netem_warnings;
-    const auto profile = profile_for(options.conditions, netem_warnings);
+    const auto profile = profile_for_path(options.conditions, options.stream.path, netem_warnings);
     if (!profile) return tl::unexpected{profile.error()};
     for (const std::string& warning : netem_warnings) net::say("hapnet-emulator", warning);
-    if (const auto paths = paths_in(*profile); !paths.empty()) {
-        net::say(
-            "hapnet-emulator",
-            fmt::format("this describes a path without conditions of its own; these have some: {}",
-                        fmt::join(paths, ", ")));
-    }
     tools::Stream stream = options.stream;
     const auto seed = seed_of(options.conditions, *profile);
     const auto [up, down] =
@@ -189,6 +183,7 @@ base::Result<int> run(const PredictOptions& options)
         const Json json{{"program", "hapnet-emulator predict"},
                         {"version", base::version()},
                         {"profile", options.conditions.profile.value_or(profile->name)},
+                        {"link", stream.path.empty() ? Json(nullptr) : Json(stream.path)},
                         {"seed", seed.value()},
                         {"rate_hz", 1.0 / base::to_seconds(stream.spacing)},
                         {"packets", stream.packets},
@@ -200,7 +195,8 @@ base::Result<int> run(const PredictOptions& options)
     }
     fmt::print("{} datagrams of {} B at {:.6g}/s each way, seed {}\n\n{}\n{}", stream.packets,
                stream.bytes, 1.0 / base::to_seconds(stream.spacing), seed.value(),
-               in_words("up: from A to B", of_up), in_words("down: from B to A", of_down));
+               in_words(way_in_words(stream.path, Direction::up), of_up),
+               in_words(way_in_words(stream.path, Direction::down), of_down));
     return 0;
 }
 

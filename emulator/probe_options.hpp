@@ -22,7 +22,7 @@ struct ProbeOptions {
     std::optional<net::HostPort> answer; // where to listen
     base::Duration spacing = std::chrono::milliseconds{100};
     std::uint64_t count = tools::ProbeStatistics::questions_max;
-    std::size_t bytes = 144;                       // as a state of a haptic session, about
+    std::size_t bytes = 136; // as a state of a session in the paper's scene (docs/formats/wire.md)
     base::Duration wait = std::chrono::seconds{2}; // for answers, after the last question
     std::optional<std::string> csv;
     bool as_json = false;

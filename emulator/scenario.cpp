@@ -10,6 +10,7 @@
 #include "emulator/tools/netem.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/text.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
@@ -179,6 +180,27 @@ base::Result<Profile> profile_for(const ConditionOptions& options,
                                       message));
     }
     return profile;
+}
+
+base::Result<Profile> profile_for_path(const ConditionOptions& options, const std::string& path,
+                                       std::vector<std::string>& warnings)
+{
+    auto profile = profile_for(options, warnings);
+    if (!profile) return profile;
+    const auto paths = paths_in(*profile);
+    if (path.empty()) {
+        if (paths.empty()) return profile;
+        net::say("hapnet-emulator",
+                 fmt::format("this describes a path without conditions of its own; --link NAME "
+                             "describes one of those that have some: {}",
+                             fmt::join(paths, ", ")));
+    } else if (std::ranges::find(paths, path) == paths.end()) {
+        net::say("hapnet-emulator",
+                 fmt::format("the profile has nothing of its own for {}: this is what holds on all "
+                             "paths",
+                             path));
+    }
+    return path.empty() ? profile : profile_of(*profile, path);
 }
 
 base::Seed seed_of(const ConditionOptions& options, const Profile& profile)

@@ -31,6 +31,12 @@ struct Scenario {
                                                 std::vector<std::string>& warnings,
                                                 const PathNames& names = {.any = true});
 
+/// The same of one path, with what holds on all of them; of the one without a name when `path` is
+/// empty. Says on stderr when the profile has more paths than that, or nothing of its own for it.
+[[nodiscard]] base::Result<Profile> profile_for_path(const ConditionOptions& options,
+                                                     const std::string& path,
+                                                     std::vector<std::string>& warnings);
+
 /// The seed that draws: that of the command line, of the profile, or 1.
 [[nodiscard]] base::Seed seed_of(const ConditionOptions& options, const Profile& profile);
 

@@ -151,7 +151,8 @@ private:
     void make_fair(const QueueControl& control)
     {
         const bool is_to_be = control.law == QueueLaw::fq_codel;
-        const bool stays = is_fair() && is_to_be && control.flows == fair_->flows() && is_on_;
+        const bool stays =
+            is_fair() && is_to_be && control.flow_count() == fair_->flows() && is_on_;
         if (stays) return fair_->change(control);
         if (is_fair()) {
             for (const Queued& entry : fair_->take_all()) queue_.push(entry);

@@ -80,6 +80,19 @@ std::string way_name(std::string_view path, Direction direction)
                                       : fmt::format("{}-{}", peers->to, peers->from);
 }
 
+std::string way_in_words(std::string_view path, Direction direction)
+{
+    const bool is_up = direction == Direction::up;
+    const auto name = way_name(path, direction);
+    if (path.empty()) return name + (is_up ? ": from A to B" : ": from B to A");
+    if (const auto peers = parse_peers(path)) {
+        return fmt::format("{}: from {} to {}", name, is_up ? peers->from : peers->to,
+                           is_up ? peers->to : peers->from);
+    }
+    if (!path.starts_with(client_prefix)) return name;
+    return name + (is_up ? ": to the server" : ": from the server");
+}
+
 std::string stream_name(std::string_view path, Direction direction)
 {
     if (path.empty() || is_pair(path)) return way_name(path, direction);

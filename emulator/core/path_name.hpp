@@ -27,6 +27,10 @@ namespace hapnet::emulator {
 /// A way as the names of its random streams begin: with '/' instead of '.', "client/3/up".
 [[nodiscard]] std::string stream_name(std::string_view path, Direction direction);
 
+/// A way for people: "up: from A to B", "1-2: from 1 to 2", "2-1: from 2 to 1", "wan.up",
+/// "client.3.down: from the server".
+[[nodiscard]] std::string way_in_words(std::string_view path, Direction direction);
+
 /// Whether its ways are called by two peers.
 [[nodiscard]] bool is_pair(std::string_view path);
 

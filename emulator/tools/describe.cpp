@@ -76,7 +76,7 @@ std::string queue_in_words(const QueueControl& queue)
     if (queue.law == QueueLaw::codel) {
         text = fmt::format("queue CoDel (RFC 8289): drops at its head when datagrams have waited "
                            "more than {} for {}",
-                           target(std::chrono::milliseconds{5}), in_ms(queue.interval));
+                           target(std::chrono::milliseconds{5}), in_ms(queue.codel_interval()));
     } else if (queue.law == QueueLaw::pie) {
         text = fmt::format("queue PIE (RFC 8033): drops arriving datagrams so that they wait {}",
                            target(std::chrono::milliseconds{15}));
@@ -84,9 +84,9 @@ std::string queue_in_words(const QueueControl& queue)
     if (queue.law == QueueLaw::fq_codel) {
         text = fmt::format("queue FQ-CoDel (RFC 8290): each flow has a queue, which drops at its "
                            "head when datagrams have waited more than {} for {}",
-                           target(std::chrono::milliseconds{5}), in_ms(queue.interval));
+                           target(std::chrono::milliseconds{5}), in_ms(queue.codel_interval()));
     }
-    if (queue.law != QueueLaw::drop_tail && queue.is_marking) {
+    if (queue.law != QueueLaw::drop_tail && queue.marks()) {
         text += "; marks ECN-capable ones instead";
     }
     if (queue.mark_above) {

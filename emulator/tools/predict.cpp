@@ -63,7 +63,9 @@ private:
 class Play {
 public:
     Play(const Profile& profile, const Stream& stream, base::Seed seed)
-        : spacing_{stream.spacing}, path_{profile, {.seed = seed}}, bytes_(stream.bytes)
+        : spacing_{stream.spacing},
+          path_{profile, {.seed = seed, .name = stream.path}},
+          bytes_(stream.bytes)
     {
         base::ensure(stream.spacing > base::Duration{0} && stream.bytes <= 65'507);
     }

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace hapnet::emulator::tools {
 
@@ -20,7 +21,8 @@ namespace hapnet::emulator::tools {
 struct Stream {
     base::Duration spacing = std::chrono::milliseconds{1}; // > 0
     std::uint64_t packets = 400'000;
-    std::size_t bytes = 144; // of payload, at most 65507
+    std::size_t bytes = 136; // of payload, at most 65507; of a state in the paper's scene
+    std::string path{};      // that it takes, where there are several: its draws are named by it
 
     friend bool operator==(const Stream&, const Stream&) = default;
 };

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <poll.h>
 #include <sys/eventfd.h>
 #include <system_error>
 #include <tuple>
@@ -36,6 +37,14 @@ public:
     {
         std::uint64_t signals = 0;
         std::ignore = ::read(descriptor_, &signals, sizeof signals);
+    }
+
+    /// Sleeps until it is signalled, and clears it. It may wake earlier: ask what there is to do.
+    void wait() const noexcept
+    {
+        pollfd waiting{.fd = descriptor_, .events = POLLIN, .revents = 0};
+        std::ignore = ::poll(&waiting, 1, -1);
+        clear();
     }
 
 private:

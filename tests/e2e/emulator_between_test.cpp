@@ -73,7 +73,7 @@ TEST_F(EmulatorBetween, DelaysBothWaysAndNeverLess)
     EXPECT_EQ(statistics["frames"]["a"]["oversized"], 0);
     EXPECT_GE(statistics["frames"]["a"]["undisturbed"], 1); // ARP
     EXPECT_GE(statistics["up"]["received"], 20);
-    EXPECT_GE(statistics["up"]["bytes_in"], 20 * 144);
+    EXPECT_GE(statistics["up"]["bytes_in"], 20 * 136);
 }
 
 TEST_F(EmulatorBetween, CarriesIpv6)
@@ -151,6 +151,61 @@ TEST_F(EmulatorBetween, LosesTheSamePacketsAsEverForASeed)
     first.resize(40);
     second.resize(40);
     EXPECT_EQ(first, second);
+}
+
+/// What a sender of 100 datagrams of 1000 bytes, one a millisecond, hears of the marks with which
+/// they arrived behind 1 Mbit/s, and what the emulator counted.
+struct Marks {
+    int not_ect = 0;
+    int ect1 = 0;
+    int ect0 = 0;
+    int ce = 0;
+    nlohmann::json up{};
+};
+
+Marks marks_behind(const std::string& queue, int traffic_class)
+{
+    const TemporaryFolder folder;
+    const auto stats = folder.file("run.json");
+    const std::string host = HAPNET_MARKS_HOST;
+    const auto outcome = run_between(
+        {"--set", "up.rate={ limit = \"1Mbit/s\", queue = \"1MiB\" }", "--set", "up.queue=" + queue,
+         "--stats", stats},
+        host + " send b:7003 " + std::to_string(traffic_class) + " 100", {host, "tell", "7003"});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    Marks marks;
+    const auto line = outcome.out.find("not-ect=");
+    EXPECT_NE(line, std::string::npos) << outcome.out << outcome.err;
+    if (line == std::string::npos) return marks;
+    EXPECT_EQ(std::sscanf(outcome.out.c_str() + line, "not-ect=%d ect1=%d ect0=%d ce=%d",
+                          &marks.not_ect, &marks.ect1, &marks.ect0, &marks.ce),
+              4);
+    marks.up = nlohmann::json::parse(text_of(stats))["up"];
+    return marks;
+}
+
+TEST_F(EmulatorBetween, MarksWhatHasWaitedLongerThanAStepAndTheReceiverReadsIt)
+{
+    const auto marks = marks_behind("{ law = \"drop-tail\", ecn_threshold = \"20ms\" }", 2);
+    // Each takes 8.2 ms or more on the line: at most three wait 20 ms or less.
+    EXPECT_GE(marks.ce, 90);
+    EXPECT_EQ(marks.ce + marks.ect0, 100);
+    EXPECT_EQ(marks.up["ce_marked"], marks.ce);
+    EXPECT_EQ(marks.up["ce_out"], marks.ce);
+    EXPECT_EQ(marks.up["ce_in"], 0);
+}
+
+TEST_F(EmulatorBetween, MarksByCodelWhereItWouldDropAndDropsWhatIsNotEcnCapable)
+{
+    const std::string codel = "{ law = \"codel\", target = \"1ms\", interval = \"20ms\" }";
+    const auto able = marks_behind(codel, 1); // ECT(1)
+    EXPECT_GE(able.ce, 3);
+    EXPECT_EQ(able.ce + able.ect1, 100);
+    EXPECT_EQ(able.up["ce_marked"], able.ce);
+    const auto deaf = marks_behind(codel, 0);
+    EXPECT_EQ(deaf.ce, 0);
+    EXPECT_LE(deaf.not_ect, 97);
+    EXPECT_EQ(deaf.up["dropped"]["rate_queue_law"], 100 - deaf.not_ect);
 }
 
 TEST_F(EmulatorBetween, ReadsAnMtuAsTheSizeOfAnIpPacket)

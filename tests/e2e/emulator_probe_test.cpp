@@ -7,9 +7,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 
 namespace hapnet::e2e {
 
@@ -81,6 +83,28 @@ TEST(EmulatorProbe, TellsOnWhichWayItsQuestionsWereLost)
     EXPECT_EQ(std::ranges::count(csv, '\n'), 61);
 }
 
+TEST(EmulatorProbe, IsLearnedFromACaptureOfTheEmulatorThatItPassed)
+{
+    AnsweringProbe answering;
+    const TemporaryFolder folder;
+    const auto capture = folder.file("run.pcapng");
+    Emulator emulator{{"--b", answering.where(), "--up.delay", "20ms", "--down.delay", "5ms",
+                       "--down.burst-loss", "1/4", "--pcap", capture}};
+    const auto asked = run("hapnet-emulator", {"probe", emulator.a().to_text(), "--count", "60",
+                                               "--rate", "200", "--quiet"});
+    EXPECT_EQ(asked.exit, 0) << asked.err;
+    std::ignore = emulator.stop();
+    const auto learned = run("hapnet-emulator", {"learn", capture, "--plot"});
+    ASSERT_EQ(learned.exit, 0) << learned.err;
+    for (const char* words : {"up: loss: none of 60", "down: loss: ", "up: delays from ... ms: #",
+                              "clocks of the two ends are taken for one"}) {
+        EXPECT_NE(learned.err.find(words), std::string::npos) << learned.err;
+    }
+    std::ofstream{folder.file("learned.toml")} << learned.out;
+    const auto checked = run("hapnet-emulator", {"check", folder.file("learned.toml")});
+    EXPECT_EQ(checked.exit, 0) << checked.err;
+}
+
 TEST(EmulatorProbe, PrintsALineForEachAnswerAndItsSummaryWhenItIsInterrupted)
 {
     AnsweringProbe answering;
@@ -88,7 +112,7 @@ TEST(EmulatorProbe, PrintsALineForEachAnswerAndItsSummaryWhenItIsInterrupted)
     ASSERT_TRUE(probe.wait_for_out("seq=2 time=", 10s));
     probe.signal(SIGINT);
     EXPECT_EQ(probe.wait_exit(10s), 0) << probe.err();
-    EXPECT_NE(probe.out().find("144 bytes from " + answering.where() + ": seq=0 time="),
+    EXPECT_NE(probe.out().find("136 bytes from " + answering.where() + ": seq=0 time="),
               std::string::npos);
     EXPECT_NE(probe.out().find("probe statistics ---\n"), std::string::npos);
     EXPECT_NE(probe.out().find("round trip"), std::string::npos);

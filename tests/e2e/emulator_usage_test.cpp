@@ -91,6 +91,46 @@ TEST(EmulatorUsage, RefusesWhatTheRampsOfTheProfileCannotBeginAt)
                    {"change 1", "at 1s", "cannot ramp rate"});
 }
 
+TEST(EmulatorUsage, ChecksAndPredictsOneLinkOfAMesh)
+{
+    const TemporaryFolder folder;
+    const std::string profile = folder.file("mesh.toml");
+    std::ofstream{profile} << "both.loss = \"10%\"\n[matrix]\npeers = [1, 2, 3]\n"
+                              "delay = [[\"0ms\", \"10ms\", \"20ms\"],\n"
+                              "         [\"30ms\", \"0ms\", \"40ms\"],\n"
+                              "         [\"50ms\", \"60ms\", \"0ms\"]]\n";
+    const auto predicted = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"predict", profile, "--packets", "1000", "--json"});
+        const auto outcome = run("hapnet-emulator", more);
+        EXPECT_EQ(outcome.exit, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    };
+    const auto two = predicted({"--link", "2-3"});
+    EXPECT_EQ(two["link"], "2-3");
+    EXPECT_EQ(two["up"]["delay_ms"]["mean"], 40.0);
+    EXPECT_EQ(two["down"]["delay_ms"]["mean"], 60.0);
+    const auto one = predicted({"--link", "1-3"});
+    EXPECT_EQ(one["down"]["delay_ms"]["mean"], 50.0);
+    // Each link has draws of its own, as when it runs.
+    EXPECT_NE(one["up"]["dropped"], two["up"]["dropped"]);
+
+    const auto common = run("hapnet-emulator", {"predict", profile, "--packets", "1000"});
+    EXPECT_NE(common.err.find("--link NAME describes one of those that have some: 1-2, 1-3, 2-3"),
+              std::string::npos)
+        << common.err;
+    const auto other = run("hapnet-emulator", {"check", profile, "--link", "wan"});
+    EXPECT_NE(other.err.find("nothing of its own for wan"), std::string::npos) << other.err;
+
+    const auto checked = run("hapnet-emulator", {"check", profile, "--link", "2-3"});
+    EXPECT_EQ(checked.exit, 0) << checked.err;
+    for (const char* words : {"delay = \"40ms\"", "# 2-3: from 2 to 3", "# 3-2: from 3 to 2"}) {
+        EXPECT_NE(checked.out.find(words), std::string::npos) << checked.out;
+    }
+    const std::string alone = folder.file("alone.toml"); // a profile of one path
+    std::ofstream{alone} << checked.out;
+    EXPECT_EQ(run_with({"--profile", alone}).exit, 0);
+}
+
 TEST(EmulatorUsage, AdoptsOnLoopbackOnly)
 {
     expect_refusal(run("hapnet-emulator", {"--listen-a", "0.0.0.0:0", "--listen-b", "127.0.0.1:0"}),

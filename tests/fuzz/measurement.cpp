@@ -19,8 +19,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     constexpr std::size_t most = 1000; // more would be slow
-    base::ensure(measurement->down.delays.size() == measurement->down.lost.size());
-    if (measurement->down.lost.size() > most) return 0;
+    for (const auto* way : {&measurement->round_trip, &measurement->up, &measurement->down}) {
+        if (!*way) continue;
+        base::ensure((*way)->delays.size() == (*way)->lost.size());
+        if ((*way)->lost.size() > most) return 0;
+    }
     const auto lesson = emulator::tools::learn(*measurement);
     if (!lesson) return 0;
     const auto again = emulator::parse_profile(

@@ -41,7 +41,7 @@ const std::vector<Folder>& map()
           "device/omni1394/transport", "device"}},
         {"device/falcon/transport", false, {"device"}},
         {"device/hdapi/transport", false, {"device"}},
-        {"device/hid/transport", false, {"device"}},
+        {"device/hid/transport", false, {"device", "proto/net"}},
         {"device/omni1394/transport", false, {"device"}},
         {"device", true, {"proto/base"}},
         {"peer/core", true, {"scene", "proto/wire", "proto/record", "device"}},

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/hid/transport/sender_thread.hpp"
 
-#include "device/hid/transport/wake_event.hpp"
+#include "proto/net/wake_event.hpp"
 
 #include <atomic>
 #include <semaphore>
@@ -33,7 +33,7 @@ struct SenderThread::Shared {
     std::unique_ptr<Wire> wire;
     PidSender sender;
     Mailbox mailbox;
-    WakeEvent wake_event;
+    net::WakeEvent wake_event;
     std::atomic<bool> is_closing{false};
     std::binary_semaphore done{0};
 };

@@ -34,14 +34,23 @@ struct QueueControl {
     static constexpr std::uint32_t quantum_most = 1U << 30U;
 
     QueueLaw law = QueueLaw::drop_tail;
-    std::optional<base::Duration> target{}; // nullopt: that of the RFC, 5 ms or 15 ms
-    base::Duration interval = std::chrono::milliseconds{100};
-    std::uint32_t packets_max = 0; // waiting; 0: no such bound
-    base::Duration time_max{};     // a datagram that would wait longer is dropped; 0: no such bound
-    bool is_marking = true;        // a datagram that is ECN-capable is marked instead of dropped
-    std::optional<base::Duration> mark_above{}; // waited longer: marked, if ECN-capable
-    std::uint32_t flows = 1024;                 // queues of fq-codel
-    std::uint32_t quantum_bytes = 1514;         // that a flow may send at a turn
+    std::optional<base::Duration> target{};   // nullopt: that of the RFC, 5 ms or 15 ms
+    std::optional<base::Duration> interval{}; // of codel and fq-codel; nullopt: 100 ms
+    std::uint32_t packets_max = 0;            // waiting; 0: no such bound
+    base::Duration time_max{}; // a datagram that would wait longer is dropped; 0: no such bound
+    /// A datagram that is ECN-capable is marked where the law would drop it; nullopt: it is.
+    std::optional<bool> is_marking{};
+    std::optional<base::Duration> mark_above{};   // waited longer: marked, if ECN-capable
+    std::optional<std::uint32_t> flows{};         // queues of fq-codel; nullopt: 1024
+    std::optional<std::uint32_t> quantum_bytes{}; // of a flow's turn; nullopt: 1514
+
+    [[nodiscard]] base::Duration codel_interval() const
+    {
+        return interval.value_or(std::chrono::milliseconds{100});
+    }
+    [[nodiscard]] bool marks() const { return is_marking.value_or(true); }
+    [[nodiscard]] std::uint32_t flow_count() const { return flows.value_or(1024); }
+    [[nodiscard]] std::uint32_t turn_bytes() const { return quantum_bytes.value_or(1514); }
 
     friend bool operator==(const QueueControl&, const QueueControl&) = default;
 };
@@ -58,20 +67,24 @@ constexpr auto fields_of(base::Tag<QueueControl>)
             "target", &QueueControl::target,
             "time in the queue that the law aims at; 5ms for CoDel and fq-codel, 15ms for PIE"),
         base::field("interval", &QueueControl::interval,
-                    "CoDel: how long that time has to be exceeded before it drops"),
+                    "CoDel and fq-codel: how long that time has to be exceeded before they drop; "
+                    "100ms unless given"),
         base::field("packets", &QueueControl::packets_max,
                     "datagrams that wait at most; 0: no such bound"),
         base::field("time", &QueueControl::time_max,
                     "a datagram that would wait longer is dropped; 0: no such bound"),
         base::field("ecn", &QueueControl::is_marking,
-                    "whether the law marks ECN-capable datagrams (CE) instead of dropping them"),
+                    "whether codel, fq-codel or pie marks ECN-capable datagrams (CE) instead of "
+                    "dropping them; true unless given"),
         base::field("ecn_threshold", &QueueControl::mark_above,
                     "ECN-capable datagrams that have waited longer are marked CE, under any law"),
-        base::field("flows", &QueueControl::flows, base::Count{1, QueueControl::flows_most},
-                    "fq-codel: number of queues, which a hash of the flow chooses from"),
+        base::field(
+            "flows", &QueueControl::flows, base::Count{1, QueueControl::flows_most},
+            "fq-codel: number of queues, which a hash of the flow chooses from; 1024 unless given"),
         base::field("quantum", &QueueControl::quantum_bytes,
                     base::Count{1, QueueControl::quantum_most},
-                    "fq-codel: bytes that a flow sends before it is the turn of the next"));
+                    "fq-codel: bytes that a flow sends before it is the turn of the next; 1514 "
+                    "unless given"));
 }
 
 [[nodiscard]] base::Result<void> validate(const QueueControl& queue);

@@ -20,13 +20,14 @@ base::Duration target_of(const QueueControl& control)
 } // namespace
 
 FairQueue::FairQueue(const QueueControl& control)
-    : control_{control}, flows_(control.flows, Flow{Codel{target_of(control), control.interval}})
+    : control_{control},
+      flows_(control.flow_count(), Flow{Codel{target_of(control), control.codel_interval()}})
 {}
 
 void FairQueue::change(const QueueControl& control)
 {
     control_ = control;
-    for (Flow& flow : flows_) flow.codel.change(target_of(control), control.interval);
+    for (Flow& flow : flows_) flow.codel.change(target_of(control), control.codel_interval());
 }
 
 void FairQueue::append(Turns& turns, std::uint32_t flow)
@@ -70,7 +71,7 @@ void FairQueue::push(const Queued& entry, std::uint32_t flow_hash)
     flow.bytes += entry.line_bytes;
     ++size_;
     if (flow.has_turns) return;
-    flow.deficit = control_.quantum_bytes;
+    flow.deficit = control_.turn_bytes();
     append(new_, number);
 }
 
@@ -105,7 +106,7 @@ Queued FairQueue::judged(Flow& flow, base::TimePoint now)
     auto verdict = flow.codel.judge({.waited = waited,
                                      .bytes_behind = flow.bytes,
                                      .is_first = is_first,
-                                     .is_markable = control_.is_marking && marks.is_ecn_capable()},
+                                     .is_markable = control_.marks() && marks.is_ecn_capable()},
                                     now);
     verdict = with_threshold(verdict, control_, waited, marks);
     entry.is_marked = entry.is_marked || verdict == QueueVerdict::mark;
@@ -135,7 +136,7 @@ Queued FairQueue::next(base::TimePoint now)
         const std::uint32_t number = turns.first;
         Flow& flow = flows_[number];
         if (flow.deficit <= 0) {
-            flow.deficit += control_.quantum_bytes;
+            flow.deficit += control_.turn_bytes();
             remove_first(turns);
             append(old_, number);
         } else if (flow.first == none) {

@@ -19,9 +19,9 @@ void QueueManager::change(const QueueControl& control)
     if (control.law == QueueLaw::codel) {
         const auto target = control.target.value_or(milliseconds{5});
         if (auto* codel = std::get_if<Codel>(&law_)) {
-            codel->change(target, control.interval);
+            codel->change(target, control.codel_interval());
         } else {
-            law_.emplace<Codel>(target, control.interval);
+            law_.emplace<Codel>(target, control.codel_interval());
         }
     } else if (control.law == QueueLaw::pie) {
         const auto target = control.target.value_or(milliseconds{15});

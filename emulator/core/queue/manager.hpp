@@ -37,7 +37,7 @@ public:
         const bool is_hit = pie != nullptr && pie->drops(datagram.arrival, bytes_waiting,
                                                          stream_->uniform(datagram.number));
         if (!is_hit) return QueueVerdict::pass;
-        const bool is_marked = control_.is_marking && datagram.marks.is_ecn_capable() &&
+        const bool is_marked = control_.marks() && datagram.marks.is_ecn_capable() &&
                                pie->probability() <= Pie::marked_up_to;
         return is_marked ? QueueVerdict::mark : QueueVerdict::drop;
     }
@@ -46,7 +46,7 @@ public:
     [[nodiscard]] QueueVerdict judge_head(Codel::Head head, base::IpMarks marks,
                                           base::TimePoint now)
     {
-        head.is_markable = control_.is_marking && marks.is_ecn_capable();
+        head.is_markable = control_.marks() && marks.is_ecn_capable();
         if (auto* pie = std::get_if<Pie>(&law_)) pie->on_departure(now, head.waited);
         auto* codel = std::get_if<Codel>(&law_);
         const auto verdict = codel != nullptr ? codel->judge(head, now) : QueueVerdict::pass;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/learn/delays.hpp"
 
+#include "emulator/core/delay/bounds.hpp"
 #include "emulator/tools/verify/draws.hpp"
 #include "emulator/tools/verify/tails.hpp"
 #include "proto/base/ensure.hpp"
@@ -35,30 +36,18 @@ struct Values {
     }
 };
 
+/// Rounded, and no longer than a profile may say.
 base::Duration in_microseconds(double nanoseconds)
 {
-    return std::chrono::microseconds{std::llround(nanoseconds / 1e3)};
+    const double most = base::to_nanoseconds(longest_delay);
+    return std::chrono::microseconds{std::llround(std::clamp(nanoseconds, -most, most) / 1e3)};
 }
 
 /// The largest distance of the distribution of the values from that of a law.
 double distance_of(const DelayModel& model, const Values& values)
 {
     constexpr int points = 4000;
-    std::vector<double> quantiles;
-    auto sampler = make_sampler(model.jitter);
-    for (int i = 0; i < points; ++i) {
-        const double u = (i + 0.5) / points;
-        quantiles.push_back(std::visit(
-            [&](auto& law) {
-                if constexpr (requires { law.quantile(u); }) {
-                    return base::to_nanoseconds(model.base + law.quantile(u));
-                } else {
-                    base::ensure(false); // no trace is fitted
-                    return 0.0;
-                }
-            },
-            sampler));
-    }
+    const auto quantiles = quantiles_of(model, points);
     const auto share_below = [&](double value) {
         const auto next = std::lower_bound(quantiles.begin(), quantiles.end(), value);
         const auto index = static_cast<double>(next - quantiles.begin());
@@ -155,9 +144,9 @@ double correlation_of(const MeasuredWay& way, const std::vector<base::Duration>&
     double products = 0.0;
     double squares = 0.0;
     std::size_t index = 0;
-    for (std::size_t i = 0; i < way.lost.size(); ++i) {
-        if (way.lost[i]) continue;
-        const bool has_neighbour = i > 0 && !way.lost[i - 1];
+    for (std::size_t i = 0; i < way.delays.size(); ++i) {
+        if (!way.delays[i]) continue;
+        const bool has_neighbour = i > 0 && way.delays[i - 1];
         if (has_neighbour) {
             products += scores[index - 1] * scores[index];
             squares +=
@@ -170,11 +159,32 @@ double correlation_of(const MeasuredWay& way, const std::vector<base::Duration>&
 
 } // namespace
 
-DelayFit fit_delays(const MeasuredWay& way, std::optional<base::Duration> spacing)
+std::vector<double> quantiles_of(const DelayModel& model, int points)
 {
+    std::vector<double> quantiles;
+    auto sampler = make_sampler(model.jitter);
+    for (int i = 0; i < points; ++i) {
+        const double u = (i + 0.5) / points;
+        quantiles.push_back(std::visit(
+            [&](auto& law) {
+                if constexpr (requires { law.quantile(u); }) {
+                    return base::to_nanoseconds(model.base + law.quantile(u));
+                } else {
+                    base::ensure(false); // no trace is fitted
+                    return 0.0;
+                }
+            },
+            sampler));
+    }
+    return quantiles;
+}
+
+DelayFit fit_delays(const MeasuredWay& way)
+{
+    const auto& spacing = way.spacing;
     std::vector<base::Duration> arrived;
-    for (std::size_t i = 0; i < way.delays.size(); ++i) {
-        if (!way.lost[i]) arrived.push_back(way.delays[i]);
+    for (const auto& delay : way.delays) {
+        if (delay) arrived.push_back(*delay);
     }
     base::ensure(!arrived.empty());
     DelayFit fit{.independent = arrived.size()};

@@ -30,7 +30,10 @@ struct DelayFit {
     std::size_t independent = 0;       // delays that were far enough apart for the test
 };
 
-/// `way` has at least one datagram that was not lost.
-[[nodiscard]] DelayFit fit_delays(const MeasuredWay& way, std::optional<base::Duration> spacing);
+/// `way` has at least one delay.
+[[nodiscard]] DelayFit fit_delays(const MeasuredWay& way);
+
+/// So many quantiles of the model, in ns, ascending: the i-th at (i + 1/2) / points.
+[[nodiscard]] std::vector<double> quantiles_of(const DelayModel& model, int points);
 
 } // namespace hapnet::emulator::tools

@@ -14,6 +14,7 @@ namespace hapnet::emulator::tools {
 struct Lesson {
     Profile profile;
     std::vector<std::string> remarks; // for people, one a line
+    std::vector<std::string> plots;   // for a terminal, of several lines each
 };
 
 /// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law

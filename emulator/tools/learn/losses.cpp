@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/learn/losses.hpp"
 
+#include "emulator/tools/learn/four_state_fit.hpp"
 #include "proto/base/math.hpp"
 
 #include <algorithm>
@@ -32,6 +33,16 @@ struct Chain {
     [[nodiscard]] double emits(std::size_t state, bool is_lost) const
     {
         return is_lost ? loses[state] : 1.0 - loses[state];
+    }
+    [[nodiscard]] LossChain states() const
+    {
+        LossChain chain;
+        chain.loses = {loses[0], loses[1]};
+        chain.steps[0] = {1.0 - leaves[0], leaves[0]};
+        chain.steps[1] = {leaves[1], 1.0 - leaves[1]};
+        const auto shares = stationary();
+        chain.shares = {shares[0], shares[1]};
+        return chain;
     }
 };
 
@@ -160,11 +171,11 @@ double term(double count, double probability)
     return count > 0.0 ? count * base::log(probability) : 0.0;
 }
 
-LossModel model(std::string_view name, const LossLaw& law, double log_likelihood, int parameters,
-                double count)
+/// With its BIC, over so many datagrams.
+LossModel rated(LossModel model, double count)
 {
-    return {name, law, log_likelihood, parameters,
-            parameters * base::log(count) - 2.0 * log_likelihood};
+    model.bic = model.parameters * base::log(count) - 2.0 * model.log_likelihood;
+    return model;
 }
 
 void add_gilbert_elliott(std::vector<LossModel>& models, const std::vector<bool>& all,
@@ -190,10 +201,27 @@ void add_gilbert_elliott(std::vector<LossModel>& models, const std::vector<bool>
     }
     const GilbertElliott law{probability(chain.leaves[0]), probability(chain.leaves[1]),
                              probability(chain.loses[0]), probability(chain.loses[1])};
-    const double whole = static_cast<double>(all.size()) / static_cast<double>(lost.size());
     if (!law.validate()) return;
-    models.push_back(model("gilbert-elliott", law, whole * best->log_likelihood, 4,
+    models.push_back(rated({.name = "gilbert-elliott",
+                            .law = law,
+                            .chain = chain.states(),
+                            .log_likelihood = all.size() == lost.size()
+                                                  ? best->log_likelihood
+                                                  : BaumWelch{all}.expect(chain).log_likelihood,
+                            .parameters = 4},
                            static_cast<double>(all.size())));
+}
+
+void add_four_states(std::vector<LossModel>& models, const std::vector<LossRun>& runs, double count)
+{
+    const auto fit = fit_four_states(runs);
+    if (!fit) return;
+    models.push_back(rated({.name = "four-state",
+                            .law = fit->law,
+                            .chain = chain_of(fit->steps),
+                            .log_likelihood = fit->log_likelihood,
+                            .parameters = 5},
+                           count));
 }
 
 } // namespace
@@ -205,8 +233,16 @@ std::vector<LossModel> fit_losses(const std::vector<bool>& lost)
     if (losses == 0.0) return {};
     std::vector<LossModel> models;
     const double share = losses / n;
-    models.push_back(model("random", RandomLoss{probability(share)},
-                           term(losses, share) + term(n - losses, 1.0 - share), 1, n));
+    LossChain one_state;
+    one_state.loses[0] = share;
+    one_state.shares[0] = one_state.steps[0][0] = 1.0;
+    models.push_back(rated({.name = "random",
+                            .law = RandomLoss{probability(share)},
+                            .chain = one_state,
+                            .log_likelihood = term(losses, share) + term(n - losses, 1.0 - share),
+                            .parameters = 1},
+                           n));
+    const auto runs = runs_of(lost);
     const Pairs pairs{lost};
     const Chain gilbert{{pairs.leaves(0), pairs.leaves(1)}, {0.0, 1.0}};
     const auto [p, r] = gilbert.leaves;
@@ -216,8 +252,20 @@ std::vector<LossModel> fit_losses(const std::vector<bool>& lost)
         const double likely = term(counts[0][0], 1.0 - p) + term(counts[0][1], p) +
                               term(counts[1][0], r) + term(counts[1][1], 1.0 - r) +
                               term(1.0, lost.front() ? p / (p + r) : r / (p + r));
-        if (law.validate()) models.push_back(model("gilbert", law, likely, 2, n));
+        if (law.validate()) {
+            models.push_back(rated({.name = "gilbert",
+                                    .law = law,
+                                    .chain = gilbert.states(),
+                                    .log_likelihood = likely,
+                                    .parameters = 2},
+                                   n));
+        }
         add_gilbert_elliott(models, lost, gilbert, share);
+        add_four_states(models, runs, n);
+    }
+    for (LossModel& one : models) {
+        one.losses_p_value = test_runs(runs, one.chain, true);
+        one.arrivals_p_value = test_runs(runs, one.chain, false);
     }
     std::stable_sort(models.begin(), models.end(),
                      [](const LossModel& a, const LossModel& b) { return a.bic < b.bic; });

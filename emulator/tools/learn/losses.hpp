@@ -3,7 +3,9 @@
 #pragma once
 
 #include "emulator/core/loss/loss.hpp"
+#include "emulator/tools/learn/loss_runs.hpp"
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,13 +15,19 @@ namespace hapnet::emulator::tools {
 struct LossModel {
     std::string_view name;
     LossLaw law;
+    LossChain chain{}; // the same, state by state
     double log_likelihood = 0.0;
     int parameters = 0;
     double bic = 0.0; // Schwarz, Annals of Statistics 6, 1978: the least is the best
+
+    // Goodness of fit (see test_runs); nullopt: too few runs to tell.
+    std::optional<double> losses_p_value{};
+    std::optional<double> arrivals_p_value{};
 };
 
-/// Independent losses, Gilbert and Gilbert-Elliott (Baum and Welch's iteration), the best by BIC
-/// first; empty when nothing was lost. A model whose parameters make no law is left out.
+/// Independent losses, Gilbert, Gilbert-Elliott (Baum and Welch's iteration) and four states, the
+/// best by BIC first; empty when nothing was lost. A model whose parameters make no law is left
+/// out.
 [[nodiscard]] std::vector<LossModel> fit_losses(const std::vector<bool>& lost);
 
 } // namespace hapnet::emulator::tools

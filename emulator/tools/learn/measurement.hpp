@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,21 +17,47 @@ namespace hapnet::emulator::tools {
 
 /// What was measured of one way, or of a round trip, datagram by datagram.
 struct MeasuredWay {
-    std::vector<base::Duration> delays; // of a lost one: without meaning
-    std::vector<bool> lost;             // as many
-    std::size_t reordered = 0;          // arrived after one that was sent later, where it is known
-};
-
-/// What a file of measurements says.
-struct Measurement {
-    std::optional<MeasuredWay> up{}; // nullopt: only the round trip is known
-    MeasuredWay down{};              // or the round trip; the losses of both ways are counted here
+    std::vector<std::optional<base::Duration>> delays{}; // nullopt: lost, or not known
+    std::vector<bool> lost{};                            // as many
+    std::size_t reordered = 0; // arrived after one that was sent later, where it is known
     std::optional<base::Duration> spacing{}; // from datagram to datagram, on average
+
+    void add(std::optional<base::Duration> delay, bool is_lost)
+    {
+        delays.push_back(is_lost ? std::nullopt : delay);
+        lost.push_back(is_lost);
+    }
 };
 
-/// Reads what `ping` has printed, what `probe --csv` has written, or a CSV of delays (see
-/// read_trace_rows). Errors name the line.
+/// What was measured: a round trip, one way, or both. At least one of them is there.
+struct Measurement {
+    std::optional<MeasuredWay> round_trip{};
+    std::optional<MeasuredWay> up{};
+    std::optional<MeasuredWay> down{};
+    /// On which way a datagram was lost is not known: all losses are counted in down.
+    bool mixes_losses = false;
+    std::vector<std::string> remarks{}; // on what was read, for people
+};
+
+/// A file of measurements: the name is for messages.
+struct MeasuredFile {
+    std::string name;
+    std::string bytes;
+};
+
+/// Reads what `ping` has printed, what `probe --csv` has written, irtt's JSON, or a CSV of delays
+/// (see read_trace_rows). Errors name the line.
 [[nodiscard]] base::Result<Measurement> read_measurement(std::string_view text,
                                                          const Columns& columns = {});
+
+/// Reads several files as one measurement of the same path: series follow one another in the order
+/// of the files. Captures (pcap, pcapng) are one or two, see measure_capture(). Errors begin with
+/// the name of the file.
+[[nodiscard]] base::Result<Measurement> read_measurements(std::span<const MeasuredFile> files,
+                                                          const Columns& columns = {});
+
+/// Where the ends of a path have clocks of their own, which a negative delay tells, both ways get
+/// the same least delay, and a remark says so.
+void settle_clocks(Measurement& measurement);
 
 } // namespace hapnet::emulator::tools

@@ -202,10 +202,45 @@ TEST(EmulatorOptions, OfARunAreNotThoseOfACommand)
               0U);
     EXPECT_EQ(refusal_alone({"learn"}), "FILE is required: hapnet-emulator learn ping.txt");
     EXPECT_EQ(options_of<LearnOptions>({"learn", "x", "--rate", "50"}).spacing, 20ms);
+    EXPECT_EQ(options_of<LearnOptions>({"learn", "a", "b", "--plot"}).files,
+              (std::vector<std::string>{"a", "b"}));
     EXPECT_EQ(refusal_alone({"verify"}), "RUN is required: hapnet-emulator verify run.json");
     EXPECT_EQ(options_of<VerifyOptions>({"verify", "run.json", "--rate", "1000"}).spacing, 1ms);
     expect_said(refusal_alone({"verify", "run.json", "--rate", "0"}),
                 "a whole number from 1 to 1000000000");
+}
+
+TEST(EmulatorOptions, OfADryRunNameOnePathOfSeveral)
+{
+    for (const auto& [typed, path] :
+         {std::pair{"1-2", "1-2"}, std::pair{"2-1", "1-2"}, std::pair{"wan", "wan"},
+          std::pair{"wan.down", "wan"}, std::pair{"client.3", "client.3"}}) {
+        EXPECT_EQ(options_of<PredictOptions>({"predict", "lte", "--link", typed}).stream.path,
+                  path);
+        EXPECT_EQ(options_of<CheckOptions>({"check", "lte", "--link", typed}).stream.path, path);
+    }
+    EXPECT_EQ(options_of<CheckOptions>({"check", "lte"}).stream.path, "");
+    expect_said(refusal_alone({"predict", "lte", "--link", "up"}),
+                "'up' is not the name of a link");
+}
+
+TEST(EmulatorOptions, TakeTheSizeOfAStateForThatOfADatagram)
+{
+    EXPECT_EQ(options_of<PredictOptions>({"predict", "lte"}).stream.bytes, 136U);
+    EXPECT_EQ(options_of<ProbeOptions>({"probe", "127.0.0.1:7000"}).bytes, 136U);
+}
+
+TEST(EmulatorOptions, SpeakOfSeveralPathsOnlyWhereThereMayBeSome)
+{
+    const auto prints = cli::prints_of("hapnet-emulator", parse_command_line);
+    for (const char* command : {"between", "exec", "bridge"}) {
+        const std::string help = prints({command, "--help"}).value();
+        expect_said(help, "Sets a condition by its key: up.delay=20ms");
+        EXPECT_EQ(help.find("1-2.delay"), std::string::npos) << command;
+        EXPECT_EQ(help.find("client.3"), std::string::npos) << command;
+    }
+    expect_said(prints({"--help"}).value(), "1-2.delay=20ms");
+    expect_said(prints({"predict", "--help"}).value(), "1-2.delay=20ms");
 }
 
 TEST(EmulatorOptions, OfClientsOfAServerGoTogether)

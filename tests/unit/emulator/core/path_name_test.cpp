@@ -21,6 +21,15 @@ TEST(PathName, CallsItsWaysByTheirPeersOrByUpAndDown)
     EXPECT_EQ(stream_name(client_path("10.0.0.1:5000"), Direction::up), "client/10.0.0.1:5000/up");
 }
 
+TEST(PathName, SaysForPeopleFromWhereToWhereAWayLeads)
+{
+    EXPECT_EQ(way_in_words("", Direction::down), "down: from B to A");
+    EXPECT_EQ(way_in_words("1-12", Direction::up), "1-12: from 1 to 12");
+    EXPECT_EQ(way_in_words("1-12", Direction::down), "12-1: from 12 to 1");
+    EXPECT_EQ(way_in_words("wan", Direction::up), "wan.up");
+    EXPECT_EQ(way_in_words("client.3", Direction::down), "client.3.down: from the server");
+}
+
 TEST(PathName, IsReadFromTheBeginningOfAKeyWhichNamesItsWay)
 {
     for (const std::string_view path : {"", "1-2", "wan", "client.3", "client.10.0.0.1:5000"}) {

@@ -147,6 +147,21 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
     EXPECT_EQ(refusal("[both]\ndelay = 1979-05-27\n").substr(0, 16), "test.toml:2:9: a");
 }
 
+TEST(ProfileText, AKeyThatTheLawOfAQueueDoesNotUseIsRefusedWithItsPlaceAndTheCure)
+{
+    EXPECT_EQ(refusal("[up]\nqueue = { law = \"codel\", flows = 1024 }\n"),
+              "test.toml:2:9: flows and quantum belong to fq-codel: remove them, or use that law");
+    EXPECT_EQ(refusal("[up]\nqueue = { law = \"drop-tail\", ecn = true }\n"),
+              "test.toml:2:9: ecn belongs to codel, fq-codel or pie: drop-tail drops only what "
+              "does not fit. Remove it, or use ecn_threshold, which marks under any law");
+    const auto text = "[up]\nrate = \"1Mbit/s\"\nqueue = { law = \"fq-codel\", flows = 7, ecn = "
+                      "false }\n";
+    const Profile profile = parsed(text);
+    EXPECT_EQ(profile.path.up.queue.flows, 7U);
+    EXPECT_EQ(profile.path.up.queue.is_marking, false);
+    EXPECT_EQ(parsed(to_text(profile)), profile);
+}
+
 TEST(ProfileText, AGilbertLawThatCannotBeIsRefusedWithTheNumberThatWouldDo)
 {
     EXPECT_EQ(

@@ -384,6 +384,24 @@ TEST(QueueControl, RefusesWhatItCannotDo)
     EXPECT_EQ(error({.law = QueueLaw::pie, .target = 0ms}), "target must be more than 0");
     EXPECT_EQ(error({.law = QueueLaw::codel, .interval = 0ms}),
               "interval must be more than 0 and at most 1000000s");
+    EXPECT_EQ(error({.law = QueueLaw::fq_codel, .interval = 50ms, .is_marking = true, .flows = 1}),
+              "");
+    for (const QueueLaw law : {QueueLaw::drop_tail, QueueLaw::pie}) {
+        EXPECT_EQ(error({.law = law, .interval = 100ms}),
+                  "interval belongs to codel or fq-codel: remove it, or use one of these laws");
+    }
+    // Also with the values that they have unless given.
+    for (const QueueLaw law : {QueueLaw::drop_tail, QueueLaw::codel, QueueLaw::pie}) {
+        const auto refusal = "flows and quantum belong to fq-codel: remove them, or use that law";
+        EXPECT_EQ(error({.law = law, .flows = 1024}), refusal);
+        EXPECT_EQ(error({.law = law, .quantum_bytes = 1514}), refusal);
+    }
+    for (const bool is_marking : {false, true}) {
+        EXPECT_EQ(
+            error({.is_marking = is_marking}).rfind("ecn belongs to codel, fq-codel or pie", 0),
+            0U);
+    }
+    EXPECT_EQ(error({.mark_above = 5ms}), "");
 }
 
 } // namespace

@@ -20,18 +20,17 @@ using namespace std::chrono_literals;
 using namespace base::literals; // NOLINT(google-build-using-namespace): literals only
 
 /// What a sender at even distances would measure of one way under these conditions.
-Measurement measured(const Conditions& conditions, std::size_t count, std::uint64_t seed = 42,
+MeasuredWay measured(const Conditions& conditions, std::size_t count, std::uint64_t seed = 42,
                      base::Duration spacing = 20ms)
 {
     Pipeline pipeline{conditions, base::Seed{seed}, Direction::down};
-    Measurement measurement{.up = std::nullopt, .down = {}, .spacing = spacing};
+    MeasuredWay way{.spacing = spacing};
     for (std::uint64_t number = 0; number < count; ++number) {
         const auto at = spacing * static_cast<base::Duration::rep>(number);
         const Fate fate = pipeline.on_packet({number, 96, at});
-        measurement.down.delays.push_back(fate.delay);
-        measurement.down.lost.push_back(fate.drop.has_value());
+        way.add(fate.delay, fate.drop.has_value());
     }
-    return measurement;
+    return way;
 }
 
 const DelayModel& of_name(const DelayFit& fit, std::string_view name)
@@ -45,7 +44,7 @@ const DelayModel& of_name(const DelayFit& fit, std::string_view name)
 template <typename Law>
 Law best_loss(const LossLaw& law, std::size_t count, std::uint64_t seed = 42)
 {
-    const auto models = fit_losses(measured({.loss = {law}}, count, seed).down.lost);
+    const auto models = fit_losses(measured({.loss = {law}}, count, seed).lost);
     const auto* found = std::get_if<Law>(&models.front().law);
     EXPECT_NE(found, nullptr) << name_of(law) << " was taken for " << models.front().name;
     return found == nullptr ? Law{} : *found;
@@ -82,7 +81,7 @@ TEST(LearnLosses, FindsTheFourParametersOfGilbertAndElliott)
 
 TEST(LearnLosses, RejectWrongModelsByTheirBic)
 {
-    const auto models = fit_losses(measured({.loss = {Gilbert{5_percent, 4.0}}}, 20'000).down.lost);
+    const auto models = fit_losses(measured({.loss = {Gilbert{5_percent, 4.0}}}, 20'000).lost);
     for (const LossModel& model : models) {
         if (model.name != "random") continue;
         EXPECT_GT(model.bic, models.front().bic + 100.0);
@@ -110,7 +109,7 @@ TEST(LearnDelays, FindEachLawAndRejectOthers)
                                               Case{"log-normal", LogNormalLaw{6ms, 5ms}, "normal"},
                                               Case{"pareto", ParetoLaw{4ms, 3.0}, "gamma"}}) {
         const auto data = measured({.delay = constant(40ms), .jitter = {jitter}}, 4000);
-        const auto fit = fit_delays(data.down, data.spacing);
+        const auto fit = fit_delays(data);
         EXPECT_EQ(fit.correlation_time, 0ms) << name;
         EXPECT_GE(of_name(fit, name).p_value.value_or(0.0), 1e-3) << name;
         EXPECT_LT(of_name(fit, wrong).p_value.value_or(1.0), 1e-3) << name << " and " << wrong;
@@ -122,7 +121,7 @@ TEST(LearnDelays, FindTheParametersOfANormalLawAndItsCorrelationTime)
 {
     const auto data =
         measured({.delay = constant(40ms), .jitter = {NormalLaw{{}, 3ms}, 100ms}}, 20'000);
-    const auto fit = fit_delays(data.down, data.spacing);
+    const auto fit = fit_delays(data);
     // With the correlation rho = exp(-0.2) of neighbours, 20 000 are worth n (1 - rho) / (1 + rho)
     // = 1993 for the mean and n (1 - rho^2) / (1 + rho^2) = 3948 for the sd.
     const auto& normal = of_name(fit, "normal");
@@ -140,7 +139,7 @@ TEST(Learn, PrintsAProfileThatReadsBackAndSaysWhatARoundTripDoesNotTell)
                                 .delay = constant(40ms),
                                 .jitter = {GammaLaw{4ms, 3ms}}},
                                5000);
-    const auto lesson = learn(data);
+    const auto lesson = learn({.round_trip = data});
     ASSERT_TRUE(lesson);
     const auto text = to_text(*lesson);
     const auto again = parse_profile(text, "learned.toml", [](const std::string& name) {
@@ -166,11 +165,12 @@ TEST(ReadMeasurement, ReadsWhatPingPrints)
                                        "5 packets transmitted, 3 received, 40% packet loss, time "
                                        "804ms\nrtt min/avg/max/mdev = 12.5/13/14/0.6 ms\n");
     ASSERT_TRUE(ping);
-    EXPECT_EQ(ping->down.lost, (std::vector{false, true, false, false, true}));
-    EXPECT_EQ(ping->down.delays[0], 12'500us);
-    EXPECT_EQ(ping->down.delays[3], 14ms);
-    EXPECT_EQ(ping->down.reordered, 1U);
-    EXPECT_EQ(ping->spacing, 201ms);
+    ASSERT_TRUE(ping->round_trip);
+    EXPECT_EQ(ping->round_trip->lost, (std::vector{false, true, false, false, true}));
+    EXPECT_EQ(ping->round_trip->delays[0], 12'500us);
+    EXPECT_EQ(ping->round_trip->delays[3], 14ms);
+    EXPECT_EQ(ping->round_trip->reordered, 1U);
+    EXPECT_EQ(ping->round_trip->spacing, 201ms);
     EXPECT_FALSE(ping->up);
 }
 
@@ -182,10 +182,12 @@ TEST(ReadMeasurement, FollowsNumbersOfPingThatBeginAgain)
     }
     const auto ping = read_measurement(text);
     ASSERT_TRUE(ping);
-    ASSERT_EQ(ping->down.lost.size(), 65'538U); // from 1 on
-    EXPECT_FALSE(ping->down.lost[65'535]);
-    EXPECT_TRUE(ping->down.lost[65'536]);
-    EXPECT_FALSE(ping->down.lost[65'537]);
+    ASSERT_TRUE(ping->round_trip);
+    const auto& lost = ping->round_trip->lost;
+    ASSERT_EQ(lost.size(), 65'538U); // from 1 on
+    EXPECT_FALSE(lost[65'535]);
+    EXPECT_TRUE(lost[65'536]);
+    EXPECT_FALSE(lost[65'537]);
 }
 
 TEST(ReadMeasurement, ReadsBothWaysOfAProbeWithOneClockAndTheRoundTripOfTwo)
@@ -195,13 +197,15 @@ TEST(ReadMeasurement, ReadsBothWaysOfAProbeWithOneClockAndTheRoundTripOfTwo)
     ASSERT_TRUE(one);
     ASSERT_TRUE(one->up);
     EXPECT_EQ(one->up->delays[2], 11ms);
-    EXPECT_EQ(one->down.delays[2], 22ms);
-    EXPECT_EQ(one->down.lost, (std::vector{false, true, false}));
-    EXPECT_EQ(one->spacing, 100ms);
+    ASSERT_TRUE(one->down);
+    EXPECT_EQ(one->down->delays[2], 22ms);
+    EXPECT_EQ(one->down->lost, (std::vector{false, true, false}));
+    EXPECT_EQ(one->down->spacing, 100ms);
     const auto two = read_measurement(header + "0,0,30,,,1\n1,0.1,33,,,1\n");
     ASSERT_TRUE(two);
     EXPECT_FALSE(two->up);
-    EXPECT_EQ(two->down.delays[1], 33ms);
+    ASSERT_TRUE(two->round_trip);
+    EXPECT_EQ(two->round_trip->delays[1], 33ms);
 }
 
 TEST(ReadMeasurement, NamesWhatItCannotRead)
@@ -212,7 +216,9 @@ TEST(ReadMeasurement, NamesWhatItCannotRead)
               "line 2: icmp_seq must be a whole number from 0 to 65535");
     EXPECT_EQ(read_measurement("a,b\n1,2\n").error().message,
               "line 1: no column is named delay_ns, delay_us, delay_ms or delay_s");
-    EXPECT_FALSE(learn({.down = {{1ms}, {true}, 0}}));
+    MeasuredWay silent;
+    silent.add(std::nullopt, true);
+    EXPECT_FALSE(learn({.round_trip = silent}));
 }
 
 } // namespace

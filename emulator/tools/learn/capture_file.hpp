@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// Who sent a packet, or to whom it went; an IPv4 address stands in the first four bytes.
+struct PacketEnd {
+    std::array<std::byte, 16> address{};
+    std::uint16_t port = 0; // of an ICMP echo: its identifier, at both ends
+    bool is_v6 = false;
+
+    friend auto operator<=>(const PacketEnd&, const PacketEnd&) = default;
+};
+
+enum class PacketProtocol : std::uint8_t { udp, tcp, echo };
+
+/// Packets of one protocol from one end to another.
+struct PacketFlow {
+    PacketProtocol protocol = PacketProtocol::udp;
+    PacketEnd from{};
+    PacketEnd to{};
+
+    [[nodiscard]] PacketFlow back() const { return {protocol, to, from}; }
+    friend auto operator<=>(const PacketFlow&, const PacketFlow&) = default;
+};
+
+/// "UDP 10.0.0.1:7000 > 10.0.0.2:7001", "ping 10.0.0.1 > 10.0.0.2"
+[[nodiscard]] std::string to_text(const PacketFlow& flow);
+
+/// A whole IP packet of UDP, of TCP with a payload, or an ICMP echo.
+struct SeenPacket {
+    base::Duration at{}; // since 1970
+    std::uint32_t interface = 0;
+    PacketFlow flow{};
+    std::uint32_t number = 0;             // TCP's sequence number, or that of an echo
+    std::span<const std::byte> payload{}; // as much of it as was captured
+    std::size_t payload_bytes = 0;        // as it was on the wire
+};
+
+/// What a file of packets holds.
+struct Capture {
+    std::vector<SeenPacket> packets; // their payloads lie in the bytes that were read
+    std::size_t passed_over = 0;     // others: fragments, other protocols, acknowledgements
+};
+
+inline constexpr std::size_t captured_packets_max = 2'000'000;
+
+/// Whether the bytes begin as pcap or as pcapng does.
+[[nodiscard]] bool is_capture(std::string_view bytes);
+
+/// Reads pcap, with times in microseconds or nanoseconds, or pcapng, of either byte order, whose
+/// interfaces are Ethernet (with VLAN tags), raw IP, Linux cooked (1 and 2) or loopback. A last
+/// packet that is cut off ends it. The formats: draft-ietf-opsawg-pcap, draft-ietf-opsawg-pcapng.
+/// libpcap is not used: it reads files, not bytes, and does not tell the interfaces of a pcapng
+/// apart. Errors name the packet.
+[[nodiscard]] base::Result<Capture> read_capture(std::string_view bytes);
+
+} // namespace hapnet::emulator::tools

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/tools/learn/capture_file.hpp"
+#include "emulator/tools/learn/measurement.hpp"
+
+namespace hapnet::emulator::tools {
+
+/// What a capture tells of a path. With two interfaces that have seen the same payloads, as a
+/// capture of the emulator has, it is measured from one to the other, as by measure_ends();
+/// otherwise round trips are: from an echo of ping, a question of `probe`, or a UDP datagram whose
+/// payload comes back unchanged, to its answer. The error: there is nothing of the kind.
+[[nodiscard]] base::Result<Measurement> measure_capture(const Capture& capture);
+
+/// What the captures of both ends of a path tell: the delays and losses of each way of the
+/// conversation with the most datagrams that both have seen. Datagrams are known by their payload,
+/// of TCP with the sequence number, whatever becomes of their addresses. One whose payload was sent
+/// more than once is left out. Before the first and behind the last that arrived nothing counts as
+/// lost: a capture may begin late. up is from the end of `a` to that of `b`.
+[[nodiscard]] base::Result<Measurement> measure_ends(const Capture& a, const Capture& b);
+
+} // namespace hapnet::emulator::tools
