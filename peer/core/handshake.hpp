@@ -71,8 +71,8 @@ public:
 
     [[nodiscard]] bool is_hello_due(base::TimePoint now) const
     {
-        const bool settled = session_ && !starts_differ_ &&
-                             (owns_start_ ? acknowledged_ : start_heard_.has_value());
+        const bool settled =
+            session_ && !starts_differ_ && (owns_start_ ? acknowledged_ : start_heard_.has_value());
         return (!settled || asked_) && !(last_hello_ && now - *last_hello_ < hello_every);
     }
     /// The hello that is due, if one is. `heard`: the peers that this one hears, bit i for id i.
