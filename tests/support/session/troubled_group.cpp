@@ -36,12 +36,6 @@ struct Partition {
     std::size_t half = 0; // the sides below it are in the one, the others in the other; 0: there is
                           // no partition
     base::Duration heals{};
-
-    /// Whether two sides had not heard each other for long at that time.
-    [[nodiscard]] bool parts(std::size_t a, std::size_t b, base::Duration at) const
-    {
-        return (a < half) != (b < half) && at < heals + 2 * longest_way;
-    }
 };
 
 Partition drawn_partition(base::Seed seed, std::size_t peers)
@@ -208,9 +202,12 @@ void GroupPlay::judge_absence(const Absence& absence)
         const std::size_t other = absence.side < side ? absence.side : absence.side - 1;
         if (player.peer().others()[other].freshness(world_.now() + player.clock_ahead) > 0.0)
             complain("peer {} counts the hand of {}, which is dead", side + 1, absence.side + 1);
-        const bool must_be_zero = absence.was_touching &&
-                                  since_begin() < absence.begin + zero_until &&
-                                  !partition_.parts(side, absence.side, absence.begin);
+        // One that died before this one met it again, or beyond a cut, was not heard to touch.
+        const auto arrived = player.peer().others()[other].remote().arrived();
+        const bool was_heard =
+            arrived && *arrived - player.clock_ahead >= World::start + absence.begin - touched_for;
+        const bool must_be_zero =
+            was_heard && absence.was_touching && since_begin() < absence.begin + zero_until;
         if (must_be_zero && player.told() != base::Force{})
             complain("peer {} feels {} N beside {}, which died touching", side + 1,
                      base::norm(player.told()), absence.side + 1);

@@ -167,6 +167,13 @@ TEST_P(TroubledGroups, OfTwoToFiveFeelNothingOfTheDeadAndAgreeInTheEnd)
 
 INSTANTIATE_TEST_SUITE_P(Seed, TroubledGroups, testing::Range(std::uint64_t{0}, test::seeds(50)));
 
+TEST(PlayerGroup, IsNotHeldUpByAHandThatDiedBeforeItWasMet)
+{
+    // Started again, it met one of the others, touched and died, before it met the second.
+    const auto played = test::play_troubled_group(810041, 3, test::Seal::keys);
+    EXPECT_FALSE(played.complaint) << *played.complaint;
+}
+
 TEST(PlayerGroup, WithKeysFeelsNothingOfTheDeadAndAgreesInTheEnd)
 {
     for (const std::size_t peers : {3U, 5U}) {
