@@ -26,13 +26,6 @@ std::string escaped(std::string_view text)
 
 std::string bold(std::string_view text) { return fmt::format("*{}*", escaped(text)); }
 
-std::string capitals(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
-    return text;
-}
-
 /// Prose, and lines that begin with a space as they are.
 std::string prose(std::string_view text)
 {
