@@ -7,7 +7,7 @@
 namespace hapnet::cli {
 namespace {
 
-Take nothing()
+Take any_text()
 {
     return [](const std::string&) -> base::Result<void> { return {}; };
 }
@@ -18,10 +18,10 @@ TEST(Manual, HasAllSectionsInTheOrderOfManPages)
     program.describe("Relays datagrams.\nAnd waits.");
     program.add_footer("Examples:\n  relay --delay 5ms");
     program.add_exit_codes("  0  done");
-    program.option("-d,--delay", "TIME", "How long each datagram waits", nothing());
-    program.option("--secret", "TIME", "", nothing()).hidden();
+    program.option("-d,--delay", "TIME", "How long each datagram waits", any_text());
+    program.option("--secret", "TIME", "", any_text()).hidden();
     program.command("check", "Says what a profile does")
-        .option("--set", "KEY=VALUE", "A setting", nothing());
+        .option("--set", "KEY=VALUE", "A setting", any_text());
     const auto page = manual(program);
     std::size_t place = 0;
     for (const char* heading :
