@@ -137,9 +137,17 @@ struct Calibration {
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
-using Kind = std::variant<Table1, Limits, Trajectories, ImpairmentGrid, Calibration>;
+/// What is claimed of an algorithm beyond the paper's: claim_cells() are the conditions. Tasks,
+/// hands and peers are theirs.
+struct Claims {
+    std::uint32_t judging_seeds = 10;
 
-/// "table1", "limits", "trajectories", "plane", "calibration"
+    friend bool operator==(const Claims&, const Claims&) = default;
+};
+
+using Kind = std::variant<Table1, Limits, Trajectories, ImpairmentGrid, Calibration, Claims>;
+
+/// "table1", "limits", "trajectories", "plane", "calibration", "claims"
 [[nodiscard]] std::string_view name_of(const Kind& kind);
 
 /// What is to be found out, and about what: sessions of every algorithm, task and seed.

@@ -166,6 +166,14 @@ constexpr auto fields_of(base::Tag<Calibration> /*struct*/)
                             .required());
 }
 
+constexpr auto fields_of(base::Tag<Claims> /*struct*/)
+{
+    return base::fields(
+        "claims", base::field("judging_seeds", &Claims::judging_seeds, base::Count{1, seeds_max},
+                              "number of seeds that judge, the first ones; quantiles are "
+                              "those of all"));
+}
+
 /// Whether the keys of a kind stand in a table of its name, and not among those of the experiment.
 template <typename OneKind>
 inline constexpr bool has_own_table =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/experiment/jobs.hpp"
 
+#include "lab/experiment/claims.hpp"
 #include "lab/experiment/grid.hpp"
 
 #include <algorithm>
@@ -103,6 +104,7 @@ struct MakeJobs {
         add(Impairment::delay, calibration.delay);
         add(Impairment::random_loss, calibration.random_loss);
     }
+    void operator()(const Claims& /*claims*/) const { jobs = claim_jobs(experiment); }
 
 private:
     void for_each_search(const Limits& limits, const std::vector<device::Task>& tasks,
@@ -216,6 +218,12 @@ struct RunJob {
             result.limits.push_back(*limit);
         }
         return result;
+    }
+
+    base::Result<JobResult> operator()(const SilenceJob& job) const
+    {
+        return apart_after_silence(job.spec).map(
+            [](double apart_m) -> JobResult { return SilenceResult{apart_m}; });
     }
 };
 

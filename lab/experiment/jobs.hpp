@@ -41,7 +41,13 @@ struct SensitivityJob {
     Hands hands{};
 };
 
-using Job = std::variant<SessionJob, SearchJob, SensitivityJob>;
+/// How far copies are apart after silence: see claims.hpp.
+struct SilenceJob {
+    std::size_t algorithm = 0;
+    SessionSpec spec{};
+};
+
+using Job = std::variant<SessionJob, SearchJob, SensitivityJob, SilenceJob>;
 
 /// The jobs of an experiment in the order of its results.
 [[nodiscard]] std::vector<Job> make_jobs(const Experiment& experiment);
@@ -70,7 +76,11 @@ struct SensitivityResult {
     std::vector<Limit> limits{};
 };
 
-using JobResult = std::variant<SessionResult, SearchResult, SensitivityResult>;
+struct SilenceResult {
+    double apart_m = 0.0;
+};
+
+using JobResult = std::variant<SessionResult, SearchResult, SensitivityResult, SilenceResult>;
 
 /// Carries out one job, playing by `play` what it needs. An error of `play` is passed on.
 [[nodiscard]] base::Result<JobResult> run_job(const Job& job, const Experiment& experiment,

@@ -4,6 +4,7 @@
 
 #include "lab/experiment/grid.hpp"
 #include "lab/metrics/calibration.hpp"
+#include "lab/results/claim_rows.hpp"
 #include "lab/results/limit_rows.hpp"
 #include "lab/results/paper.hpp"
 #include "lab/results/party_columns.hpp"
@@ -199,6 +200,14 @@ struct ResultsOf {
             note_party(experiment, groups[i].party, row);
         }
         return std::vector<File>{{"qos.csv", base::csv_text(rows)}};
+    }
+
+    base::Result<std::vector<File>> operator()(const experiment::Claims&) const
+    {
+        const auto sessions = claim_sessions_of(experiment, results);
+        return std::vector<File>{
+            {"claims.csv", base::csv_text(make_claim_rows(experiment, criteria, sessions))},
+            {"sessions.csv", base::csv_text(make_claim_session_rows(criteria, sessions))}};
     }
 
     base::Result<std::vector<File>> operator()(const experiment::Calibration&) const

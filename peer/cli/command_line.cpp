@@ -40,6 +40,9 @@ Algorithms (docs/design/algorithms.md; two peers may use different ones):
   sep             the same, with the other hand's force and position predicted
                   (in place of the paper's TiDeC, which is not published)
   remote-proxy    not of the paper: the other hand is in this scene, drawn to where it means to be
+  base-tdpa       base, with damping where the other side's force brings in more than its work
+  wave            the copies are joined by a channel of waves; passive, and soft over a delay
+  couple          the copies are joined by springs within their energy; passive, and soft
 A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
 
 Examples:

@@ -168,8 +168,8 @@ base::Result<void> complete_peers(Options& options, const Asked& asked, const cl
 base::Result<void> check_room(const Options& options)
 {
     const std::size_t all = options.others.size() + 1;
-    const bool has_proxies = std::holds_alternative<RemoteProxy>(options.algorithm);
-    if (options.scene.hands.count >= all || (options.is_pair() && !has_proxies)) return {};
+    const bool needs_all = has_hands_of_others(options.algorithm);
+    if (options.scene.hands.count >= all || (options.is_pair() && !needs_all)) return {};
     return base::fail(fmt::format("--scene {} has room for {} hands ([hips] count), and {} peers "
                                   "are to play: use --task T7, or --scene carry",
                                   options.scene_name, options.scene.hands.count, all));
@@ -304,7 +304,7 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
     program.option(
         "--algorithm", "NAME|FILE",
         "How the copies of the cube are kept together: base (default), dead-reckoning, sep, "
-        "remote-proxy, or a file of parameters in TOML",
+        "remote-proxy, base-tdpa, wave, couple, or a file of parameters in TOML",
         cli::into(options.algorithm, parse_algorithm_name));
     program
         .option("--print-algorithm", "NAME|FILE",

@@ -113,8 +113,7 @@ Peer::Peer(const Settings& settings)
       effects_(shared_.size())
 {
     base::ensure(circle_.is_pair() || plays_with_many(settings.algorithm));
-    if (auto* proxies = std::get_if<RemoteProxy>(&settings_.algorithm))
-        proxies->prepare(others_.size());
+    prepare(settings_.algorithm, others_.size());
 }
 
 void Peer::tell(Event event, const Member* about)

@@ -131,6 +131,9 @@ const std::vector<KeyTable>& tables()
         {"dead-reckoning", base::markdown(own_rows<peer::DeadReckoningOptions>())},
         {"sep", base::markdown(own_rows<peer::EstimatorPredictorOptions>())},
         {"remote-proxy", rows_of<peer::RemoteProxyOptions>()},
+        {"base-tdpa", base::markdown(own_rows<peer::BaseTdpaOptions>())},
+        {"wave", rows_of<peer::WaveOptions>()},
+        {"couple", rows_of<peer::CoupleOptions>()},
         {"governor", base::markdown(device::limit_keys())},
         {"operator", rows_of<device::Operator>()},
         {"task-options", rows_of<device::TaskOptions>()},
@@ -174,8 +177,8 @@ const std::set<std::string>& without_table()
         "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "Metrics", "Table1Row", "TaskRow", "LimitRow",
-        "SensitivityRow", "Judged", "CurveRow", "QosRow", "TrajectoryRow", "RealTimeRow",
-        "ReplayRow", "WrittenMount", "WrittenConfig"};
+        "SensitivityRow", "Judged", "CurveRow", "ClaimRow", "ClaimSessionRow", "QosRow",
+        "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount", "WrittenConfig"};
     return names;
 }
 
@@ -186,6 +189,9 @@ const std::set<std::string>& with_table()
                                              "DeadReckoningOptions",
                                              "EstimatorPredictorOptions",
                                              "RemoteProxyOptions",
+                                             "BaseTdpaOptions",
+                                             "WaveOptions",
+                                             "CoupleOptions",
                                              "WrittenLimits",
                                              "Operator",
                                              "TaskOptions",
@@ -216,6 +222,7 @@ const std::set<std::string>& with_table()
                                              "Trajectories",
                                              "ImpairmentGrid",
                                              "Calibration",
+                                             "Claims",
                                              "TickRow",
                                              "BodyRow",
                                              "MessageRow",

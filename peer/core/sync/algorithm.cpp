@@ -4,36 +4,66 @@
 
 #include "proto/base/text.hpp"
 
+#include <algorithm>
+#include <array>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::peer {
 
+namespace {
+
+template <typename... Kinds>
+Algorithm algorithm_at(std::size_t index, base::Tag<std::variant<Kinds...>> /*kinds*/)
+{
+    using Make = Algorithm (*)();
+    constexpr std::array<Make, sizeof...(Kinds)> all{[]() -> Algorithm { return Kinds{}; }...};
+    return all.at(index)();
+}
+
+} // namespace
+
 base::Result<Algorithm> algorithm_named(std::string_view name)
 {
-    const auto& [plain, dead_reckoning, sep, remote_proxy] = algorithm_names;
-    if (name == plain) return BaseAlgorithm{};
-    if (name == dead_reckoning) return DeadReckoning{};
-    if (name == sep) return EstimatorPredictor{};
-    if (name == remote_proxy) return RemoteProxy{};
+    const auto found = std::ranges::find(algorithm_names, name);
+    if (found != algorithm_names.end()) {
+        return algorithm_at(static_cast<std::size_t>(found - algorithm_names.begin()),
+                            base::Tag<Algorithm>{});
+    }
     return base::fail(
         fmt::format("unknown algorithm '{}': {}", name, base::suggestion(name, algorithm_names)));
 }
 
 Stale stale_of(const Algorithm& algorithm)
 {
-    struct Reader {
-        Stale operator()(const BaseAlgorithm& one) const { return one.options().stale; }
-        Stale operator()(const DeadReckoning& one) const { return one.options().base.stale; }
-        Stale operator()(const EstimatorPredictor& one) const { return one.options().base.stale; }
-        Stale operator()(const RemoteProxy& /*one*/) const { return Stale::drop; }
+    const auto stale = [](const auto& one) {
+        if constexpr (requires { one.options().stale; }) {
+            return one.options().stale;
+        } else if constexpr (requires { one.options().base.stale; }) {
+            return one.options().base.stale;
+        } else {
+            return Stale::drop;
+        }
     };
-    return std::visit(Reader{}, algorithm);
+    return std::visit(stale, algorithm);
+}
+
+void prepare(Algorithm& algorithm, std::size_t others)
+{
+    const auto tell = [others](auto& one) {
+        if constexpr (requires { one.prepare(others); }) one.prepare(others);
+    };
+    std::visit(tell, algorithm);
+}
+
+bool has_hands_of_others(const Algorithm& algorithm)
+{
+    return std::holds_alternative<RemoteProxy>(algorithm);
 }
 
 bool plays_with_many(const Algorithm& algorithm)
 {
-    return std::holds_alternative<BaseAlgorithm>(algorithm) ||
-           std::holds_alternative<RemoteProxy>(algorithm);
+    return !std::holds_alternative<DeadReckoning>(algorithm) &&
+           !std::holds_alternative<EstimatorPredictor>(algorithm);
 }
 
 base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const SharedBody> bodies)

@@ -53,8 +53,7 @@ Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, con
     if (const auto& state = situation.remote.state()) outcome.remote_hip = state->hip;
 
     if (own.touching || remote.touching) {
-        untouched_since_.reset();
-        blend_.reset();
+        at_rest_.interrupt();
     }
     const bool always = options_.follow_while == FollowWhile::always && remote.heard;
     const bool follows = own.touching ? leads : remote.touching || always;
@@ -116,21 +115,9 @@ void BaseAlgorithm::follow(scene::World& world, const Situation& situation, cons
 
 void BaseAlgorithm::settle(scene::World& world, const Situation& situation, const Presence& remote)
 {
-    if (!untouched_since_) untouched_since_ = situation.now;
-    const bool waited =
-        options_.settle_after && situation.now - *untouched_since_ >= *options_.settle_after;
-    if (!situation.yields || !waited || !remote.pose || situation.freshness <= 0.0) {
-        blend_.reset();
-        return;
-    }
-    if (!blend_) blend_ = Blend{situation.now, world.body(situation.body).position};
-    const base::Duration since = situation.now - blend_->start;
-    const double share = since < options_.settle_within
-                             ? base::to_seconds(since) / base::to_seconds(options_.settle_within)
-                             : 1.0;
-    put_there(
-        world, situation.body,
-        {blend_->from + share * (remote.pose->position - blend_->from), remote.pose->velocity});
+    const auto pose = at_rest_.pose(world.position(situation.body), remote, situation,
+                                    {options_.settle_after, options_.settle_within});
+    if (pose) put_there(world, situation.body, *pose);
 }
 
 void BaseAlgorithm::put_there(scene::World& world, scene::BodyId body, Presence::Pose there) const

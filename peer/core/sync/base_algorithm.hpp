@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/sync/at_rest.hpp"
 #include "peer/core/sync/presence.hpp"
 
 #include <optional>
@@ -40,17 +41,12 @@ private:
     void settle(scene::World& world, const Situation& situation, const Presence& remote);
     void put_there(scene::World& world, scene::BodyId body, Presence::Pose there) const;
 
-    struct Blend {
-        base::TimePoint start;
-        base::Position from;
-    };
     struct Lead {
         bool is_remote = false;
         base::TimePoint since;
     };
     BaseOptions options_;
-    std::optional<base::TimePoint> untouched_since_;
-    std::optional<Blend> blend_;
+    AtRest at_rest_;
     std::optional<Lead> lead_;                    // the stronger of two hands
     double own_force_n_ = 0.0;                    // of the last tick, on the body
     std::optional<base::Position> remote_before_; // where the other side had the body a tick ago

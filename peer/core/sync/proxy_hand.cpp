@@ -67,7 +67,7 @@ double ProxyHand::hear(const ReceivedState& received)
         std::max(base::to_seconds(options_.velocity_filter_min), options_.velocity_filter * age_s);
     const double share = is_first ? 1.0 : share_in(ticks * tick_s, filter_s);
     velocity_ += share * (state.intention_velocity.value - velocity_);
-    largest_age_s_ = std::max(largest_age_s_, std::min(age_s, age_max_s));
+    ages_.add(age_s);
 
     const Heard word{state.sequence, intention_, velocity_};
     if (!is_first) learn(word, ticks, tick_s, age_s);
@@ -124,8 +124,8 @@ void ProxyHand::look(const View& view)
 {
     const double tick_s = base::to_seconds(view.tick);
     const double age_s = base::to_seconds(age(view.now));
-    largest_age_s_ -= largest_age_s_ * tick_s / age_memory_s;
-    largest_age_s_ = std::max(largest_age_s_, std::min(age_s, age_max_s));
+    ages_.fade(tick_s);
+    ages_.add(age_s);
     const auto& state = view.other.remote->state();
     const auto& body = view.other.remote->body();
     const bool acts = has_heard_ && state && body && (state->touching || state->holding) &&

@@ -4,6 +4,7 @@
 
 #include "peer/core/finger_friction.hpp"
 #include "peer/core/intention.hpp"
+#include "peer/core/sync/recent_age.hpp"
 #include "peer/core/sync/situation.hpp"
 #include "proto/base/fields.hpp"
 
@@ -57,7 +58,7 @@ public:
     /// The age of what was heard last.
     [[nodiscard]] base::Duration age(base::TimePoint now) const;
     /// The largest age of late, which is forgotten within some seconds; at most 400 ms.
-    [[nodiscard]] base::Duration usual_age() const { return base::from_seconds(largest_age_s_); }
+    [[nodiscard]] base::Duration usual_age() const { return base::from_seconds(ages_.seconds()); }
     [[nodiscard]] double eta() const { return eta_; }
     /// When it last touched a body, on this peer's clock.
     [[nodiscard]] const std::optional<base::TimePoint>& touched_at() const { return touched_at_; }
@@ -99,8 +100,6 @@ private:
     void move(const glm::dvec3& force, double seconds);
 
     static constexpr std::size_t words_max = 1024; // a second of them
-    static constexpr double age_max_s = 0.4;       // in usual_age()
-    static constexpr double age_memory_s = 5.0;
     static constexpr double trust_filter_s = 0.05;
 
     ProxyHandOptions options_;
@@ -115,7 +114,7 @@ private:
     glm::dvec3 intention_{0.0};
     glm::dvec3 velocity_{0.0}; // of the intention, smoothed
     glm::dvec3 contact_force_{0.0};
-    double largest_age_s_ = 0.0;
+    RecentAge ages_;
     std::vector<Heard> words_; // a ring
     std::uint64_t heard_ = 0;  // so many words so far
     std::uint64_t older_ = 0;  // the one that heard_at() gave last

@@ -132,7 +132,11 @@ std::string print_algorithm(const Algorithm& algorithm)
 std::string explain_algorithm(const Algorithm& algorithm)
 {
     const auto lines = [](const auto& one) { return explained(one.options()); };
-    const bool has_gaps = !std::holds_alternative<RemoteProxy>(algorithm); // those of the paper
+    const auto is_of_paper = [](const auto& one) {
+        using Options = std::remove_cvref_t<decltype(one.options())>;
+        return std::is_same_v<Options, BaseOptions> || requires { one.options().base; };
+    };
+    const bool has_gaps = std::visit(is_of_paper, algorithm);
     return algorithm_line(algorithm) + std::visit(lines, algorithm) +
            (has_gaps ? "# (A1) to (A11): docs/design/algorithms.md\n"
                      : "# docs/design/algorithms.md\n");

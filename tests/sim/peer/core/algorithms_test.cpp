@@ -110,9 +110,9 @@ TEST(Algorithms, SepIsTheBaseAlgorithmWhereTheHandThatWatchesHasNoForce)
 
 TEST(Algorithms, OfDifferentNamesPlayTogetherAndAgreeInTheEnd)
 {
-    for (const auto* left : {"base", "dead-reckoning", "sep", "remote-proxy"}) {
-        for (const auto* right : {"base", "dead-reckoning", "sep", "remote-proxy"}) {
-            Carrying session{{algorithm(left), algorithm(right)}, {}};
+    for (const std::string_view left : algorithm_names) {
+        for (const std::string_view right : algorithm_names) {
+            Carrying session{{algorithm_named(left).value(), algorithm_named(right).value()}, {}};
             for (int ms = 0; ms < 4000; ++ms) session.step();
             EXPECT_GT(session.ticks[1].freshness, 0.0);
             session.carries = false;

@@ -211,7 +211,7 @@ TEST(BaseAlgorithm, BreaksABlendOffWhenAHandTouchesAndWaitsAnewAfterwards)
 
 TEST(Algorithms, HaveNames)
 {
-    for (const char* name : {"base", "dead-reckoning", "sep"}) EXPECT_TRUE(algorithm_named(name));
+    for (const std::string_view name : algorithm_names) EXPECT_TRUE(algorithm_named(name));
     const auto unknown = algorithm_named("best");
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().message, "unknown algorithm 'best': did you mean 'base'?");

@@ -76,7 +76,7 @@ TEST(AlgorithmText, ReadsBackAsWhatWasPrinted)
                   other_reckoning);
         EXPECT_EQ(options_of<EstimatorPredictor>(read_back(EstimatorPredictor{other_sep}, print)),
                   other_sep);
-        for (const char* name : {"base", "dead-reckoning", "sep"}) {
+        for (const std::string_view name : algorithm_names) {
             const Algorithm algorithm = algorithm_named(name).value();
             EXPECT_EQ(name_of(read_back(algorithm, print)), name);
         }

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/jobs.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::experiment {
+
+/// Conditions under which the claims of docs/results/beat.md are judged: the same between any two
+/// peers, both ways.
+struct ClaimCell {
+    std::string_view name; // in sessions.csv
+    std::int64_t delay_ms = 0;
+    std::int64_t jitter_ms = 0; // uniform from 0 to twice that, of this mean; messages overtake
+    std::int64_t loss_percent = 0;
+    std::int64_t burst_of_100 = 0; // messages lost in a row
+    std::vector<device::Task> tasks{};
+    std::string_view hands = "nominal";
+    std::uint32_t peers = 2; // more than two play in the scene carry
+};
+[[nodiscard]] std::span<const ClaimCell> claim_cells();
+
+/// Where silence is tried: everything at once.
+inline constexpr std::string_view settled_cell = "all";
+
+/// Of each algorithm, cell, task and seed, in this order; then of each algorithm and seed that
+/// judges, how far copies are apart after silence.
+[[nodiscard]] std::vector<Job> claim_jobs(const Experiment& experiment);
+
+/// How many of the seeds judge: the first ones.
+[[nodiscard]] std::uint32_t judging_seeds(const Experiment& experiment);
+
+/// How far two copies of the body are apart at most, a second after all hands let go and the
+/// network became perfect, metres. Played twice: the first time tells when that is.
+[[nodiscard]] base::Result<double> apart_after_silence(const SessionSpec& spec);
+
+} // namespace hapnet::lab::experiment

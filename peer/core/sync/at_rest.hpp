@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/presence.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+/// How copies agree again once no hand touches the body: some time later, the copy that yields goes
+/// on a straight line to where the other side has it.
+class AtRest {
+public:
+    struct Times {
+        std::optional<base::Duration> after; // from the moment when all let go; nullopt: never
+        base::Duration within{};             // duration of the motion
+    };
+
+    /// A hand touches the body.
+    void interrupt()
+    {
+        untouched_since_.reset();
+        blend_.reset();
+    }
+    /// The times of base, by default.
+    [[nodiscard]] static Times usual()
+    {
+        const BaseOptions base;
+        return {base.settle_after, base.settle_within};
+    }
+    /// To where a body that no hand touches is to be put; nullopt: it is to be left alone.
+    [[nodiscard]] std::optional<Presence::Pose> pose(base::Position body, const Presence& remote,
+                                                     const Situation& situation,
+                                                     const Times& times = usual());
+
+private:
+    struct Blend {
+        base::TimePoint start;
+        base::Position from;
+    };
+    std::optional<base::TimePoint> untouched_since_;
+    std::optional<Blend> blend_;
+};
+
+} // namespace hapnet::peer

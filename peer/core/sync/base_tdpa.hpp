@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/base_algorithm.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::peer {
+
+struct BaseTdpaOptions {
+    double damping_max_ns_per_m = 30.0; // of the controller
+    BaseOptions base{};
+
+    friend bool operator==(const BaseTdpaOptions&, const BaseTdpaOptions&) = default;
+};
+constexpr auto fields_of(base::Tag<BaseTdpaOptions> /*struct*/)
+{
+    using Options = BaseTdpaOptions;
+    return base::fields("base-tdpa",
+                        base::field("damping_max", &Options::damping_max_ns_per_m,
+                                    base::Quantity{base::damping_kind, 0.0, 1000.0},
+                                    "most damping that the passivity controller adds"),
+                        base::part(&Options::base));
+}
+
+/// The base algorithm under a time-domain passivity controller (Hannaford and Ryu 2002; with two
+/// ports and a delay between them Ryu, Artigas and Preusche 2010). The observer compares what the
+/// other hands have put into their devices, as their running sums of work say, with what their
+/// forces have put into this copy; where that is more, the controller damps the body. It trusts no
+/// model and no clock. docs/design/algorithms.md has the equations.
+class BaseTdpa {
+public:
+    BaseTdpa() = default;
+    explicit BaseTdpa(const BaseTdpaOptions& options) : options_{options}, base_{options.base} {}
+
+    /// Takes the memory for so many others.
+    void prepare(std::size_t others) { work_uj_.assign(others, std::nullopt); }
+    void hear(const ReceivedState& received);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget(std::size_t of = 0);
+
+    [[nodiscard]] const BaseTdpaOptions& options() const { return options_; }
+    /// What the others have put in and this copy has not got, J; below 0 while damping is due.
+    [[nodiscard]] double observed_j() const { return observed_j_; }
+
+private:
+    [[nodiscard]] base::Force damping_force(base::Force remote, base::Velocity velocity,
+                                            double mass_kg, const Situation& situation) const;
+
+    BaseTdpaOptions options_;
+    BaseAlgorithm base_;
+    std::vector<std::optional<std::uint32_t>> work_uj_; // of the others, as heard last
+    double observed_j_ = 0.0;
+    bool follows_ = false; // the body has been where the others had it
+};
+
+} // namespace hapnet::peer

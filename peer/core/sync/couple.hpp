@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/recent_age.hpp"
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace hapnet::peer {
+
+struct CoupleOptions {
+    double stiffness_max_n_per_m = 300.0;
+    double tank_j = 0.020;
+
+    friend bool operator==(const CoupleOptions&, const CoupleOptions&) = default;
+};
+constexpr auto fields_of(base::Tag<CoupleOptions> /*struct*/)
+{
+    using Options = CoupleOptions;
+    return base::fields(
+        "couple",
+        base::field("stiffness_max", &Options::stiffness_max_n_per_m,
+                    base::Quantity{base::stiffness_kind, 1.0, 5000.0},
+                    "stiffest spring to another copy; over a delay it is the drag over the age"),
+        base::field("tank", &Options::tank_j, base::Quantity{base::energy_kind, 0.0, 10.0},
+                    "most energy that a spring may keep of what the body's drag has dissipated, "
+                    "and what it begins with"));
+}
+
+/// The copies of the body hang together by springs to where the others last said theirs to be
+/// (virtual coupling of copies: Lee and Huang 2010, Sankaranarayanan and Hannaford 2008). A spring
+/// is drawn out to a new place only as far as its tank has energy (passive set-position
+/// modulation), and the tank fills from what this body's drag dissipates: passive for any network
+/// and number of peers, and soft. A scene whose body has no drag gives no coupling.
+/// docs/design/algorithms.md has the equations.
+class Couple {
+public:
+    Couple() : Couple(CoupleOptions{}) {}
+    explicit Couple(const CoupleOptions& options) : options_{options} {}
+
+    /// Takes the memory for so many others.
+    void prepare(std::size_t others);
+    void hear(const ReceivedState& received);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget(std::size_t of = 0) { springs_[of].sent_at.reset(); }
+
+    [[nodiscard]] const CoupleOptions& options() const { return options_; }
+
+    /// To the copy of one of the others.
+    struct Spring {
+        std::optional<base::TimePoint> sent_at; // its newest word, on this peer's clock
+        RecentAge ages;
+        double stiffness_n_per_m = 0.0;
+        glm::dvec3 stretch{0.0}; // from this body to where it is drawn
+        double tank_j = 0.0;
+        glm::dvec3 force{0.0}; // of this tick
+
+        [[nodiscard]] double stored_j() const;
+    };
+    [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
+
+private:
+    void draw(Spring& spring, const Other& other, const Situation& situation,
+              const scene::World& world);
+    void settle_accounts(const glm::dvec3& moved, double drag, double tick_s);
+
+    CoupleOptions options_;
+    std::vector<Spring> springs_;
+    AtRest at_rest_;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/at_rest.hpp"
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace hapnet::peer {
+
+struct WaveOptions {
+    double impedance_ns_per_m = 10.0; // as the drag of the paper's cube
+
+    friend bool operator==(const WaveOptions&, const WaveOptions&) = default;
+};
+constexpr auto fields_of(base::Tag<WaveOptions> /*struct*/)
+{
+    return base::fields("wave",
+                        base::field("impedance", &WaveOptions::impedance_ns_per_m,
+                                    base::Quantity{base::damping_kind, 0.1, 1000.0},
+                                    "b, of the channel between two copies; over a delay D it "
+                                    "renders a stiffness of b/D"));
+}
+
+/// Each two copies of the body are joined by a channel of waves (Niemeyer and Slotine 1991, 2004):
+/// passive for any delay. A wave acts for one tick and once; where none arrives, the channel is a
+/// damper, so that loss and jitter weaken it and bring in no energy (Hirche and Buss). The waves
+/// are in no message: a receiver finds them from the sender's velocity and from which of its own
+/// waves the sender had got, as the echo tells. So both sides are to play it, with the same
+/// impedance. docs/design/algorithms.md has the equations.
+class Wave {
+public:
+    Wave() : Wave(WaveOptions{}) {}
+    explicit Wave(const WaveOptions& options);
+
+    /// Takes the memory for so many others.
+    void prepare(std::size_t others);
+    void hear(const ReceivedState& received);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget(std::size_t of = 0);
+
+    [[nodiscard]] const WaveOptions& options() const { return options_; }
+
+private:
+    struct Sent {
+        base::TimePoint at;
+        glm::dvec3 wave{0.0};
+    };
+    /// To the copy of one of the others.
+    struct Channel {
+        bool is_open = false;               // it has been heard
+        std::optional<glm::dvec3> incoming; // for the next tick
+        std::vector<Sent> ring;             // what went out, by tick
+        std::uint64_t sent = 0;             // so many
+        std::uint64_t oldest_of_use = 0;    // of these: echoes do not go back
+    };
+    [[nodiscard]] glm::dvec3 sent_at(Channel& channel, base::TimePoint at) const;
+    /// That leaves a copy with this velocity and incoming wave; no larger than what twice the
+    /// greatest force of a contact makes. Both ends reckon it alike.
+    [[nodiscard]] glm::dvec3 outgoing(const glm::dvec3& velocity, const glm::dvec3& incoming) const;
+
+    static constexpr std::size_t ring_max = 4096; // ticks
+
+    WaveOptions options_;
+    double root_;     // of 2 b
+    double wave_max_; // square root of a power in W
+    std::vector<Channel> channels_;
+    AtRest at_rest_;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What docs/design/algorithms.md says of the energy of base-tdpa, wave and couple, over random
+// networks, hands and numbers of peers.
+#include "tests/support/seeds.hpp"
+#include "tests/support/session/energy_play.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::test::coupling_energy_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr base::Duration length = 12s;
+constexpr double in_a_copy_j = 0.015; // in its contacts and in the motion of the cube
+
+class CouplingEnergy : public testing::TestWithParam<std::uint64_t> {
+protected:
+    static void expect_above(const char* name, double lent_j_of_each_two, bool counts_withdrawn)
+    {
+        const peer::Algorithm algorithm = peer::algorithm_named(name).value();
+        EnergyCase one = drawn_energy_case(GetParam(), algorithm, length);
+        const EnergyPlayed played = play_for_energy(one);
+        const auto peers = static_cast<double>(one.setting.players.size());
+        const double bound_j = peers * in_a_copy_j + peers * (peers - 1.0) * lent_j_of_each_two +
+                               (counts_withdrawn ? played.withdrawn_j : 0.0);
+        EXPECT_TRUE(played.is_finite) << one.words;
+        EXPECT_GT(played.work_j, 0.0) << one.words;
+        EXPECT_GT(played.least_j, -bound_j) << name << ", " << one.words;
+        RecordProperty(std::string{name} + "_case", one.words);
+        RecordProperty(std::string{name} + "_least_mj", std::to_string(1e3 * played.least_j));
+        RecordProperty(std::string{name} + "_bound_mj", std::to_string(-1e3 * bound_j));
+    }
+};
+
+TEST_P(CouplingEnergy, OfCopiesOnSpringsStaysAboveTheirTanks)
+{
+    expect_above("couple", peer::CoupleOptions{}.tank_j, false);
+}
+
+TEST_P(CouplingEnergy, OfCopiesOnWavesStaysAboveWhatTheyStore) { expect_above("wave", 0.0, false); }
+
+TEST_P(CouplingEnergy, OfSupervisedCopiesStaysAboveWhatTheyStoreAndWasNotHeard)
+{
+    expect_above("base-tdpa", 0.0, true);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seed, CouplingEnergy, testing::Range(std::uint64_t{0}, seeds(32)));
+
+TEST(CouplingEnergy, OfBaseFallsBelowWhatTheyKeep)
+{
+    const EnergyCase one = drawn_energy_case(10, peer::algorithm_named("base").value(), length);
+    const auto peers = static_cast<double>(one.setting.players.size());
+    EXPECT_LT(play_for_energy(one).least_j, -peers * in_a_copy_j) << one.words;
+}
+
+TEST(CouplingEnergy, IsTheSameToTheBitWhenMessagesComeTwiceAndLate)
+{
+    for (const char* name : {"couple", "wave", "base-tdpa"}) {
+        for (const std::uint64_t seed : {1U, 6U}) {
+            const EnergyCase one = drawn_energy_case(seed, peer::algorithm_named(name).value(), 8s);
+            EXPECT_EQ(play_for_energy(one).hash,
+                      play_for_energy(one, Delivery::twice_and_late).hash)
+                << name << ", " << one.words;
+        }
+    }
+}
+
+} // namespace
+} // namespace hapnet::test::coupling_energy_test

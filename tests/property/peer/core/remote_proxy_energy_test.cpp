@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What docs/design/algorithms.md says of the energy of remote-proxy, over random networks, hands,
+// numbers of peers and liars.
+#include "tests/support/seeds.hpp"
+#include "tests/support/session/energy_play.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::test::remote_proxy_energy_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double in_a_contact_j = 0.011; // of 500 N/m at the greatest force, 3.3 N
+constexpr double in_motion_j = 0.004;    // of the cube
+constexpr double in_a_tick_j = 0.0033;   // at that force and 1 m/s
+constexpr base::Duration length = 15s;
+
+peer::Algorithm proxies(double account_j = 0.03)
+{
+    return peer::RemoteProxy{peer::RemoteProxyOptions{.account_j = account_j}};
+}
+
+/// The sum of the hands' work stays above minus this: what the copies lend and store, and what the
+/// hands got out of their devices while that was not known yet.
+double bound_j(const EnergyCase& one, const EnergyPlayed& played)
+{
+    const auto others = static_cast<double>(one.setting.players.size() - 1);
+    const double age_s = std::min(0.4, base::to_seconds(one.age_max));
+    const peer::RemoteProxyOptions usual;
+    const double lent_j = usual.account_j + usual.power_w * age_s;
+    return lent_j + in_motion_j + in_a_tick_j + others * (in_a_contact_j + in_motion_j) +
+           played.withdrawn_j;
+}
+
+class RemoteProxyEnergy : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RemoteProxyEnergy, OfAllHandsTogetherStaysAboveItsBound)
+{
+    const EnergyCase one = drawn_energy_case(GetParam(), proxies(), length);
+    const EnergyPlayed played = play_for_energy(one);
+    EXPECT_TRUE(played.is_finite) << one.words;
+    EXPECT_GT(played.work_j, 0.0) << one.words;
+    EXPECT_GT(played.least_j, -bound_j(one, played)) << one.words;
+    RecordProperty("case", one.words);
+    RecordProperty("least_mj", std::to_string(1e3 * played.least_j));
+    RecordProperty("bound_mj", std::to_string(-1e3 * bound_j(one, played)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seed, RemoteProxyEnergy, testing::Range(std::uint64_t{0}, seeds(48)));
+
+/// A liar whose victim believes every word: it takes the intention for sure and projects nothing.
+EnergyCase believed_liar(double account_j)
+{
+    peer::RemoteProxyOptions options{.account_j = account_j};
+    options.proxy.believed_above_m_per_s = 10.0;
+    options.proxy.unsure_by_m = options.proxy.soft_by_m = 1.0;
+    EnergyCase one;
+    one.setting.task = device::Task::t2;
+    one.setting.length = length;
+    const emulator::Conditions late{.delay = emulator::constant(200ms)};
+    one.setting.profile.path = {late, late};
+    for (auto& player : one.setting.players) player.algorithm = peer::RemoteProxy{options};
+    one.age_max = 203ms;
+    one.liar = 1;
+    one.words = "a liar that is believed";
+    return one;
+}
+
+TEST(RemoteProxyEnergy, IsKeptByTheAccountAlsoWhereALiarIsBelieved)
+{
+    const EnergyCase one = believed_liar(0.03);
+    const EnergyPlayed played = play_for_energy(one);
+    EXPECT_GT(played.least_j, -bound_j(one, played));
+}
+
+TEST(RemoteProxyEnergy, WithoutTheAccountIsDrawnFromTheCopiesFarBeyondTheBound)
+{
+    const EnergyCase one = believed_liar(10.0); // it is never spent
+    EnergyPlayed played = play_for_energy(one);
+    played.withdrawn_j = play_for_energy(believed_liar(0.03)).withdrawn_j;
+    EXPECT_LT(played.least_j, -bound_j(one, played));
+}
+
+TEST(RemoteProxyEnergy, IsTheSameToTheBitWhenMessagesComeTwiceAndLate)
+{
+    for (const std::uint64_t seed : {1U, 2U, 6U, 7U}) {
+        const EnergyCase one = drawn_energy_case(seed, proxies(), 8s);
+        EXPECT_EQ(play_for_energy(one).hash, play_for_energy(one, Delivery::twice_and_late).hash)
+            << one.words;
+    }
+}
+
+} // namespace
+} // namespace hapnet::test::remote_proxy_energy_test

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Single ticks, reckoned by hand.
+#include "peer/core/sync/wave.hpp"
+#include "tests/unit/peer/core/sync/copy.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace hapnet::peer::wave_test {
+namespace {
+
+Copy<Wave> with_one_other()
+{
+    Wave algorithm;
+    algorithm.prepare(1);
+    return Copy<Wave>{algorithm};
+}
+
+TEST(Wave, ArrivesOnceAndIsADamperOtherwise)
+{
+    auto copy = with_one_other();
+    copy.hear({.sent_ms = 0.0, .speed_m_per_s = 0.1}, 50.0);
+    // The sender had no wave of ours: sqrt(2 b) v, and at rest F = sqrt(2 b) times that.
+    EXPECT_NEAR(copy.tick(50.0).remote_force.x(), 2.0 * 10.0 * 0.1, 1e-9);
+    const double speed = copy.speed();
+    ASSERT_GT(speed, 0.0);
+    EXPECT_NEAR(copy.tick(51.0).remote_force.x(), -10.0 * speed, 1e-9);
+}
+
+TEST(Wave, FromASenderThatHadOursIsLessByIt)
+{
+    auto copy = with_one_other();
+    copy.hear({.sent_ms = 0.0, .speed_m_per_s = 0.1}, 50.0);
+    static_cast<void>(copy.tick(50.0));
+    const double ours = std::sqrt(20.0) * copy.speed() - std::sqrt(20.0) * 0.1;
+    wire::State state;
+    state.sequence = 2;
+    state.echo = wire::Echo{.of = at_ms(50.0), .age = 300us}; // it acted in that tick
+    copy.algorithm.hear({.state = state, .arrived = at_ms(51.0)});
+    const double speed = copy.speed();
+    EXPECT_NEAR(copy.tick(51.0).remote_force.x(), std::sqrt(20.0) * -ours - 10.0 * speed, 1e-9);
+    state.sequence = 3;
+    state.echo->age = 1200us; // it had acted before
+    copy.algorithm.hear({.state = state, .arrived = at_ms(52.0)});
+    const double speed_then = copy.speed();
+    EXPECT_NEAR(copy.tick(52.0).remote_force.x(), -10.0 * speed_then, 1e-9);
+}
+
+} // namespace
+} // namespace hapnet::peer::wave_test
