@@ -48,7 +48,14 @@ std::string prose(std::string_view text)
 
 std::string item(const std::string& names, std::string_view help)
 {
-    return fmt::format("{}\n\t{}\n\n", names, escaped(help));
+    std::string text = names + "\n";
+    const std::string lines = prose(help);
+    for (std::size_t begin = 0; begin < lines.size();) {
+        const auto end = lines.find('\n', begin);
+        text += "\t" + lines.substr(begin, end + 1 - begin);
+        begin = end + 1;
+    }
+    return text + "\n";
 }
 
 std::string option_names(const Option& option)

@@ -25,7 +25,7 @@ TEST(Manual, HasAllSectionsInTheOrderOfManPages)
     const auto page = manual(program);
     std::size_t place = 0;
     for (const char* heading :
-         {"relay(1) ", "\n# NAME\n\nrelay \\- Relays datagrams\n", "\n# SYNOPSIS\n",
+         {"relay(1) ", "\n# NAME\n\nrelay - Relays datagrams\n", "\n# SYNOPSIS\n",
           "\n# DESCRIPTION\n", "\n# OPTIONS\n", "*\\-d*, *\\-\\-delay* TIME\n\tHow long",
           "\n# COMMANDS\n", "\n## check\n", "*\\-\\-set* KEY=VALUE", "\n# NOTES\n",
           "```\n  relay --delay 5ms\n```", "\n# EXIT STATUS\n"}) {
