@@ -163,6 +163,7 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
     last_opened_ = now;
     if (current_ && epoch == &*current_) confirm_at_.reset();
     if (next_ && epoch == &*next_) { // the other side has it: use it, too
+        dates_.confirm(next_date_);
         use(std::move(*std::exchange(next_, std::nullopt)), now);
         epoch = &*current_;
         answered_.reset(); // it has come
@@ -353,7 +354,7 @@ bool Association::pushes_another_out(base::TimePoint now) const
 bool Association::take_initiation(base::TimePoint now)
 {
     ByteReader in{responding_->noise.payload()};
-    const std::int64_t timestamp = in.i64();
+    responding_->date = in.i64();
     responding_->other_run = in.u32();
     const bool is_canonical = in.u32() == 0 && in.complete() && responding_->other_run != 0;
     if (!is_canonical) {
@@ -364,11 +365,10 @@ bool Association::take_initiation(base::TimePoint now)
         ++counts_.refused;
         return false;
     }
-    if (last_timestamp_ && timestamp <= *last_timestamp_) {
+    if (!dates_.take(responding_->other_run, responding_->date, now)) {
         ++counts_.replayed;
         return false;
     }
-    last_timestamp_ = timestamp;
     return true;
 }
 
@@ -380,6 +380,7 @@ void Association::answer(base::TimePoint now)
     next_.reset();
     next_.emplace(own.own, own.other, own.noise.split(), own.other_run, session_with(own.other_run),
                   now);
+    next_date_ = own.date;
     answered_ = Answer{.frame = frame, .cause = own.cause, .to = own.to};
     send_answer(now);
     responding_.reset();
