@@ -257,10 +257,17 @@ void Association::tick(Moment moment)
 bool Association::needs_key(base::TimePoint now) const
 {
     if (now < listens_until_) return false;
-    if (next_ && now - next_->made < fresh_after) return false; // it is being confirmed
+    if (waits_for_confirmation(now)) return false;
     if (!current_) return true;
     const base::Duration lasts = rekey_after + (is_lower() ? -rekey_spread : rekey_spread);
     return now - current_->made >= lasts || now - last_opened_ >= silence;
+}
+
+/// Whether an answer of this side may still be confirmed by the other side. Waited for once: who
+/// plays recorded initiations would else keep this side from ever beginning itself.
+bool Association::waits_for_confirmation(base::TimePoint now) const
+{
+    return unconfirmed_since_ && now - *unconfirmed_since_ < fresh_after;
 }
 
 void Association::begin(Moment moment)
@@ -299,11 +306,9 @@ void Association::step_initiation(Moment moment)
         return;
     }
     counts_.last_handshake = moment.now - unanswered_since_.value_or(own.began);
-    unanswered_since_.reset();
     Epoch made{own.own,   *own.other, own.noise.split(), other_run, session_with(other_run),
                moment.now};
     if (config_.may_roam) move_to(own.answered_from);
-    initiating_.reset();
     next_.reset();
     last_opened_ = moment.now;
     use(std::move(made), moment.now);
@@ -313,6 +318,9 @@ void Association::step_initiation(Moment moment)
 void Association::use(Epoch epoch, base::TimePoint now)
 {
     ++counts_.handshakes;
+    unconfirmed_since_.reset();
+    unanswered_since_.reset();
+    initiating_.reset();
     if (current_ && current_->other_run == epoch.other_run) {
         ++counts_.rekeys;
     } else {
@@ -384,7 +392,9 @@ void Association::answer(base::TimePoint now)
     answered_ = Answer{.frame = frame, .cause = own.cause, .to = own.to};
     send_answer(now);
     responding_.reset();
-    initiating_.reset(); // what the other side began has come farther
+    if (!unconfirmed_since_) unconfirmed_since_ = now;
+    if (!waits_for_confirmation(now)) return; // what this side began goes on beside it
+    initiating_.reset();                      // what the other side began has come farther
     confirm_at_.reset();
     unanswered_since_.reset();
 }

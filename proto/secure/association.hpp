@@ -190,6 +190,7 @@ private:
     void use(Epoch epoch, base::TimePoint now);
     void send(const HandshakeFrame& frame, const Place& to);
     [[nodiscard]] bool needs_key(base::TimePoint now) const;
+    [[nodiscard]] bool waits_for_confirmation(base::TimePoint now) const;
     [[nodiscard]] bool is_lower() const { return config_.own_id < config_.other_id; }
     [[nodiscard]] std::uint32_t session_with(std::uint32_t other_run) const;
     [[nodiscard]] KeyIndex fresh_index();
@@ -218,6 +219,7 @@ private:
     std::optional<base::TimePoint> confirm_at_; // this side began, and is not heard under the key
     std::optional<Responding> responding_;
     std::optional<Answer> answered_;
+    std::optional<base::TimePoint> unconfirmed_since_; // the first answer after the last handshake
     InitiationDates dates_;
 
     std::array<Outgoing, 4> outgoing_{};

@@ -23,7 +23,7 @@ public:
     /// How long a date counts for other runs, too: as long as an initiator waits for its key.
     static constexpr base::Duration unconfirmed_lasts{std::chrono::seconds{5}};
     /// Runs whose unconfirmed dates are remembered; of more the one taken longest ago is forgotten.
-    static constexpr std::size_t runs_max = 8;
+    static constexpr std::size_t runs_max = 32;
 
     /// Remembers that date, in ns since 1970, when it is new; returns whether it was. `run` is the
     /// sender's and not 0. Call it only when the initiation is proven to be the other side's.

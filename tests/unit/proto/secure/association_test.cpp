@@ -29,10 +29,11 @@ std::vector<Text> of_type(World& world, int to, FrameType type)
 }
 
 /// Initiations to each side that arrived nowhere, the newest last.
-std::array<std::vector<Text>, 2> withheld_initiations(const Setting& a, const Setting& b)
+std::array<std::vector<Text>, 2> withheld_initiations(const Setting& a, const Setting& b,
+                                                      base::Duration time = 30s)
 {
     World world{a, b, {.loss = 1.0}};
-    world.run(30s);
+    world.run(time);
     std::array<std::vector<Text>, 2> found;
     for (const int to : {0, 1}) {
         for (const Text& each : of_type(world, to, FrameType::initiation)) {
@@ -217,6 +218,33 @@ TEST(Association, MeetsAtOnceAmongInitiationsOfFormerRunsWhenItsDateIsRight)
     EXPECT_GT(world.a().received.size(), 1000U);
     EXPECT_GT(world.b().received.size(), 1000U);
     EXPECT_EQ(world.b().association->counts().handshakes, 1U);
+}
+
+TEST(Association, MeetsWithinSecondsThoughInitiationsOfMoreRunsThanItRemembersComeInTurn)
+{
+    std::array<std::vector<Text>, 2> withheld;
+    for (std::uint8_t run = 0; run < InitiationDates::runs_max + 2; ++run) {
+        Setting former_one = one, former_two = two;
+        former_one.run = 100U + run;
+        former_one.seed = run;
+        former_two.run = 200U + run;
+        former_two.seed = static_cast<std::uint8_t>(100 + run);
+        const auto found = withheld_initiations(former_one, former_two, 6s);
+        for (const std::size_t to : {0U, 1U}) withheld.at(to).push_back(found.at(to).front());
+    }
+    for (const bool dates_are_right : {true, false}) {
+        World world{one, two};
+        world.a() = restarted(one, 33);
+        world.b() = restarted(two, 44);
+        if (dates_are_right) world.skip(7200s);
+        for (std::size_t i = 0; i < 12; ++i) {
+            for (const std::size_t to : {0U, 1U})
+                world.give(static_cast<int>(to), withheld.at(to).at(i), place_of(66));
+            world.run(1s);
+        }
+        EXPECT_GT(world.a().received.size(), 500U) << dates_are_right;
+        EXPECT_GT(world.b().received.size(), 500U) << dates_are_right;
+    }
 }
 
 TEST(Association, AnswersAnInitiationOfAFormerRunOnceHoweverOftenItComes)
