@@ -163,6 +163,7 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
     last_opened_ = now;
     if (current_ && epoch == &*current_) confirm_at_.reset();
     if (next_ && epoch == &*next_) { // the other side has it: use it, too
+        dates_.confirm(next_date_);
         use(std::move(*std::exchange(next_, std::nullopt)), now);
         epoch = &*current_;
         answered_.reset(); // it has come
@@ -256,10 +257,17 @@ void Association::tick(Moment moment)
 bool Association::needs_key(base::TimePoint now) const
 {
     if (now < listens_until_) return false;
-    if (next_ && now - next_->made < fresh_after) return false; // it is being confirmed
+    if (waits_for_confirmation(now)) return false;
     if (!current_) return true;
     const base::Duration lasts = rekey_after + (is_lower() ? -rekey_spread : rekey_spread);
     return now - current_->made >= lasts || now - last_opened_ >= silence;
+}
+
+/// Whether an answer of this side may still be confirmed by the other side. Waited for once: who
+/// plays recorded initiations would else keep this side from ever beginning itself.
+bool Association::waits_for_confirmation(base::TimePoint now) const
+{
+    return unconfirmed_since_ && now - *unconfirmed_since_ < fresh_after;
 }
 
 void Association::begin(Moment moment)
@@ -298,11 +306,9 @@ void Association::step_initiation(Moment moment)
         return;
     }
     counts_.last_handshake = moment.now - unanswered_since_.value_or(own.began);
-    unanswered_since_.reset();
     Epoch made{own.own,   *own.other, own.noise.split(), other_run, session_with(other_run),
                moment.now};
     if (config_.may_roam) move_to(own.answered_from);
-    initiating_.reset();
     next_.reset();
     last_opened_ = moment.now;
     use(std::move(made), moment.now);
@@ -312,6 +318,9 @@ void Association::step_initiation(Moment moment)
 void Association::use(Epoch epoch, base::TimePoint now)
 {
     ++counts_.handshakes;
+    unconfirmed_since_.reset();
+    unanswered_since_.reset();
+    initiating_.reset();
     if (current_ && current_->other_run == epoch.other_run) {
         ++counts_.rekeys;
     } else {
@@ -353,7 +362,7 @@ bool Association::pushes_another_out(base::TimePoint now) const
 bool Association::take_initiation(base::TimePoint now)
 {
     ByteReader in{responding_->noise.payload()};
-    const std::int64_t timestamp = in.i64();
+    responding_->date = in.i64();
     responding_->other_run = in.u32();
     const bool is_canonical = in.u32() == 0 && in.complete() && responding_->other_run != 0;
     if (!is_canonical) {
@@ -364,11 +373,10 @@ bool Association::take_initiation(base::TimePoint now)
         ++counts_.refused;
         return false;
     }
-    if (last_timestamp_ && timestamp <= *last_timestamp_) {
+    if (!dates_.take(responding_->other_run, responding_->date, now)) {
         ++counts_.replayed;
         return false;
     }
-    last_timestamp_ = timestamp;
     return true;
 }
 
@@ -380,10 +388,13 @@ void Association::answer(base::TimePoint now)
     next_.reset();
     next_.emplace(own.own, own.other, own.noise.split(), own.other_run, session_with(own.other_run),
                   now);
+    next_date_ = own.date;
     answered_ = Answer{.frame = frame, .cause = own.cause, .to = own.to};
     send_answer(now);
     responding_.reset();
-    initiating_.reset(); // what the other side began has come farther
+    if (!unconfirmed_since_) unconfirmed_since_ = now;
+    if (!waits_for_confirmation(now)) return; // what this side began goes on beside it
+    initiating_.reset();                      // what the other side began has come farther
     confirm_at_.reset();
     unanswered_since_.reset();
 }

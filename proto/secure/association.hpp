@@ -6,6 +6,7 @@
 #include "proto/secure/door.hpp"
 #include "proto/secure/entropy.hpp"
 #include "proto/secure/frames.hpp"
+#include "proto/secure/initiation_dates.hpp"
 #include "proto/secure/noise_kk.hpp"
 #include "proto/secure/transport.hpp"
 
@@ -43,7 +44,7 @@ public:
     static constexpr base::Duration repeat_every{std::chrono::milliseconds{20}};
     static constexpr base::Duration repeat_slowly_every{std::chrono::milliseconds{200}};
     static constexpr base::Duration repeat_slowly_after{std::chrono::seconds{10}};
-    static constexpr base::Duration fresh_after{std::chrono::seconds{5}};
+    static constexpr base::Duration fresh_after = InitiationDates::unconfirmed_lasts;
     static constexpr base::Duration listen_for{std::chrono::seconds{1}};
     static constexpr int response_repeats = 2;
     /// While the other side is heard, another run of it takes its place no more often than this.
@@ -160,6 +161,7 @@ private:
         Place to{};
         bool is_writing = false;
         std::uint32_t other_run = 0;
+        std::int64_t date = 0;
     };
     struct Answer {
         HandshakeFrame frame;
@@ -188,6 +190,7 @@ private:
     void use(Epoch epoch, base::TimePoint now);
     void send(const HandshakeFrame& frame, const Place& to);
     [[nodiscard]] bool needs_key(base::TimePoint now) const;
+    [[nodiscard]] bool waits_for_confirmation(base::TimePoint now) const;
     [[nodiscard]] bool is_lower() const { return config_.own_id < config_.other_id; }
     [[nodiscard]] std::uint32_t session_with(std::uint32_t other_run) const;
     [[nodiscard]] KeyIndex fresh_index();
@@ -205,6 +208,7 @@ private:
 
     // Of at most three: in use, made but not confirmed by the other side, and on its way out.
     std::optional<Epoch> current_, next_, previous_;
+    std::int64_t next_date_ = 0; // of the initiation that made the next one
     base::TimePoint previous_until_;
     base::TimePoint last_opened_;
     base::TimePoint run_since_; // the other side is in its present run
@@ -215,7 +219,8 @@ private:
     std::optional<base::TimePoint> confirm_at_; // this side began, and is not heard under the key
     std::optional<Responding> responding_;
     std::optional<Answer> answered_;
-    std::optional<std::int64_t> last_timestamp_; // of the other side's newest initiation
+    std::optional<base::TimePoint> unconfirmed_since_; // the first answer after the last handshake
+    InitiationDates dates_;
 
     std::array<Outgoing, 4> outgoing_{};
     std::size_t outgoing_count_ = 0;

@@ -30,5 +30,12 @@ TEST_P(MalloryWithoutKey, HasNothingAcceptedThatTheOtherSideHasNotSealed)
 INSTANTIATE_TEST_SUITE_P(Seed, MalloryWithoutKey,
                          testing::Range(std::uint64_t{0}, test::seeds(30)));
 
+// Both sides were started again with their dates hours back, and each took an initiation of the
+// other's former run, of a later date: they shut each other out for those hours.
+TEST(MalloryWithRecordedInitiations, KeepsTwoApartNoLongerThanHeIsThereThoughTheirDatesWentBack)
+{
+    for (const std::uint64_t seed : {900'315U, 900'485U}) expect_to_hold(seed, Seal::keys);
+}
+
 } // namespace
 } // namespace hapnet::test

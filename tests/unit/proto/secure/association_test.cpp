@@ -5,7 +5,10 @@
 #include "proto/base/bytes.hpp"
 #include "tests/unit/proto/secure/circle.hpp"
 
+#include <array>
 #include <gtest/gtest.h>
+#include <set>
+#include <vector>
 
 namespace hapnet::secure {
 
@@ -23,6 +26,32 @@ std::vector<Text> of_type(World& world, int to, FrameType type)
     for (const Datagram& each : world.seen())
         if (each.to == to && frame_type_of(each.bytes) == type) found.push_back(each.bytes);
     return found;
+}
+
+/// Initiations to each side that arrived nowhere, the newest last.
+std::array<std::vector<Text>, 2> withheld_initiations(const Setting& a, const Setting& b,
+                                                      base::Duration time = 30s)
+{
+    World world{a, b, {.loss = 1.0}};
+    world.run(time);
+    std::array<std::vector<Text>, 2> found;
+    for (const int to : {0, 1}) {
+        for (const Text& each : of_type(world, to, FrameType::initiation)) {
+            auto& kept = found.at(static_cast<std::size_t>(to));
+            if (kept.empty() || kept.back() != each) kept.push_back(each);
+        }
+    }
+    return found;
+}
+
+/// The same peer in another run, whose date is an hour behind.
+Side restarted(Setting setting, std::uint32_t run)
+{
+    setting.run = run;
+    setting.seed = static_cast<std::uint8_t>(run);
+    Side side = World::side(setting);
+    side.unix_offset_ns = -3600'000'000'000;
+    return side;
 }
 
 bool is_growing(const std::vector<std::uint32_t>& numbers)
@@ -137,6 +166,101 @@ TEST(Association, MeetsAPeerWhoseDateWentBack)
         EXPECT_GT(world.a().received.size(), 4000U) << which;
         EXPECT_GT(world.b().received.size(), 4000U) << which;
     }
+}
+
+TEST(Association, MeetsThoughBothDatesWentBackAndInitiationsOfFormerRunsCame)
+{
+    const auto withheld = withheld_initiations(one, two);
+    World world{one, two};
+    world.a() = restarted(one, 33);
+    world.b() = restarted(two, 44);
+    for (int to : {0, 1}) {
+        const auto& initiations = withheld.at(static_cast<std::size_t>(to));
+        ASSERT_GT(initiations.size(), 2U);
+        world.give(to, initiations.back(), place_of(66));
+    }
+    world.run(12s);
+    EXPECT_GT(world.a().received.size(), 4000U);
+    EXPECT_GT(world.b().received.size(), 4000U);
+}
+
+TEST(Association, MeetsWhileInitiationsOfFormerRunsKeepComing)
+{
+    const auto withheld = withheld_initiations(one, two);
+    World world{one, two};
+    world.a() = restarted(one, 33);
+    world.b() = restarted(two, 44);
+    for (int i = 0; i < 20'000; i += 10) {
+        for (const int to : {0, 1})
+            world.give(to, withheld.at(static_cast<std::size_t>(to)).back(), place_of(66));
+        world.run(10ms);
+    }
+    EXPECT_GT(world.a().received.size(), 8000U);
+    EXPECT_GT(world.b().received.size(), 8000U);
+}
+
+TEST(Association, MeetsAtOnceAmongInitiationsOfFormerRunsWhenItsDateIsRight)
+{
+    std::vector<Text> withheld; // of several runs, the newest first
+    for (std::uint8_t run = 12; run-- > 0;) {
+        Setting former = one;
+        former.run = 100U + run;
+        former.seed = run;
+        const auto found = withheld_initiations(former, two);
+        withheld.insert(withheld.end(), found[1].rbegin(), found[1].rend());
+    }
+    World world{one, two, {.delay = 150ms}};
+    world.skip(3600s);
+    for (int i = 0; i < 2000; i += 10) {
+        world.give(1, withheld[static_cast<std::size_t>(i / 10) % withheld.size()], place_of(66));
+        world.run(10ms);
+    }
+    EXPECT_GT(world.a().received.size(), 1000U);
+    EXPECT_GT(world.b().received.size(), 1000U);
+    EXPECT_EQ(world.b().association->counts().handshakes, 1U);
+}
+
+TEST(Association, MeetsWithinSecondsThoughInitiationsOfMoreRunsThanItRemembersComeInTurn)
+{
+    std::array<std::vector<Text>, 2> withheld;
+    for (std::uint8_t run = 0; run < InitiationDates::runs_max + 2; ++run) {
+        Setting former_one = one, former_two = two;
+        former_one.run = 100U + run;
+        former_one.seed = run;
+        former_two.run = 200U + run;
+        former_two.seed = static_cast<std::uint8_t>(100 + run);
+        const auto found = withheld_initiations(former_one, former_two, 6s);
+        for (const std::size_t to : {0U, 1U}) withheld.at(to).push_back(found.at(to).front());
+    }
+    for (const bool dates_are_right : {true, false}) {
+        World world{one, two};
+        world.a() = restarted(one, 33);
+        world.b() = restarted(two, 44);
+        if (dates_are_right) world.skip(7200s);
+        for (std::size_t i = 0; i < 12; ++i) {
+            for (const std::size_t to : {0U, 1U})
+                world.give(static_cast<int>(to), withheld.at(to).at(i), place_of(66));
+            world.run(1s);
+        }
+        EXPECT_GT(world.a().received.size(), 500U) << dates_are_right;
+        EXPECT_GT(world.b().received.size(), 500U) << dates_are_right;
+    }
+}
+
+TEST(Association, AnswersAnInitiationOfAFormerRunOnceHoweverOftenItComes)
+{
+    const auto withheld = withheld_initiations(one, two);
+    World world{one, two};
+    world.a().association.reset();
+    for (int i = 0; i < 30'000; i += 50) {
+        const Text& newest = withheld[1].back();
+        const Text& older = withheld[1].front();
+        world.give(1, i / 50 % 2 == 0 ? newest : older, place_of(66));
+        world.run(50ms);
+    }
+    const auto responses = of_type(world, 0, FrameType::response);
+    const std::set<Text> different{responses.begin(), responses.end()};
+    EXPECT_EQ(different.size(), 1U);
 }
 
 TEST(Association, TakesNothingTwice)
