@@ -83,7 +83,7 @@ std::string way_name(std::string_view path, Direction direction)
 std::string way_in_words(std::string_view path, Direction direction)
 {
     const bool is_up = direction == Direction::up;
-    const auto name = way_name(path, direction);
+    auto name = way_name(path, direction);
     if (path.empty()) return name + (is_up ? ": from A to B" : ": from B to A");
     if (const auto peers = parse_peers(path)) {
         return fmt::format("{}: from {} to {}", name, is_up ? peers->from : peers->to,

@@ -138,7 +138,7 @@ base::Result<Experiment> read_tree(const Node& document, Reading reading)
 /// `experiment` says what is wrong in the end. A text that is none by itself may become one.
 base::Result<Experiment> complain_of_settings(Node document, const Overrides& overrides,
                                               const base::OpenFile& open,
-                                              base::Result<Experiment> experiment)
+                                              const base::Result<Experiment>& experiment)
 {
     bool was_good = read_tree(document, Reading{"", open}).has_value();
     auto complaint = experiment;

@@ -189,8 +189,8 @@ private:
 
 /// One tick of one peer.
 struct State {
-    State() {
-    } // NOLINT(*-use-equals-default): without it State{} would clear the room of all bodies
+    // NOLINTNEXTLINE(*-use-equals-default): without it State{} would clear the room of all bodies
+    State() {}
 
     std::uint32_t session = 0;
     std::uint32_t sequence = 0; // 1, 2, 3, ... within the session

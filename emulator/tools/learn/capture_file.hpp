@@ -66,6 +66,6 @@ inline constexpr std::size_t captured_packets_max = 2'000'000;
 /// packet that is cut off ends it. The formats: draft-ietf-opsawg-pcap, draft-ietf-opsawg-pcapng.
 /// libpcap is not used: it reads files, not bytes, and does not tell the interfaces of a pcapng
 /// apart. Errors name the packet.
-[[nodiscard]] base::Result<Capture> read_capture(std::string_view bytes);
+[[nodiscard]] base::Result<Capture> read_capture(std::string_view text);
 
 } // namespace hapnet::emulator::tools

@@ -23,7 +23,7 @@ struct FourStateFit {
 /// in a row (16 is that of RFC 3611, section 4.7.2); the most likely one is followed to its end. At
 /// most the first 20 000 runs are fitted to. nullopt: what was found makes no law, as when all
 /// losses are alone.
-[[nodiscard]] std::optional<FourStateFit> fit_four_states(const std::vector<LossRun>& runs);
+[[nodiscard]] std::optional<FourStateFit> fit_four_states(const std::vector<LossRun>& all);
 
 /// The law with these steps: the inverse of FourState::steps(), with rounded numbers.
 [[nodiscard]] FourState law_of(const FourStateSteps& steps);

@@ -13,7 +13,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-using Json = nlohmann::json;
+using Value = nlohmann::json;
 
 /// What has become of a question, as irtt writes it: "true" where it does not know the way.
 enum class TripFate : std::uint8_t { answered, lost, lost_up, lost_down };
@@ -25,7 +25,7 @@ struct RoundTrip {
     std::optional<base::Duration> receive{};
 };
 
-const Json* member(const Json& object, const char* name)
+const Value* member(const Value& object, const char* name)
 {
     if (!object.is_object()) return nullptr;
     const auto found = object.find(name);
@@ -33,16 +33,16 @@ const Json* member(const Json& object, const char* name)
 }
 
 /// Nanoseconds, at most 100 days; by two clocks a delay may be anything.
-std::optional<base::Duration> duration_in(const Json* delay, const char* name)
+std::optional<base::Duration> duration_in(const Value* delay, const char* name)
 {
     constexpr std::int64_t most = 8'640'000'000'000'000;
-    const Json* number = delay == nullptr ? nullptr : member(*delay, name);
+    const Value* number = delay == nullptr ? nullptr : member(*delay, name);
     if (number == nullptr || !number->is_number_integer()) return std::nullopt;
     const auto value = number->get<std::int64_t>();
     return value < -most || value > most ? std::nullopt : std::optional{base::Duration{value}};
 }
 
-std::optional<TripFate> fate_in(const Json* lost)
+std::optional<TripFate> fate_in(const Value* lost)
 {
     if (lost == nullptr) return std::nullopt;
     if (lost->is_boolean())
@@ -56,7 +56,7 @@ std::optional<TripFate> fate_in(const Json* lost)
     return std::nullopt;
 }
 
-base::Result<RoundTrip> round_trip_in(const Json& entry)
+base::Result<RoundTrip> round_trip_in(const Value& entry)
 {
     const auto fate = fate_in(member(entry, "lost"));
     if (!fate) {
@@ -65,7 +65,7 @@ base::Result<RoundTrip> round_trip_in(const Json& entry)
     }
     RoundTrip trip{.fate = *fate};
     if (*fate != TripFate::answered) return trip;
-    const Json* delay = member(entry, "delay");
+    const Value* delay = member(entry, "delay");
     const auto whole = duration_in(delay, "rtt");
     if (!whole || *whole < base::Duration{}) {
         return base::fail(R"("delay" has no "rtt" in nanoseconds)");
@@ -76,11 +76,11 @@ base::Result<RoundTrip> round_trip_in(const Json& entry)
     return trip;
 }
 
-std::optional<base::Duration> spacing_in(const Json& json)
+std::optional<base::Duration> spacing_in(const Value& json)
 {
-    const Json* config = member(json, "config");
+    const Value* config = member(json, "config");
     if (config == nullptr) return std::nullopt;
-    const Json* negotiated = member(*config, "params");
+    const Value* negotiated = member(*config, "params");
     const auto interval = duration_in(negotiated == nullptr ? config : negotiated, "interval");
     return interval && *interval > base::Duration{} ? interval : std::nullopt;
 }
@@ -120,15 +120,15 @@ base::Result<Measurement> read_irtt(std::string_view text)
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(place, text.size()));
         return 1 + std::count(text.begin(), end, '\n');
     };
-    Json json;
+    Value json;
     try {
-        json = Json::parse(text);
-    } catch (const Json::parse_error& error) {
+        json = Value::parse(text);
+    } catch (const Value::parse_error& error) {
         return base::fail(fmt::format("line {}: this is not JSON", line_at(error.byte)));
-    } catch (const Json::exception&) {
+    } catch (const Value::exception&) {
         return base::fail("line 1: this is not JSON: a number is too large");
     }
-    const Json* list = member(json, "round_trips");
+    const Value* list = member(json, "round_trips");
     if (list == nullptr || !list->is_array()) {
         return base::fail(R"(line 1: no list "round_trips": of JSON, that of irtt can be read)");
     }
@@ -136,7 +136,7 @@ base::Result<Measurement> read_irtt(std::string_view text)
         return base::fail(fmt::format("line 1: {}", too_many_values));
     }
     std::vector<RoundTrip> trips;
-    for (const Json& entry : *list) {
+    for (const Value& entry : *list) {
         const auto trip = round_trip_in(entry);
         if (!trip) {
             return base::fail(fmt::format("line 1: entry {} of round_trips: {}", trips.size() + 1,

@@ -174,7 +174,7 @@ private:
 } // namespace
 
 EnergyCase drawn_energy_case(std::uint64_t seed, const peer::Algorithm& algorithm,
-                             base::Duration length)
+                             base::Duration duration)
 {
     using device::Task;
     Draws draw{base::Seed{seed}, "energy"};
@@ -185,7 +185,7 @@ EnergyCase drawn_energy_case(std::uint64_t seed, const peer::Algorithm& algorith
     setting.task = tasks.at(draw.below(tasks.size()));
     if (players > 2) setting.scene = scene::load_scene("carry", {}).value();
     setting.seed = base::Seed{seed};
-    setting.length = length;
+    setting.length = duration;
     const emulator::Conditions both = drawn_network(draw, one);
     setting.profile.path = {both, both};
     setting.players.resize(players);

@@ -23,7 +23,7 @@ struct EnergyCase {
 /// play, over a path of 0 to 400 ms with jitter, loss or bursts of loss, and copies. One session in
 /// three has a liar: its intention swings by 20 mm, 6 times a second.
 [[nodiscard]] EnergyCase drawn_energy_case(std::uint64_t seed, const peer::Algorithm& algorithm,
-                                           base::Duration length);
+                                           base::Duration duration);
 
 /// What came of it.
 struct EnergyPlayed {

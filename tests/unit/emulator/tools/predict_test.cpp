@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Stream short_stream{.packets = 2000};
+const Stream short_stream{.packets = 2000};
 
 /// A constant delay, and uniform jitter with a correlation time.
 Profile jittery(base::Duration half_width, base::Duration correlation_time)
