@@ -179,7 +179,7 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
     auto experiment = read_tree(adjusted, Reading{source, open});
     if (!experiment) {
         if (overrides.settings.empty()) return experiment;
-        return complain_of_settings(chosen, overrides, open, std::move(experiment));
+        return complain_of_settings(chosen, overrides, open, experiment);
     }
     // What the text says for another day is to be right today, if the rest is so by itself.
     if (overrides.settings.empty() || read_tree(document, Reading{source, open})) {
