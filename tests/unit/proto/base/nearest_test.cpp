@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace hapnet::base {
 
@@ -22,6 +23,16 @@ TEST(Nearest, IsWhatTheLibraryRoundsTo)
                          std::pow(10.0, 19.0 * draw.uniform(2 * i + 1) - 1.0);
         ASSERT_EQ(nearest(x), std::llround(x)) << x;
     }
+}
+
+TEST(Nearest, IsTheLeastNumberWhereThereIsNone)
+{
+    const auto none = std::numeric_limits<std::int64_t>::min();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double x : {0x1p63, -0x1p63, 1e300, infinity, -infinity, std::nan("")}) {
+        EXPECT_EQ(nearest(x), none) << x;
+    }
+    EXPECT_EQ(nearest(0x1.fffffffffffffp62), 0x7ffffffffffffc00);
 }
 
 } // namespace hapnet::base
