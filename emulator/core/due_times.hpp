@@ -88,6 +88,7 @@ private:
     {
         is_taken_.push_back(false);
         is_marked_.push_back(false);
+        marked_.reserve(is_taken_.size()); // nothing is allocated while datagrams pass
         const std::size_t wanted = std::bit_ceil(is_taken_.size());
         if (wanted == leaves()) return;
         std::vector<base::TimePoint> former(wanted, never);
