@@ -83,8 +83,8 @@ constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
 /// force is fed back: the loop closes by the error of the model alone. What all proxies together
 /// may put into this copy is bounded by what their owners are known to have put in, as their
 /// running sums of work say (passive set-position modulation, Lee and Huang), so that the copies
-/// together should stay passive also over a bad network and with a wrong model of a hand: the page
-/// of the algorithms argues it, and no test has yet tried it over random networks.
+/// together stay passive also over a bad network and with a wrong model of a hand: the page of the
+/// algorithms derives the bound, and a property test holds sessions over random networks to it.
 class RemoteProxy {
 public:
     RemoteProxy() : RemoteProxy(RemoteProxyOptions{}) {}
