@@ -54,6 +54,8 @@ int print(const std::string& line, const Options& options, WatchPrinter& watch)
         fmt::print("{}\n", line);
     } else if (!reply.value("ok", false)) {
         net::say(program, reply.value("error", "refused"));
+    } else if (options.of_frames) {
+        fmt::print("{}\n", line);
     } else if (options.command == "watch") {
         fmt::print("{}", watch.next(reply));
     } else {

@@ -44,6 +44,7 @@ Examples:
   hapnet-ctl /tmp/emulator.sock stats
   hapnet-ctl /tmp/peer.sock wait --until 'messages.states_received>0'
   export HAPNET_SOCKET=/tmp/peer.sock; hapnet-ctl watch
+  hapnet-ctl watch --frames --every 16ms
   hapnet-ctl /tmp/peer.sock stop)";
 
 constexpr const char* set_footer =
@@ -127,8 +128,12 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
     program.command("stats", "Prints the statistics, as --stats of the program writes them");
     cli::Command& watch = program.command("watch", "Prints the main figures until Ctrl-C: in place "
                                                    "on a terminal, otherwise a line each time");
-    watch.option("--every", "TIME", "The interval, at least 50ms (default 500ms)",
-                 cli::into(options.every, base::Time{std::chrono::milliseconds{50}, longest}));
+    watch.option("--every", "TIME",
+                 "The interval, at least 50ms (default 500ms); of frames 10ms to 1s of a peer and "
+                 "20ms to 1s of an emulator (default 20ms)",
+                 cli::into(options.every, base::Time{std::chrono::milliseconds{10}, longest}));
+    watch.flag("--frames", "Print frames: short lines of JSON with what is newest",
+               options.of_frames);
     cli::Command& wait = program.command("wait", "Waits until a condition holds");
     wait.option("--until", "CONDITION",
                 "A key of stats, one of < <= == != >= >, and a number, true or false",

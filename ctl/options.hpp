@@ -23,6 +23,7 @@ struct Options {
     std::string until;
     std::optional<base::Duration> timeout;
     std::optional<base::Duration> every;
+    bool of_frames = false; // watch --frames
     bool as_json = false;
 };
 

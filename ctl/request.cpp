@@ -51,6 +51,7 @@ base::Result<nlohmann::ordered_json> make_request(const Options& options)
     add("for", options.lasting);
     add("timeout", options.timeout);
     add("every", options.every);
+    if (options.of_frames) request["what"] = "frames";
     return request;
 }
 

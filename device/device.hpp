@@ -63,7 +63,8 @@ struct Cue {
     base::Seed seed;         // of the session
     std::uint16_t peer_id = 0;
     bool is_left = true;
-    double share = 1.0; // of what the hands on its side press with, together
+    double share = 1.0;   // of what the hands on its side press with, together
+    bool is_first = true; // of the hands on its side
 };
 
 /// A haptic device: up to three degrees of freedom in and out. The one interface to all of them.

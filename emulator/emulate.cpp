@@ -209,6 +209,14 @@ private:
                 [statistics = std::move(subject.statistics), &workers] {
                     const Workers::Rest rest{workers};
                     return statistics();
+                },
+                [frames = std::move(subject.frames), &workers] {
+                    const Workers::Rest rest{workers};
+                    return control::FrameSource{
+                        [next = frames(), &workers](std::string& text, std::uint64_t left_out) {
+                            const Workers::Rest rest_for_one{workers};
+                            next(text, left_out);
+                        }};
                 }};
     }
 
@@ -218,7 +226,8 @@ private:
                 .statistics_json = [this] { return statistics_of(run_).dump(); },
                 .open = text_beside,
                 .preset = preset_text,
-                .stop = [this] { is_stopped_ = true; }};
+                .stop = [this] { is_stopped_ = true; },
+                .netem = netem_profile};
     }
 
     /// Reads the profile again. One that is wrong changes nothing.

@@ -66,7 +66,9 @@ FrameSession::FrameSession(const Options& options, const Scenario& scenario, Set
                  .statistics_json = [this] { return statistics().dump(); },
                  .open = text_beside,
                  .preset = preset_text,
-                 .stop = [this] { is_stopped_ = true; }},
+                 .stop = [this] { is_stopped_ = true; },
+                 .netem = netem_profile},
+      subject_{subject_of(emulation_)},
       pacer_{options.timing, start_},
       results_{options}
 {
@@ -106,7 +108,7 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
     frames_.release(now);
     run_.elapsed = now - start_;
     if (const auto notice = frames_.next_notice()) say_of_frames(*notice);
-    if (control_) control_->serve(subject_of(emulation_), now, paths_.next_due());
+    if (control_) control_->serve(subject_, now, paths_.next_due());
     if (!has_told_of_files_ && recorder_.has_failed()) {
         has_told_of_files_ = true;
         say_of_frames("what this run records cannot be written any more (is the disk full?): the "

@@ -67,6 +67,7 @@ private:
     ports::Frames frames_;
     AnyRun run_;
     Emulation emulation_;
+    control::Subject subject_; // of it
     Pacer pacer_;
     std::optional<control::Server> control_;
     Results results_;

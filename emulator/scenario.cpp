@@ -31,14 +31,10 @@ base::Result<Profile> profile_named(const ConditionOptions& options,
     }
     if (options.profile) return load_profile(*options.profile, names);
     if (!options.netem) return Profile{};
-    auto netem = tools::parse_netem(*options.netem);
+    auto netem = netem_profile(*options.netem);
     if (!netem) return base::fail(fmt::format("--netem: {}", netem.error().message));
     for (std::string& warning : netem->warnings) warnings.push_back(std::move(warning));
-    Profile profile;
-    profile.name = fmt::format("netem {}", *options.netem);
-    profile.seed = netem->seed;
-    profile.path = {netem->conditions, netem->conditions};
-    return profile;
+    return std::move(netem->profile);
 }
 
 /// The profile with the settings of the command line, which win over all that it says.
@@ -162,6 +158,17 @@ base::Result<void> replayable(const FatesOfPaths& fates, const PathNames& names)
 }
 
 } // namespace
+
+base::Result<TranslatedProfile> netem_profile(const std::string& sentence)
+{
+    auto netem = tools::parse_netem(sentence);
+    if (!netem) return tl::unexpected{netem.error()};
+    Profile profile;
+    profile.name = fmt::format("netem {}", sentence);
+    profile.seed = netem->seed;
+    profile.path = {netem->conditions, netem->conditions};
+    return TranslatedProfile{std::move(profile), std::move(netem->warnings)};
+}
 
 base::Result<Profile> profile_for(const ConditionOptions& options,
                                   std::vector<std::string>& warnings, const PathNames& names)

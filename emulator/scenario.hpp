@@ -37,6 +37,9 @@ struct Scenario {
                                                      const std::string& path,
                                                      std::vector<std::string>& warnings);
 
+/// What a sentence of tc-netem asks for, both ways.
+[[nodiscard]] base::Result<TranslatedProfile> netem_profile(const std::string& sentence);
+
 /// The seed that draws: that of the command line, of the profile, or 1.
 [[nodiscard]] base::Seed seed_of(const ConditionOptions& options, const Profile& profile);
 

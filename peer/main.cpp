@@ -234,6 +234,17 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     return record::Writer{*options.record, configuration, layout_for(options.scene)};
 }
 
+/// What a person is told of by name.
+monitor::Named named_in(const Settings& settings)
+{
+    monitor::Named named{.peer_id = settings.introduction.id, .others = settings.roster.others};
+    const auto bodies = shared_bodies(settings.scene).value();
+    const std::string& name = settings.scene.bodies[bodies.front().id].name;
+    if (!name.empty()) named.body = name;
+    named.has_several = bodies.size() > 1;
+    return named;
+}
+
 /// Introduces a real device to its holder, and says what of the forces asked for it cannot render.
 void introduce(const Options& options, const device::Rig& rig, Screen& screen)
 {
@@ -361,7 +372,7 @@ base::Result<int> run(const Options& options)
                        std::chrono::milliseconds{1}, layout_for(options.scene)}};
     // Last of all that may fail: the file is emptied.
     monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
-                             options.id, settings.roster.others};
+                             named_in(settings)};
 
     std::optional<monitor::ControlSession> control_session;
     if (server) {

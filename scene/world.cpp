@@ -401,6 +401,13 @@ void World::restore(const Snapshot& snapshot)
     stepper_ = snapshot.stepper;
 }
 
+void World::restore(const World& other)
+{
+    base::ensure(other.kind_ == kind_ && other.state_.bodies.size() == state_.bodies.size());
+    state_ = other.state_;
+    stepper_ = other.stepper_;
+}
+
 std::uint64_t World::hash() const
 {
     const Bodies& bodies = state_.bodies;

@@ -123,6 +123,8 @@ public:
     /// The snapshot must be of a world frozen from the same description and options. Takes no
     /// memory.
     void restore(const Snapshot& snapshot);
+    /// The same, to where another world is.
+    void restore(const World& other);
 
     /// Equal states, equal hashes: over every bit of every body's state, by id.
     [[nodiscard]] std::uint64_t hash() const;

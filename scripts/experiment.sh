@@ -7,12 +7,14 @@
 set -euo pipefail
 
 usage="usage: scripts/experiment.sh NAME[,NAME...] [--out DIR] [--quick] [--seeds N] [--jobs N]
-                             [--set KEY=VALUE] [--real-time]
+                             [--set KEY=VALUE] [--conventions N] [--real-time]
 Installs what is missing, builds hapnet-lab, carries out the experiments of these names
 (scripts/experiments/NAME.toml, docs/use/experiments.md) and writes CSV, manifest.json and
 report.html to DIR (results/NAME-<time> when not given; several: one folder each in it). Run again
 with the same --out after an interruption: nothing is computed twice. --quick is rougher, with fewer
-seeds; --jobs is the number of threads (all processors) and does not change the results; --real-time
+seeds; --jobs is the number of threads (all processors) and does not change the results;
+--conventions searches fig6a's and fig6b's limits again with other filters and hands, N seeds
+each; --real-time
 lets table1 play its cells in real time, too (scripts/real-time.sh: 30 s each). Exits 0 when done, 1
 when stopped, 2 for an unknown name or argument, 3 when something that it needs cannot be
 installed."
@@ -22,7 +24,7 @@ refuse() {
     exit 2
 }
 
-names=() out='' options=() real_time='' quick=()
+names=() out='' options=() real_time='' quick=() conventions=''
 while (($# > 0)); do
     case $1 in
     --quick) options+=(--quick) quick=(--quick) && shift ;;
@@ -30,6 +32,10 @@ while (($# > 0)); do
     --out)
         (($# > 1)) || refuse "--out: which directory?"
         out=$(realpath -m "$2") && shift 2
+        ;;
+    --conventions)
+        (($# > 1)) || refuse "$1: which value?"
+        conventions=$2 && shift 2
         ;;
     --seeds | --jobs | --set)
         (($# > 1)) || refuse "$1: which value?"
@@ -62,7 +68,9 @@ build >&2
 for name in "${names[@]}"; do
     folder=$out
     ((${#names[@]} == 1)) || folder=$out/$name
-    "$lab" run "$name" "${options[@]}" --out "$folder"
+    more=()
+    [[ -z $conventions || $name != fig6[ab] ]] || more=(--set "convention.seeds=$conventions")
+    "$lab" run "$name" "${options[@]}" "${more[@]}" --out "$folder"
     [[ -z $real_time || $name != table1 ]] || scripts/real-time.sh --out "$folder" "${quick[@]}"
 done
 "$lab" report "$out"

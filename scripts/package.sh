@@ -8,7 +8,9 @@ set -euo pipefail
 usage="usage: scripts/package.sh --out DIR [--only emulator]
 Installs what is missing, builds the programs, and leaves in DIR the packages hapnet-emulator (with
 hapnet-ctl and no library of devices) and hapnet (hapnet-peer, hapnet-lab), each with manual pages,
-completions for bash, zsh and fish, and a unit of systemd. --only emulator makes the first alone.
+completions for bash, zsh and fish, and a unit of systemd; hapnet-dev (libraries for C++) and
+python3-hapnet; and a tarball of the programs that runs from any folder and needs no package.
+--only emulator makes the first alone, and a tarball with its programs.
 Install them with: apt-get install ./DIR/hapnet-emulator_*.deb
 Exits 0 when they are there, 1 when something failed, 2 for an unknown argument, 3 when something
 that it needs cannot be installed."
@@ -38,11 +40,30 @@ out=$(realpath "$out")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scripts/setup.sh --package
 build=build/package${only:+-$only}
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
-    -DHAPNET_PRECOMPILED=ON -DHAPNET_TESTS=OFF -DHAPNET_PACKAGES=ON -DHAPNET_ONLY="$only"
-cmake --build "$build" --parallel "$(nproc)"
+libdir=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
+# make OPTION...: configures and builds.
+make() {
+    cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+        -DHAPNET_PRECOMPILED=ON -DHAPNET_TESTS=OFF -DHAPNET_PACKAGES=ON -DHAPNET_ONLY="$only" \
+        -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR="$libdir" "$@"
+    cmake --build "$build" --parallel "$(nproc)"
+}
+make -DHAPNET_STATIC=OFF
 rm -rf "$build/packages"
 cpack --config "$build/CPackConfig.cmake" -B "$build/packages"
-rm -f "$out"/hapnet_*.deb "$out"/hapnet-emulator_*.deb
+rm -f "$out"/{hapnet,hapnet-emulator,hapnet-dev,python3-hapnet}_*.deb "$out"/hapnet-*.tar.gz
 cp "$build"/packages/*.deb "$out"
-printf 'package: %s\n' "$out"/*.deb
+
+# The same objects, linked with archives.
+make -DHAPNET_STATIC=ON
+version=$(sed -n 's/^CMAKE_PROJECT_VERSION:[^=]*=//p' "$build/CMakeCache.txt")
+name=hapnet${only:+-$only}-$version-linux-$(uname -m)
+rm -rf "$build/tarball"
+for component in hapnet-emulator ${only:-hapnet}; do
+    [[ $component != emulator ]] || continue
+    cmake --install "$build" --component "$component" --prefix "$build/tarball/$name" --strip
+done
+cp README.md LICENSE CHANGELOG.md "$build/tarball/$name"
+tar -C "$build/tarball" --sort=name --owner=0 --group=0 --numeric-owner -czf "$out/$name.tar.gz" \
+    "$name"
+printf 'package: %s\n' "$out"/*.deb "$out/$name.tar.gz"

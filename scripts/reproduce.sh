@@ -3,6 +3,19 @@
 # SPDX-License-Identifier: MIT
 #
 # Everything that the paper shows - Table 1, Fig. 6a, Fig. 6b, Fig. 7 - into one folder with one
-# report. Options: scripts/experiment.sh --help.
+# report. With --all also what was not chosen and what moves the limits: readings of dead reckoning
+# (velocity-rule, horizon, jitter-order), the delay of the path in the loss cells (path-delay),
+# filters and hands (limits_by_convention.csv), and the plane of conditions (qos).
+# Other options: scripts/experiment.sh --help.
 set -euo pipefail
-exec "$(dirname "${BASH_SOURCE[0]}")/experiment.sh" table1,fig6a,fig6b,fig7 "$@"
+names=table1,fig6a,fig6b,fig7
+options=()
+for option in "$@"; do
+    if [[ $option == --all ]]; then
+        names+=,velocity-rule,horizon,jitter-order,path-delay,qos
+        options+=(--conventions 10)
+    else
+        options+=("$option")
+    fi
+done
+exec "$(dirname "${BASH_SOURCE[0]}")/experiment.sh" "$names" "${options[@]}"

@@ -22,7 +22,7 @@ test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping l
 program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ngtcp2-client
     ngtcp2-server openssl passt python3 slirp4netns)
 
-package_packages=(debootstrap dpkg-dev gzip lintian scdoc systemd)
+package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian scdoc systemd)
 
 for argument in "$@"; do
     case $argument in

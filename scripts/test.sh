@@ -14,7 +14,8 @@ under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs them
 devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
 KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
 curl, dig, iperf, iperf3, mosh, ping, QUIC), ship (packages, made, installed in a bare root and
-removed; as root), web (a browser), fleet (many machines). The last two have no tests yet.
+removed; as root), web (the live page in Chromium; left out, with the reason, where node, npm or
+chromium is missing), fleet (many machines), which has no tests yet.
 What each step said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument, 3 when something that it needs cannot be installed."
 
@@ -31,8 +32,8 @@ case ${1-} in
 '') ;;
 --all) all=yes ;;
 -h | --help) echo "$usage" && exit 0 ;;
-programs | ship) kind=$1 ;;
-web | fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
+programs | ship | web) kind=$1 ;;
+fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
 -*) refuse "unknown argument '$1'" ;;
 *) refuse "unknown kind '$1': use web, programs, ship or fleet" ;;
 esac
@@ -60,7 +61,7 @@ step() {
 }
 
 check_format() {
-    find proto scene emulator ctl device peer lab tests -name '*.[ch]pp' -print0 |
+    find proto scene emulator ctl device peer lab web examples tests -name '*.[ch]pp' -print0 |
         xargs -0 clang-format-14 --dry-run --Werror
 }
 
@@ -70,7 +71,8 @@ check_scripts() {
 
 # Whether the scripts of our pages parse, where there is a node to say so.
 check_pages() {
-    ! command -v node >/dev/null || find lab -name '*.js' -print0 | xargs -0 -n 1 node --check
+    ! command -v node >/dev/null || find lab web/page tests/web -name node_modules -prune -o \
+        -name '*.*js' -type f -print0 | xargs -0 -n 1 node --check
 }
 
 # Reads all but the tests, and compiles nothing: cmake/HapnetTidy.cmake says how.
@@ -162,6 +164,21 @@ build_programs() {
         --target hapnet-emulator hapnet-ctl own_loopback
 }
 
+build_web() {
+    cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
+        --target hapnet-web hapnet-peer hapnet-emulator
+}
+
+# The modules of the page and of its tests, as the lock file has them.
+test_web() {
+    local program
+    for program in node npm chromium; do
+        command -v "$program" >/dev/null || { echo "left out: $program is missing" && return; }
+    done
+    (cd web/page && npm ci --ignore-scripts --no-audit --no-fund) || return
+    node --test --test-reporter=spec tests/web/page.test.mjs
+}
+
 # closing LOG...: what ctest said at the end of each.
 closing() {
     local run said
@@ -173,6 +190,9 @@ closing() {
 
 if [[ $kind == ship ]]; then
     step "ship" tests/ship/ship_test.sh "$PWD" "$PWD/build/ship" || true
+    runs=()
+elif [[ $kind == web ]]; then
+    { step "build" build_web && step "web" test_web; } || true
     runs=()
 elif [[ -n $kind ]]; then
     { step "build" build_programs && step "programs" test_programs; } || true

@@ -27,6 +27,10 @@ constexpr double pressing_after_s = 2.0;
 
 constexpr double watching_x_m = 0.105; // P1
 
+// T9 and T10 have work for one hand on each side. A third and further ones watch.
+constexpr double watching_y_m = 0.050;
+constexpr double watching_z_m = -0.030;
+
 // T1: the path speed over which the turn changes.
 constexpr double turn_speed_m_per_s = 0.020;
 
@@ -154,7 +158,7 @@ Intention Script::working(double t) const
     switch (task_) {
     case Task::p1: {
         if (cue_.is_left) {
-            Intention intention = at_x(unstopped_path_x(t) - touching_m);
+            Intention intention = at_x(path_x(t) - touching_m);
             intention.gripping = true;
             return intention;
         }
@@ -172,8 +176,12 @@ Intention Script::working(double t) const
     case Task::t5: return wall(t);
     case Task::t6: return at_x(tap_x(t));
     case Task::t8: return turn(t);
-    case Task::t9: return carried(cue_.is_left ? left_of_tower : right_of_tower, t);
-    case Task::t10: return carried(cue_.is_left ? giver : taker, t);
+    case Task::t9:
+        if (!cue_.is_first) return watch();
+        return carried(cue_.is_left ? left_of_tower : right_of_tower, t);
+    case Task::t10:
+        if (!cue_.is_first) return watch();
+        return carried(cue_.is_left ? giver : taker, t);
     }
     return {};
 }
@@ -242,6 +250,12 @@ double Script::tap_x(double t) const
     if (!cue_.is_left) return touching_m - closing(depth_m(squeeze_n()), t);
     const double swing = t < taps_begin_s ? 0.0 : sine_of_turns(tap_hertz * (t - taps_begin_s));
     return -touching_m - tap_off_m + tap_amplitude_m * swing;
+}
+
+/// Above and behind what the others carry.
+Intention Script::watch() const
+{
+    return {.target = {{side_ * clear_m, watching_y_m, watching_z_m}}};
 }
 
 /// The cube turns about the vertical with the hands: even turns one way, odd ones back.

@@ -42,6 +42,7 @@ private:
     [[nodiscard]] Intention wall(double t) const;
     [[nodiscard]] double tap_x(double t) const;
     [[nodiscard]] Intention turn(double t) const;
+    [[nodiscard]] Intention watch() const;
     [[nodiscard]] double squeeze_n() const;
     /// The depth within the face at which the hand aims in order to press so.
     [[nodiscard]] double depth_m(double force_n) const;

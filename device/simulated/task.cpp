@@ -50,10 +50,4 @@ double path_x(double seconds)
     return minimum_jerk(t) * 1e-3 * (22.0 + std::min(52.7, swings_mm(t)));
 }
 
-double unstopped_path_x(double seconds)
-{
-    const double t = std::max(0.0, seconds);
-    return minimum_jerk(t) * 1e-3 * (22.0 + swings_mm(t));
-}
-
 } // namespace hapnet::device

@@ -22,9 +22,9 @@ enum class Task : std::uint8_t {
     t5,  // both press the cube against the static one, and one lets go suddenly; then the other
     t6,  // L taps the cube at 3 Hz while R rests on its far side
     t7,  // T3 with two to eight hands: by turns of their ids from the left and from the right
-    t8,  // both turn the cube between them to and fro, each pushing off its middle
-    t9,  // L puts the second cube on the first, then R the third on those
-    t10, // L lifts the screwdriver and hands it to R, who puts it down
+    t8,  // two to eight hands turn the cube between them to and fro, each pushing off its middle
+    t9,  // L puts the second cube on the first, then R the third on those; others watch
+    t10, // L lifts the screwdriver and hands it to R, who puts it down; others watch
 };
 
 constexpr auto names_of(base::Tag<Task> /*enum*/)
@@ -45,11 +45,8 @@ inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3, Ta
 /// The x of the path that the cube is to follow, metres, `seconds` from the start: the sum of
 /// four sines, cut off at the static cube, fitted so that the one-way delay of 160 ms alone gives
 /// the first column of the paper's Table 1 (13.61 mm mean, 10.68 mm standard deviation, 47.25 mm
-/// maximum). Starts at 0 and swings in within the first second.
+/// maximum). Starts at 0 and swings in within the first second. The hand that carries the cube aims
+/// along it, and so stops where the static cube stops the cube.
 [[nodiscard]] double path_x(double seconds);
-
-/// The path as it would go on if the static cube did not cut it off: where the hand that carries
-/// the cube aims. What stops the cube is the static one.
-[[nodiscard]] double unstopped_path_x(double seconds);
 
 } // namespace hapnet::device

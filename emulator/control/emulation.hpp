@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/all_paths.hpp"
+#include "emulator/core/profile/profile.hpp"
 #include "proto/base/result.hpp"
 
 #include <functional>
@@ -24,6 +25,8 @@ struct Emulation {
     std::function<base::Result<std::string>(const std::string& name)> preset{};
     /// Ends the run, as a signal does.
     std::function<void()> stop{};
+    /// What a sentence of tc-netem asks for.
+    std::function<base::Result<TranslatedProfile>(const std::string& sentence)> netem{};
 };
 
 } // namespace hapnet::emulator

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/control/reply.hpp"
 
+#include "emulator/control/frames.hpp"
 #include "emulator/control/settings.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <spdlog/fmt/fmt.h>
@@ -44,8 +46,17 @@ OpenFile files_beside(const std::string& file, const Emulation& emulation)
     return [&emulation, file](const std::string& name) { return emulation.open(name, file); };
 }
 
-base::Result<Profile> parsed(const ProfileText& text, const Emulation& emulation)
+/// `warnings`: what of it cannot be done.
+base::Result<Profile> parsed(const ProfileText& text, const Emulation& emulation,
+                             std::vector<std::string>& warnings)
 {
+    if (text.netem) {
+        if (!emulation.netem) return base::fail("sentences of netem are not understood here");
+        return emulation.netem(*text.netem).map([&](TranslatedProfile netem) {
+            warnings = std::move(netem.warnings);
+            return std::move(netem.profile);
+        });
+    }
     const auto read = [&](const std::string& toml, const std::string& name,
                           const std::string& beside) {
         return parse_profile(toml, name, files_beside(beside, emulation), emulation.paths.names());
@@ -65,6 +76,20 @@ Json next_numbers(const EmulatedPath& path)
     return {{"up", next(Direction::up)}, {"down", next(Direction::down)}};
 }
 
+/// What holds now, without what does nothing: {"up.delay":"160ms", ...}.
+Json conditions_json(const AllPaths& paths)
+{
+    Json json = Json::object();
+    for (const Paths::Named* one : paths.all()) {
+        for (const Direction direction : {Direction::up, Direction::down}) {
+            const Patch patch = to_patch(one->path->link(direction).conditions());
+            for (const auto& [key, value] : texts_of(direction, patch, one->name))
+                json[key] = value;
+        }
+    }
+    return json;
+}
+
 /// Of the only path, or of each by its name.
 Json effective_at(const AllPaths& paths)
 {
@@ -77,20 +102,26 @@ Json effective_at(const AllPaths& paths)
 }
 
 /// The answer to a command: from when on the conditions hold.
-std::string effect_of(const Paths::CommandFor& command, std::span<const std::string> mentioned,
-                      Emulation& emulation, base::TimePoint now)
+base::Result<Json> effect_of(const Paths::CommandFor& command,
+                             std::span<const std::string> mentioned, Emulation& emulation,
+                             base::TimePoint now)
 {
     AllPaths& paths = emulation.paths;
     const auto generation = paths.generation();
     if (const auto done = paths.apply(command, mentioned, now); !done) {
-        return refusal(done.error().message);
+        return tl::unexpected{done.error()};
     }
-    return line_of(Json{{"ok", true},
-                        {"generation", paths.generation()},
-                        {"changed", paths.generation() != generation},
-                        {"elapsed_s", base::to_seconds(paths.elapsed())},
-                        {"effective_at_ns", now.time_since_epoch().count()},
-                        {"effective_at", effective_at(paths)}});
+    return Json{{"ok", true},
+                {"generation", paths.generation()},
+                {"changed", paths.generation() != generation},
+                {"elapsed_s", base::to_seconds(paths.elapsed())},
+                {"effective_at_ns", now.time_since_epoch().count()},
+                {"effective_at", effective_at(paths)}};
+}
+
+std::string answer_of(const base::Result<Json>& effect)
+{
+    return effect ? line_of(*effect) : refusal(effect.error().message);
 }
 
 using Deciders = std::vector<Paths::Decider>;
@@ -179,6 +210,7 @@ std::string reply_to(const ShowRequest& /*request*/, const Emulation& emulation)
               {{"position_s", base::to_seconds(director.position())},
                {"changes", director.profile().timeline.size()},
                {"next_change_in_s", seconds(next)}}},
+             {"conditions", conditions_json(emulation.paths)},
              {"live", is_only && deciders.front().name.empty() ? live_of(director)
                                                                : live_of_several(deciders, now)},
              {"profile", to_text(remaining_of(emulation, deciders))}});
@@ -198,22 +230,26 @@ std::string reply_to(const SetRequest& request, Emulation& emulation, base::Time
             return Command{std::move(set)};
         });
     };
-    return effect_of(command, mentioned, emulation, now);
+    return answer_of(effect_of(command, mentioned, emulation, now));
 }
 
 std::string reply_to(const ApplyRequest& request, Emulation& emulation, base::TimePoint now)
 {
-    const auto profile = parsed(request.profile, emulation);
+    std::vector<std::string> warnings;
+    const auto profile = parsed(request.profile, emulation, warnings);
     if (!profile) return refusal(profile.error().message);
     const auto command = [&](std::string_view name, const Path& /*path*/) -> base::Result<Command> {
         return Apply{profile_of(*profile, name)};
     };
-    return effect_of(command, paths_in(*profile), emulation, now);
+    auto effect = effect_of(command, paths_in(*profile), emulation, now);
+    if (effect && !warnings.empty()) (*effect)["warnings"] = std::move(warnings);
+    return answer_of(effect);
 }
 
 std::string reply_to(const DiffRequest& request, const Emulation& emulation)
 {
-    const auto profile = parsed(request.profile, emulation);
+    std::vector<std::string> warnings;
+    const auto profile = parsed(request.profile, emulation, warnings);
     if (!profile) return refusal(profile.error().message);
     const auto deciders = emulation.paths.deciders();
     Json changes = Json::array();
@@ -234,8 +270,9 @@ std::string reply_to(const DiffRequest& request, const Emulation& emulation)
 
 std::string reply_to(const ResetRequest& /*request*/, Emulation& emulation, base::TimePoint now)
 {
-    return effect_of([](std::string_view, const Path&) -> base::Result<Command> { return Reset{}; },
-                     {}, emulation, now);
+    return answer_of(
+        effect_of([](std::string_view, const Path&) -> base::Result<Command> { return Reset{}; },
+                  {}, emulation, now));
 }
 
 std::string reply_to(const StopRequest& /*request*/, const Emulation& emulation)
@@ -278,10 +315,12 @@ control::Answer answer_to(std::string_view line, Emulation& emulation, base::Tim
 
 control::Subject subject_of(Emulation& emulation)
 {
+    auto frames = std::make_shared<Frames>();
     return {[&emulation](std::string_view line, base::TimePoint now) {
                 return answer_to(line, emulation, now);
             },
-            [&emulation] { return statistics_of(emulation); }};
+            [&emulation] { return statistics_of(emulation); },
+            [&emulation, frames] { return frames->watch(emulation.paths); }};
 }
 
 } // namespace hapnet::emulator

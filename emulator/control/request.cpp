@@ -13,6 +13,9 @@ namespace {
 using namespace std::chrono_literals;
 using control::Members;
 
+/// A round of the relay may take a frame along so often.
+constexpr base::Duration frames_least = 20ms;
+
 std::vector<SettingText> settings_of(Members& members)
 {
     std::vector<SettingText> settings;
@@ -37,6 +40,7 @@ std::vector<SettingText> settings_of(Members& members)
 ProfileText profile_of(Members& members)
 {
     if (auto preset = members.optional_text("preset")) return {"", *preset, *preset};
+    if (auto netem = members.optional_text("netem")) return {"", "", std::nullopt, *netem};
     auto toml = members.text("profile");
     return {std::move(toml), members.optional_text("file").value_or("profile")};
 }
@@ -53,7 +57,7 @@ Request request_of(std::string_view command, Members& members)
     if (command == "stats") return StatsRequest{};
     if (command == "stop") return StopRequest{};
     if (command == "wait") return control::wait_request(members);
-    if (command == "watch") return control::watch_request(members);
+    if (command == "watch") return control::watch_request(members, frames_least);
     return ShowRequest{};
 }
 

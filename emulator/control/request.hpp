@@ -16,16 +16,17 @@
 
 namespace hapnet::emulator {
 
-// What a client of the control socket may ask; PROTOCOL.md describes it.
+// What a client of the control socket may ask; docs/formats/control.md describes it.
 
 /// A key and its value as a profile or a command line writes them: "both.delay", "80ms".
 using SettingText = std::pair<std::string, std::string>;
 
-/// A profile as it was sent, or the name of a built-in one.
+/// A profile as it was sent, the name of a built-in one, or a sentence of tc-netem.
 struct ProfileText {
     std::string toml;
     std::string file;                    // what messages call it; files that it names lie beside it
     std::optional<std::string> preset{}; // instead of both
+    std::optional<std::string> netem{};  // instead of all
 };
 
 struct ShowRequest {};

@@ -50,6 +50,13 @@ base::Duration AllPaths::elapsed() const
     return most;
 }
 
+base::TimePoint AllPaths::latest_now() const
+{
+    base::TimePoint latest = parts_.front()->now();
+    for (const Paths* part : parts_) latest = std::max(latest, part->now());
+    return latest;
+}
+
 std::optional<base::TimePoint> AllPaths::next_change() const
 {
     std::optional<base::TimePoint> next;

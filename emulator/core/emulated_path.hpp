@@ -96,6 +96,9 @@ public:
     base::Result<void> apply(const Command& command, base::TimePoint now,
                              ChangeCause by = ChangeCause::hand);
 
+    /// See Link::take_pulse().
+    [[nodiscard]] Pulse take_pulse(Direction direction) { return link_of(direction).take_pulse(); }
+
     [[nodiscard]] const Director& director() const { return director_; }
     /// Its number among several; see Paths::each_due().
     [[nodiscard]] std::size_t number() const { return place_.number(); }

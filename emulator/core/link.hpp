@@ -9,6 +9,7 @@
 #include "emulator/core/fate.hpp"
 #include "emulator/core/fates/replay.hpp"
 #include "emulator/core/pipeline.hpp"
+#include "emulator/core/pulse.hpp"
 #include "emulator/core/queue_limits.hpp"
 #include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
@@ -22,6 +23,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -85,6 +87,8 @@ public:
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
+    /// What left since the last call.
+    [[nodiscard]] Pulse take_pulse() { return std::exchange(pulse_, {}); }
 
 private:
     [[nodiscard]] Fate fate_of(const Packet& packet);
@@ -119,6 +123,7 @@ private:
     std::uint64_t beyond_highest_delivered_ = 0; // the highest number that left, plus one
     Statistics statistics_;
     StreamStatistics stream_statistics_;
+    Pulse pulse_;
 };
 
 } // namespace hapnet::emulator

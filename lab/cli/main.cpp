@@ -13,6 +13,7 @@
 #include "lab/runner/freed_memory.hpp"
 #include "lab/scenes/explain.hpp"
 #include "peer/core/sync/text.hpp"
+#include "peer/shared_object/load.hpp"
 #include "proto/net/standard_streams.hpp"
 #include "proto/net/text_file.hpp"
 #include "scene/text/text.hpp"
@@ -139,7 +140,7 @@ base::Result<int> run(const ReplayCommand& command)
     if (!record) return tl::unexpected{record.error()};
     std::optional<peer::Algorithm> instead;
     if (command.algorithm) {
-        auto algorithm = peer::load_algorithm(*command.algorithm, net::text_of_file);
+        auto algorithm = peer::shared_object::load_from_disk(*command.algorithm);
         if (!algorithm) return base::fail("--algorithm: " + algorithm.error().message);
         instead = *std::move(algorithm);
     }

@@ -55,9 +55,10 @@ base::Result<results::RealTimeResult> result_in(const fs::path& folder, const st
     auto files = read_session_files(folder.string());
     if (!files) return tl::unexpected{files.error()};
     results::RealTimeSession session{where, *std::move(files)};
-    // Two play over paths beside which a tick is short; the many over a few milliseconds.
+    // P1 is played over a path beside which a tick is short; the other tasks over some
+    // milliseconds.
     const std::size_t others = session.files.peer.value("others", Json::array()).size();
-    if (others > 1) {
+    if (session.files.peer.value("task", "") != "P1") {
         auto phases = phases_in(folder, others + 1);
         if (!phases) return tl::unexpected{phases.error()};
         session.phases = *std::move(phases);

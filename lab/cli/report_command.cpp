@@ -91,13 +91,11 @@ base::Result<void> add_records(results::Results& results, const std::string& nam
         if (!record) return tl::unexpected{record.error()};
         all.push_back(*std::move(record));
     }
-    for (std::size_t a = 0; a < all.size(); ++a) {
-        for (std::size_t b = a + 1; b < all.size(); ++b) {
-            const auto added = add_session(results, name, all[a], all[b]);
-            if (added) continue;
-            return base::fail("cannot compare " + paths[a] + " (A) with " + paths[b] +
-                              " (B): " + added.error().message);
-        }
+    std::vector<const record::Record*> records;
+    for (const record::Record& one : all) records.push_back(&one);
+    if (const auto added = add_session(results, name, records); !added) {
+        return base::fail(
+            fmt::format("cannot compare {}: {}", fmt::join(paths, ", "), added.error().message));
     }
     return {};
 }

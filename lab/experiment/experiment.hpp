@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/replay/hand_trace.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
+#include "device/simulated/task_options.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "lab/experiment/impairment.hpp"
 #include "lab/metrics/criteria.hpp"
@@ -15,6 +17,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -45,6 +48,20 @@ struct NamedScene {
     scene::Description scene{};
 };
 
+/// A recorded way of a hand under the name of its file; empty: the simulated hand plays.
+struct NamedTrace {
+    std::string name;
+    std::shared_ptr<const device::HandTrace> trace{};
+};
+
+/// The same experiment again for each of several values of one of its keys.
+struct Axis {
+    std::string key;                 // "both.delay", as after --set
+    std::vector<std::string> values; // as after the = of --set
+
+    friend bool operator==(const Axis&, const Axis&) = default;
+};
+
 /// How many play together, and in which of the experiment's scenes.
 struct Party {
     std::uint32_t peers = 2;
@@ -53,8 +70,8 @@ struct Party {
     friend bool operator==(const Party&, const Party&) = default;
 };
 
-/// How far an impairment is searched: upward from `from` in steps to `to` or the first failure,
-/// then by bisection to `resolution`.
+/// Where the level is looked for at which half of the sessions fail: a coarse scan upward from
+/// `from` in steps, `to` at most; then levels that count, `resolution` or a multiple of it apart.
 struct SearchRange {
     Impairment impairment{};
     ImpairmentLevel from{};
@@ -102,9 +119,10 @@ struct Table1 {
     friend bool operator==(const Table1&, const Table1&) = default;
 };
 
-/// Fig. 6: up to which level of each impairment a task can be done.
+/// Fig. 6: the level of each impairment at which half of the sessions fail.
 struct Limits {
     SearchRanges ranges{};
+    emulator::Order jitter_order = emulator::Order::free; // of messages under searched jitter
     std::optional<Sensitivity> sensitivity{};
 
     friend bool operator==(const Limits&, const Limits&) = default;
@@ -163,11 +181,15 @@ struct Experiment {
     std::vector<std::uint32_t> peers{2};
     std::vector<NamedScene> scenes{}; // none: each task's own
     Hands hands{};
+    device::TaskOptions task_options{};
+    std::vector<NamedTrace> replay{}; // none, or of those that act as L and as R
     bool energy_limit = false;
     bool keyed = false;    // the players seal their messages
+    bool record = false;   // keeps records of the first seed's sessions
     emulator::Path path{}; // the conditions that all sessions have in common
     /// What single links have of their own, whatever is tried on all of them.
     std::vector<emulator::PathPatch> links{};
+    std::optional<Axis> axis{};
 };
 
 /// Every number of peers in every scene.

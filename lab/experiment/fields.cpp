@@ -167,6 +167,31 @@ std::string SceneNames::print(const std::vector<NamedScene>& scenes) const
     return base::List<base::Text>{}.print(names);
 }
 
+void TracesFormat::read(const Node& node, std::vector<NamedTrace>& target, Reading& reading) const
+{
+    const auto* list = std::get_if<Node::List>(&node.value);
+    if (list == nullptr || list->size() != 2) return base::complain_of(node, describe(), reading);
+    std::vector<NamedTrace> traces;
+    for (const Node& one : *list) {
+        NamedTrace& named = traces.emplace_back();
+        base::read_value(one, named.name, reading);
+        if (named.name.empty()) continue;
+        const auto text = reading.open(named.name);
+        if (!text) return reading.complain(one.place, text.error().message);
+        auto trace = device::parse_hand_trace(*text, named.name);
+        if (!trace) return reading.complain(one.place, trace.error().message);
+        named.trace = std::make_shared<const device::HandTrace>(*std::move(trace));
+    }
+    target = std::move(traces);
+}
+
+std::string TracesFormat::print(const std::vector<NamedTrace>& traces) const
+{
+    std::vector<std::string> names;
+    for (const NamedTrace& named : traces) names.push_back(named.name);
+    return base::List<base::Text>{}.print(names);
+}
+
 void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const
 {
     const auto* list = std::get_if<Node::List>(&node.value);

@@ -53,6 +53,17 @@ struct SceneNames {
     }
 };
 
+/// A file for each side, L and R; empty where the simulated hand plays.
+struct TracesFormat {
+    void read(const base::Node& node, std::vector<NamedTrace>& target,
+              base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<NamedTrace>& traces) const;
+    [[nodiscard]] std::string describe() const
+    {
+        return "a list of two files, of L and of R; an empty text where the simulated hand plays";
+    }
+};
+
 /// One operator for both, or a list of two: L and R.
 struct HandsFormat {
     void read(const base::Node& node, Hands& target, base::Reading& reading) const;
@@ -87,13 +98,13 @@ constexpr auto fields_of(base::Tag<RangeOf<what>> /*struct*/)
     constexpr LevelFormat level{what};
     return base::fields(
         base::name_of(what),
-        base::field("from", &SearchRange::from, level, "where the search begins"),
-        base::field("to", &SearchRange::to, level, "where it ends if nothing fails").required(),
+        base::field("from", &SearchRange::from, level, "where the coarse scan begins"),
+        base::field("to", &SearchRange::to, level, "the top of the range").required(),
         base::field("step", &SearchRange::step, level,
-                    "from level to level; a multiple of `resolution`")
+                    "of the coarse scan; a multiple of `resolution`")
             .required(),
         base::field("resolution", &SearchRange::resolution, level,
-                    "to which the first failure is narrowed down")
+                    "the least distance of the levels that count")
             .required());
 }
 
@@ -115,7 +126,8 @@ constexpr auto fields_of(base::Tag<Sensitivity> /*struct*/)
                     "hands, each as in `hands`")
             .required(),
         base::field("tasks", &Sensitivity::tasks, TaskNames{}, "of these searches").required(),
-        base::field("seeds", &Sensitivity::seeds, base::Count{1, seeds_max}, "of these searches")
+        base::field("seeds", &Sensitivity::seeds, base::Count{0, seeds_max},
+                    "of these searches; 0: they are left out")
             .required());
 }
 
@@ -130,6 +142,8 @@ constexpr auto fields_of(base::Tag<Table1> /*struct*/)
 constexpr auto fields_of(base::Tag<Limits> /*struct*/)
 {
     return base::fields("limits", base::field("limit", &Limits::ranges, RangesFormat{}).required(),
+                        base::field("jitter_order", &Limits::jitter_order,
+                                    "whether messages under searched jitter overtake one another"),
                         base::field("convention", &Limits::sensitivity));
 }
 
@@ -179,6 +193,16 @@ template <typename OneKind>
 inline constexpr bool has_own_table =
     std::is_same_v<OneKind, ImpairmentGrid> || std::is_same_v<OneKind, Calibration>;
 
+constexpr auto fields_of(base::Tag<Axis> /*struct*/)
+{
+    return base::fields(
+        "axis",
+        base::field("key", &Axis::key, "any key of the experiment, as after --set").required(),
+        base::field("values", &Axis::values, base::List<base::Text>{{}, 1},
+                    "the values, as after the = of --set")
+            .required());
+}
+
 constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
 {
     using namespace std::chrono_literals;
@@ -205,10 +229,18 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
         base::field("scene", &Experiment::scenes, SceneNames{},
                     "where they play; without it each task has its own"),
         base::field("hands", &Experiment::hands, HandsFormat{}, "whose hands play").always(),
+        base::field("task_options", &Experiment::task_options, base::Table{},
+                    "options of the tasks"),
+        base::field("replay", &Experiment::replay, TracesFormat{},
+                    "hands that move as recorded, CSV as for `hapnet-peer --device replay:FILE`"),
         base::field("energy_limit", &Experiment::energy_limit,
                     "limits the energy into each hand as hapnet-peer does"),
         base::field("keyed", &Experiment::keyed,
-                    "the players seal their messages, as `hapnet-peer --key` does"));
+                    "the players seal their messages, as `hapnet-peer --key` does"),
+        base::field("record", &Experiment::record,
+                    "keeps what each player of the first seed's sessions would have recorded"),
+        base::field("axis", &Experiment::axis, base::Table{},
+                    "the same experiment again for each value of one of its keys"));
 }
 
 /// What a text describes that names only kind and tasks.

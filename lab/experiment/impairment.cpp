@@ -57,14 +57,16 @@ void read_burst_level(const base::Node& node, ImpairmentLevel& target, base::Rea
     target = {static_cast<std::int64_t>(count) * thousand};
 }
 
-void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentLevel level)
+/// A loss adds to what is there; a delay, and a jitter with its mean, stand in its place.
+void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentLevel level,
+            emulator::Order order)
 {
     switch (impairment) {
     case Impairment::delay: conditions.delay = emulator::constant(duration_of(level)); return;
     case Impairment::jitter:
         conditions.delay = emulator::constant(duration_of(level));
         conditions.jitter = emulator::uniform(duration_of(level));
-        conditions.order = emulator::Order::free;
+        conditions.order = order;
         return;
     case Impairment::random_loss:
         conditions.loss.push_back(emulator::RandomLoss{share_of(level)});
@@ -125,12 +127,13 @@ std::string LevelFormat::describe() const
     return {};
 }
 
-emulator::Path impaired(const emulator::Path& ground, Impairment impairment, ImpairmentLevel level)
+emulator::Path impaired(const emulator::Path& ground, Impairment impairment, ImpairmentLevel level,
+                        emulator::Order order)
 {
     emulator::Path path = ground;
     if (level == ImpairmentLevel{}) return path;
-    impair(path.up, impairment, level);
-    impair(path.down, impairment, level);
+    impair(path.up, impairment, level, order);
+    impair(path.down, impairment, level, order);
     return path;
 }
 

@@ -53,8 +53,9 @@ struct LevelFormat {
 
 /// The path `ground` with so much of the impairment, the same both ways. ImpairmentLevel 0 leaves
 /// `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J, each datagram on its own:
-/// they overtake one another.
+/// unless `order` keeps them from it they overtake one another.
 [[nodiscard]] emulator::Path impaired(const emulator::Path& ground, Impairment impairment,
-                                      ImpairmentLevel level);
+                                      ImpairmentLevel level,
+                                      emulator::Order order = emulator::Order::free);
 
 } // namespace hapnet::lab::experiment

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <utility>
 
 namespace hapnet::lab::experiment {
@@ -17,6 +18,24 @@ namespace {
 std::uint32_t seeds_end(const Experiment& experiment, std::uint32_t seeds)
 {
     return experiment.first_seed + seeds;
+}
+
+/// Which seeds.
+struct Seeds {
+    std::uint32_t first = 1;
+    std::uint32_t count = 1;
+};
+
+/// Whether the network draws lots: all but a constant delay may.
+bool has_chance(const emulator::Path& path)
+{
+    emulator::Path delayed;
+    delayed.up.delay = path.up.delay;
+    delayed.down.delay = path.down.delay;
+    const auto is_constant = [](const emulator::Conditions& conditions) {
+        return std::holds_alternative<emulator::ConstantLaw>(conditions.delay.law);
+    };
+    return path != delayed || !is_constant(path.up) || !is_constant(path.down);
 }
 
 /// The sessions of all algorithms, tasks and seeds under the same conditions.
@@ -42,7 +61,10 @@ private:
     void add_seeds(SessionCase one, std::size_t algorithm, const emulator::Path& path,
                    std::uint32_t rows_per_s_of_first_seed) const
     {
-        for (; one.seed < seeds_end(experiment, experiment.seeds); ++one.seed) {
+        // P1 is a prescribed path: without lots every seed gives the same bits.
+        const bool is_one =
+            one.task == device::Task::p1 && !has_chance(path) && experiment.links.empty();
+        for (; one.seed < seeds_end(experiment, is_one ? 1 : experiment.seeds); ++one.seed) {
             auto spec = make_session_spec(experiment, one, path);
             const bool is_first = one.seed == experiment.first_seed;
             spec.rows_per_s = is_first ? rows_per_s_of_first_seed : 0;
@@ -67,7 +89,7 @@ struct MakeJobs {
     {
         for_each_search(limits, experiment.tasks,
                         [&](SearchJob job) { jobs.emplace_back(std::move(job)); });
-        if (!limits.sensitivity) return;
+        if (!limits.sensitivity || limits.sensitivity->seeds == 0) return;
         for_each_search(limits, limits.sensitivity->tasks, [&](const SearchJob& job) {
             for (const Hands& hands : limits.sensitivity->hands) {
                 jobs.emplace_back(
@@ -120,55 +142,92 @@ private:
     }
 };
 
-/// One search: judges levels, seed after seed, and keeps what it has judged.
-class LevelJudge {
+/// One search: plays sessions as they are asked for, and keeps what it has scored.
+class LevelPlayer {
 public:
-    LevelJudge(const Experiment& experiment, SessionCase session, Impairment impairment,
-               const PlaySession& play)
+    LevelPlayer(const Experiment& experiment, SessionCase session, Impairment impairment,
+                const PlaySession& play)
         : experiment_{experiment}, session_{session}, impairment_{impairment}, play_{play}
     {}
 
-    /// Whether all seeds are usable; the first that is not ends it.
-    base::Result<bool> passes(ImpairmentLevel level, std::uint32_t seeds,
-                              const metrics::Criteria& criteria)
-    {
-        for (std::uint32_t seed = experiment_.first_seed; seed < seeds_end(experiment_, seeds);
-             ++seed) {
-            const auto scores = scores_at(level, seed);
-            if (!scores) return tl::unexpected{scores.error()};
-            const metrics::Tier tier = judge(*scores, criteria).tier;
-            curve_.push_back({level, seed, *scores, tier});
-            if (tier == metrics::Tier::unusable) return false;
-        }
-        return true;
-    }
-
-    std::vector<CurvePoint> curve() &&
-    {
-        std::stable_sort(curve_.begin(), curve_.end(),
-                         [](const auto& a, const auto& b) { return a.level < b.level; });
-        return std::move(curve_);
-    }
-
-private:
     base::Result<metrics::Scores> scores_at(ImpairmentLevel level, std::uint32_t seed)
     {
+        const auto known = scores_.find({level, seed});
+        if (known != scores_.end()) return known->second;
         session_.seed = seed;
-        const auto path = impaired(experiment_.path, impairment_, level);
+        const auto order = std::get<Limits>(experiment_.kind).jitter_order;
+        const auto path = impaired(experiment_.path, impairment_, level, order);
         const auto spec = make_session_spec(experiment_, session_, path);
         const auto played = play_(spec);
         if (!played) return tl::unexpected{played.error()};
         const auto perfect = play_(perfect_twin(spec));
         if (!perfect) return tl::unexpected{perfect.error()};
-        return scores_of(played->metrics, perfect->metrics);
+        const auto scores = scores_of(played->metrics, perfect->metrics);
+        scores_.emplace(std::pair{level, seed}, scores);
+        return scores;
     }
 
+    using Sessions = std::map<std::pair<ImpairmentLevel, std::uint32_t>, metrics::Scores>;
+    [[nodiscard]] const Sessions& all() const { return scores_; }
+
+private:
     const Experiment& experiment_;
     SessionCase session_;
     Impairment impairment_;
     const PlaySession& play_;
-    std::vector<CurvePoint> curve_;
+    Sessions scores_;
 };
+
+/// Looks for the levels that count, and says which seeds fail at them.
+base::Result<std::vector<metrics::LevelOutcome>> searched(LevelPlayer& player,
+                                                          const SearchRange& range, Seeds seeds,
+                                                          const metrics::Criteria& criteria)
+{
+    const auto fails = [&](ImpairmentLevel level, std::uint32_t index) -> base::Result<bool> {
+        return player.scores_at(level, seeds.first + index).map([&](const auto& scores) {
+            return judge(scores, criteria).tier == metrics::Tier::unusable;
+        });
+    };
+    const auto outcome_at = [&](ImpairmentLevel level,
+                                std::uint32_t count) -> base::Result<metrics::LevelOutcome> {
+        metrics::LevelOutcome outcome{in_units(level), {}};
+        for (std::uint32_t index = 0; index < count; ++index) {
+            const auto failed = fails(level, index);
+            if (!failed) return tl::unexpected{failed.error()};
+            outcome.failed.push_back(*failed);
+        }
+        return outcome;
+    };
+    const auto levels =
+        levels_to_count(range, seeds.count, [&](ImpairmentLevel level, std::uint32_t count) {
+            return outcome_at(level, count).map([](const metrics::LevelOutcome& outcome) {
+                return static_cast<std::uint32_t>(std::ranges::count(outcome.failed, true));
+            });
+        });
+    if (!levels) return tl::unexpected{levels.error()};
+    std::vector<metrics::LevelOutcome> outcomes;
+    for (const ImpairmentLevel level : *levels) {
+        auto outcome = outcome_at(level, seeds.count);
+        if (!outcome) return tl::unexpected{outcome.error()};
+        outcomes.push_back(*std::move(outcome));
+    }
+    return outcomes;
+}
+
+/// All that was played for a search.
+std::vector<CurvePoint> curve_of(const LevelPlayer& player,
+                                 const std::vector<metrics::LevelOutcome>& outcomes,
+                                 const metrics::Criteria& criteria)
+{
+    std::vector<CurvePoint> curve;
+    for (const auto& [which, scores] : player.all()) {
+        const auto& [level, seed] = which;
+        const bool counts = std::ranges::find(outcomes, in_units(level),
+                                              &metrics::LevelOutcome::level) != outcomes.end();
+        curve.push_back({level, seed, counts, scores, judge(scores, criteria).tier});
+    }
+    return curve;
+}
 
 struct RunJob {
     const Experiment& experiment;
@@ -187,35 +246,34 @@ struct RunJob {
 
     base::Result<JobResult> operator()(const SearchJob& job) const
     {
-        LevelJudge levels{experiment,
-                          {experiment.algorithms[job.algorithm], experiment.hands, job.task,
-                           experiment.first_seed, job.party},
-                          job.range.impairment,
-                          play};
-        const auto limit = find_limit(job.range, [&](ImpairmentLevel level) {
-            return levels.passes(level, experiment.seeds, criteria);
-        });
-        if (!limit) return tl::unexpected{limit.error()};
-        return SearchResult{*limit, std::move(levels).curve()};
+        LevelPlayer player{experiment,
+                           {experiment.algorithms[job.algorithm], experiment.hands, job.task,
+                            experiment.first_seed, job.party},
+                           job.range.impairment,
+                           play};
+        auto outcomes =
+            searched(player, job.range, {experiment.first_seed, experiment.seeds}, criteria);
+        if (!outcomes) return tl::unexpected{outcomes.error()};
+        auto curve = curve_of(player, *outcomes, criteria);
+        return SearchResult{*std::move(outcomes), std::move(curve)};
     }
 
     base::Result<JobResult> operator()(const SensitivityJob& job) const
     {
         const Sensitivity& sensitivity = *std::get<Limits>(experiment.kind).sensitivity;
-        LevelJudge levels{experiment,
-                          {experiment.algorithms[job.algorithm], job.hands, job.task,
-                           experiment.first_seed, job.party},
-                          job.range.impairment,
-                          play};
+        LevelPlayer player{experiment,
+                           {experiment.algorithms[job.algorithm], job.hands, job.task,
+                            experiment.first_seed, job.party},
+                           job.range.impairment,
+                           play};
         SensitivityResult result;
         for (const metrics::FilterOrder order : sensitivity.filter_orders) {
             metrics::Criteria by_order = criteria;
             by_order.filter_order = order;
-            const auto limit = find_limit(job.range, [&](ImpairmentLevel level) {
-                return levels.passes(level, sensitivity.seeds, by_order);
-            });
-            if (!limit) return tl::unexpected{limit.error()};
-            result.limits.push_back(*limit);
+            auto outcomes =
+                searched(player, job.range, {experiment.first_seed, sensitivity.seeds}, by_order);
+            if (!outcomes) return tl::unexpected{outcomes.error()};
+            result.outcomes.push_back(*std::move(outcomes));
         }
         return result;
     }

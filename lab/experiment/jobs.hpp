@@ -4,6 +4,7 @@
 
 #include "lab/experiment/search.hpp"
 #include "lab/experiment/session_spec.hpp"
+#include "lab/metrics/psychometric.hpp"
 #include "lab/metrics/verdict.hpp"
 
 #include <cstddef>
@@ -62,18 +63,20 @@ struct SessionResult {
 struct CurvePoint {
     ImpairmentLevel level{};
     std::uint32_t seed = 1;
+    bool counts = false; // not only for the coarse scan
     metrics::Scores scores{};
     metrics::Tier tier{};
 };
 
+/// What came of the levels that count (levels in the impairment's unit), and all sessions.
 struct SearchResult {
-    Limit limit{};
-    std::vector<CurvePoint> curve{}; // ascending in level, then seed
+    std::vector<metrics::LevelOutcome> outcomes{}; // ascending
+    std::vector<CurvePoint> curve{};               // ascending in level, then seed
 };
 
-/// The limits by the filter orders of the sensitivity check, in their order.
+/// The same by the filter orders of the sensitivity check, in their order.
 struct SensitivityResult {
-    std::vector<Limit> limits{};
+    std::vector<std::vector<metrics::LevelOutcome>> outcomes{};
 };
 
 struct SilenceResult {

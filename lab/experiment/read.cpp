@@ -108,6 +108,16 @@ void check_parties(const Experiment& experiment, base::Place place, Reading& rea
     }
 }
 
+/// Complains of records of too many sessions, and of sealed messages.
+void check_record(const Experiment& experiment, base::Place place, Reading& reading)
+{
+    if (!experiment.record) return;
+    const bool has_few = std::holds_alternative<Table1>(experiment.kind) ||
+                         std::holds_alternative<Trajectories>(experiment.kind);
+    if (!has_few) return reading.complain(place, "records are kept by table1 and trajectories");
+    if (experiment.keyed) reading.complain(place, "a record holds messages without keys");
+}
+
 Experiment read_experiment(const Node& document, Reading& reading)
 {
     TableReader table{std::get<Node::Table>(document.value), document.place, reading};
@@ -118,7 +128,9 @@ Experiment read_experiment(const Node& document, Reading& reading)
     read_network(table, experiment);
     read_kind(table, experiment.kind);
     table.finish();
-    for (const char* key : {"matrix", "link", "scene", "peers"}) {
+    if (const Node* node = table.find("record"); node != nullptr && reading.is_good())
+        check_record(experiment, node->place, reading);
+    for (const char* key : {"matrix", "link", "scene", "peers", "replay"}) {
         const Node* node = table.find(key);
         if (node == nullptr || !reading.is_good()) continue;
         check_parties(experiment, node->place, reading);
@@ -194,6 +206,28 @@ base::Result<Experiment> load_experiment(const std::string& file_or_name,
     const auto found = base::find_text(file_or_name, built_in_experiments(), "an experiment", open);
     if (!found) return tl::unexpected{found.error()};
     return parse_experiment(found->text, found->source, overrides, open);
+}
+
+base::Result<std::vector<AxisPoint>> load_axis_points(const std::string& file_or_name,
+                                                      const base::OpenFile& open,
+                                                      const Overrides& overrides)
+{
+    const auto whole = load_experiment(file_or_name, open, overrides);
+    if (!whole) return tl::unexpected{whole.error()};
+    std::vector<AxisPoint> points;
+    if (!whole->axis) {
+        points.push_back({{}, *whole});
+        return points;
+    }
+    for (const std::string& value : whole->axis->values) {
+        Overrides at = overrides;
+        at.settings.push_back(fmt::format("{}={}", whole->axis->key, value));
+        auto one = load_experiment(file_or_name, open, at);
+        if (!one) return tl::unexpected{one.error()};
+        one->axis.reset();
+        points.push_back({value, *std::move(one)});
+    }
+    return points;
 }
 
 } // namespace hapnet::lab::experiment

@@ -5,24 +5,30 @@
 #include "lab/experiment/experiment.hpp"
 #include "proto/base/result.hpp"
 
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace hapnet::lab::experiment {
 
-/// The last level that passed before the first that failed.
-struct Limit {
-    ImpairmentLevel level{}; // 0 also when nothing passed
-    bool ever_failed = true;
+/// How many of the first `seeds` seeds fail at a level; an error ends the search.
+using Failures = std::function<base::Result<std::uint32_t>(ImpairmentLevel, std::uint32_t seeds)>;
 
-    friend bool operator==(const Limit&, const Limit&) = default;
-};
+inline constexpr std::uint32_t scan_seeds = 4;   // of a coarse scan
+inline constexpr std::size_t counted_levels = 8; // with all seeds
+inline constexpr std::size_t further_levels = 8; // at equal distance, where those do not reach
 
-/// Whether a task can be done at a level; an error ends the search.
-using Passes = std::function<base::Result<bool>(ImpairmentLevel)>;
-
-/// Scans upward from `from` in steps to the first level that fails, then halves the gap below it
-/// until it is no more than the resolution. What passes again beyond is not looked for. When
-/// `from` itself fails, the scan begins at 0.
-[[nodiscard]] base::Result<Limit> find_limit(const SearchRange& range, const Passes& passes);
+/// The levels that count, ascending: at each all seeds are played.
+///
+/// A coarse scan with a few seeds looks for the range in which sessions begin to fail: upward from
+/// `from` in steps (from 0 when `from` itself has failures), to the first level at which all fail;
+/// then with smaller steps between the last level without failures and that one. It does not count.
+/// Eight levels lie across what it found, a multiple of `resolution` apart. While more than a tenth
+/// of all seeds fails at the lowest of them, lower ones are added; while less than half fails at
+/// the highest, higher ones: eight at the same distance, and each after those twice as far on as
+/// the one before, down to 0 or up to `to`. When nothing fails in the scan, nor with all seeds at
+/// `to`, that is the only level.
+[[nodiscard]] base::Result<std::vector<ImpairmentLevel>>
+levels_to_count(const SearchRange& range, std::uint32_t seeds, const Failures& failures);
 
 } // namespace hapnet::lab::experiment

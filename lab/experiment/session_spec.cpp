@@ -28,11 +28,25 @@ scene::Description scene_for(device::Task task)
     return *built_in;
 }
 
+/// What a replayed hand does; empty for a simulated one.
+std::string replay_text(const virtual_time::PlayerSetting& player)
+{
+    if (!player.replay) return {};
+    std::string text = "replay";
+    for (const device::HandMoment& moment : *player.replay) {
+        const auto& hip = moment.hip;
+        text += fmt::format(" {} {} {} {} {}", moment.time_s, hip.x(), hip.y(), hip.z(),
+                            moment.gripping);
+    }
+    return text + '\n';
+}
+
 std::string player_text(const virtual_time::PlayerSetting& player)
 {
-    return fmt::format(
-        "{}{}clock_ahead = {}\nphase = {}\n", peer::print_algorithm(player.algorithm),
-        device::print_operator(player.person), player.clock_ahead.count(), player.phase.count());
+    return fmt::format("{}{}clock_ahead = {}\nphase = {}\n{}",
+                       peer::print_algorithm(player.algorithm),
+                       device::print_operator(player.person), player.clock_ahead.count(),
+                       player.phase.count(), replay_text(player));
 }
 
 } // namespace
@@ -43,6 +57,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     SessionSpec spec;
     virtual_time::Setting& setting = spec.setting;
     setting.task = one.task;
+    setting.task_options = experiment.task_options;
     const auto& scene = one.party.scene;
     setting.scene = scene ? experiment.scenes[*scene].scene : scene_for(one.task);
     setting.seed = base::Seed{one.seed};
@@ -55,6 +70,8 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
         setting.players[seat].algorithm = one.algorithm.algorithm;
         setting.players[seat].person = seat % 2 == 0 ? one.hands.left : one.hands.right;
+        if (!experiment.replay.empty())
+            setting.players[seat].replay = experiment.replay[seat % 2].trace;
         if (experiment.keyed) setting.players[seat].circle = setting.seed;
     }
     return spec;
@@ -86,7 +103,10 @@ std::string key_of(const SessionSpec& spec, std::string_view program)
     // Without them the key is the one that sessions had before there were any.
     const std::string_view limit = setting.energy_limit ? "energy_limit = true\n" : "";
     const std::string_view keyed = setting.players.front().circle ? "keyed = true\n" : "";
-    return fmt::format("{} {:016x}", label, hash_of(fmt::format("{}{}{}", all, limit, keyed)));
+    const bool is_usual = setting.task_options == device::TaskOptions{};
+    const auto options = is_usual ? std::string{} : base::field_lines(setting.task_options);
+    return fmt::format("{} {:016x}", label,
+                       hash_of(fmt::format("{}{}{}{}", all, limit, keyed, options)));
 }
 
 } // namespace hapnet::lab::experiment

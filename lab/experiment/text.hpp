@@ -47,4 +47,15 @@ struct BuiltInExperiment {
                                                        const base::OpenFile& open,
                                                        const Overrides& overrides);
 
+/// The experiment at one value of its axis.
+struct AxisPoint {
+    std::string value; // empty: it has no axis
+    Experiment experiment;
+};
+
+/// The experiment at every value of its axis, or as it is when it has none.
+[[nodiscard]] base::Result<std::vector<AxisPoint>> load_axis_points(const std::string& file_or_name,
+                                                                    const base::OpenFile& open,
+                                                                    const Overrides& overrides);
+
 } // namespace hapnet::lab::experiment

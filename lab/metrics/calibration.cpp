@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/calibration.hpp"
 
+#include "lab/metrics/paired.hpp"
 #include "lab/metrics/verdict.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
+#include <vector>
 
 namespace hapnet::lab::metrics {
 
@@ -16,43 +21,65 @@ namespace {
 constexpr double vibration_steps_per_m = 1e5;
 constexpr double stiffness_steps = 1e3;
 
-std::optional<ByOrder> largest_vibration(std::span<const Scores> sessions)
+/// The values of a number by task; sessions that do not tell it are left out.
+template <typename Value>
+std::map<device::Task, std::vector<double>> by_task(std::span<const Scores> sessions, Value value)
 {
-    std::optional<ByOrder> largest;
+    std::map<device::Task, std::vector<double>> values;
     for (const Scores& scores : sessions) {
-        if (!scores.vibration_m) continue;
-        const ByOrder& value = *scores.vibration_m;
-        if (!largest) largest = value;
-        largest->first = std::max(largest->first, value.first);
-        largest->second = std::max(largest->second, value.second);
-        largest->fourth = std::max(largest->fourth, value.fourth);
+        if (const std::optional<double> one = value(scores)) values[scores.task].push_back(*one);
+    }
+    return values;
+}
+
+/// The largest of the tasks' medians.
+std::optional<double> median_vibration(std::span<const Scores> sessions, double ByOrder::*order)
+{
+    std::optional<double> largest;
+    const auto values = by_task(sessions, [&](const Scores& scores) {
+        return scores.vibration_m ? std::optional{*scores.vibration_m.*order} : std::nullopt;
+    });
+    for (const auto& [task, of_task] : values) {
+        const double median = median_of(of_task);
+        largest = std::max(largest.value_or(median), median);
     }
     return largest;
 }
 
-std::optional<double> least_stiffness(std::span<const Scores> sessions)
+/// The least of the tasks' medians.
+std::optional<double> median_stiffness(std::span<const Scores> sessions)
 {
     std::optional<double> least;
-    for (const Scores& scores : sessions) {
-        const auto& ratio = scores.stiffness_ratio[judged_press];
-        if (ratio) least = std::min(least.value_or(*ratio), *ratio);
+    const auto values = by_task(
+        sessions, [](const Scores& scores) { return scores.stiffness_ratio[judged_press]; });
+    for (const auto& [task, of_task] : values) {
+        const double median = median_of(of_task);
+        least = std::min(least.value_or(median), median);
     }
     return least;
 }
 
-double vibration_limit(double worst)
-{
-    return std::ceil(worst * vibration_steps_per_m) / vibration_steps_per_m;
-}
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
 
-/// What is not usable by these criteria, all the same.
-std::optional<std::string> objection_to(std::span<const Scores> sessions, const Criteria& criteria)
+/// What more than half of a task's sessions fail by, whatever the two numbers are.
+std::optional<std::string> objection_to(std::span<const Scores> sessions, Criteria criteria)
 {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    criteria.usable.vibration_max_m = {none, none, none};
+    criteria.usable.stiffness_ratio_min = -none;
+    std::map<device::Task, std::pair<std::size_t, std::size_t>> counts; // failed, of
+    std::map<device::Task, std::string> reasons;
     for (const Scores& scores : sessions) {
+        auto& [failed, all] = counts[scores.task];
+        ++all;
         const Judgement judgement = judge(scores, criteria);
         if (judgement.failures.empty()) continue;
-        return fmt::format("{}: {}", device::name_of(scores.task),
-                           fmt::join(judgement.failures, "; "));
+        ++failed;
+        reasons[scores.task] = fmt::format("{}: {}", device::name_of(scores.task),
+                                           fmt::join(judgement.failures, "; "));
+    }
+    for (const auto& [task, count] : counts) {
+        if (2 * count.first > count.second) return reasons[task];
     }
     return std::nullopt;
 }
@@ -61,23 +88,29 @@ std::optional<std::string> objection_to(std::span<const Scores> sessions, const 
 
 base::Result<Criteria> calibrated(const CalibrationSessions& sessions, const Criteria& rest)
 {
-    const auto vibration = largest_vibration(sessions.at_random_loss);
-    const auto stiffness = least_stiffness(sessions.at_delay);
-    if (!vibration) return base::fail("no session under random loss tells of vibration");
+    const auto lossy = sessions.at_random_loss;
+    const auto first = median_vibration(lossy, &ByOrder::first);
+    const auto second = median_vibration(lossy, &ByOrder::second);
+    const auto fourth = median_vibration(lossy, &ByOrder::fourth);
+    const auto stiffness = median_stiffness(sessions.at_delay);
+    if (!first || !second || !fourth) {
+        return base::fail("no session under random loss tells of vibration");
+    }
     if (!stiffness) return base::fail("no session under delay tells of stiffness: play T2");
-    if (*stiffness * stiffness_steps < 1.0) {
+    if (rounded(*stiffness, stiffness_steps) <= 0.0) {
         return base::fail(fmt::format("at the delay no stiffness is left: {:.3f}", *stiffness));
     }
     Criteria criteria = rest;
-    criteria.usable.vibration_max_m = {.first = vibration_limit(vibration->first),
-                                       .second = vibration_limit(vibration->second),
-                                       .fourth = vibration_limit(vibration->fourth)};
-    criteria.usable.stiffness_ratio_min =
-        std::floor(*stiffness * stiffness_steps) / stiffness_steps;
+    criteria.usable.vibration_max_m = {.first = rounded(*first, vibration_steps_per_m),
+                                       .second = rounded(*second, vibration_steps_per_m),
+                                       .fourth = rounded(*fourth, vibration_steps_per_m)};
+    criteria.usable.stiffness_ratio_min = rounded(*stiffness, stiffness_steps);
     for (const auto& played : {sessions.at_delay, sessions.at_random_loss}) {
         const auto objection = objection_to(played, criteria);
         if (objection) {
-            return base::fail("a session to calibrate on is not usable in any case: " + *objection);
+            return base::fail("more than half of the sessions to calibrate on are not usable in "
+                              "any case: " +
+                              *objection);
         }
     }
     return criteria;

@@ -39,6 +39,18 @@ constexpr auto fields_of(base::Tag<Similarity>)
                         base::field("lag_s", &Similarity::lag_s));
 }
 
+constexpr auto fields_of(base::Tag<BodyApart>)
+{
+    constexpr auto field = [](std::string_view key, auto member) {
+        return base::field(key, member, JsonOnly{});
+    };
+    return base::fields("body", field("discrepancy_x_m", &BodyApart::discrepancy_x_m),
+                        field("discrepancy_m", &BodyApart::discrepancy_m),
+                        field("turned_apart_rad", &BodyApart::turned_apart_rad),
+                        field("settled_m", &BodyApart::settled_m),
+                        field("settled_rad", &BodyApart::settled_rad));
+}
+
 /// All but the task, which is a name.
 constexpr auto fields_of(base::Tag<Metrics>)
 {
@@ -51,7 +63,7 @@ constexpr auto fields_of(base::Tag<Metrics>)
         field("stiffness_n_per_m", &Metrics::stiffness_n_per_m),
         field("force_discrepancy", &Metrics::force_discrepancy),
         field("discrepancy_m", &Metrics::discrepancy_m),
-        field("turned_apart_rad", &Metrics::turned_apart_rad),
+        field("turned_apart_rad", &Metrics::turned_apart_rad), field("bodies", &Metrics::bodies),
         field("force_vibration_n", &Metrics::force_vibration_n),
         field("felt_vibration_n", &Metrics::felt_vibration_n),
         field("contact_lost", &Metrics::contact_lost), field("force_steps", &Metrics::force_steps),

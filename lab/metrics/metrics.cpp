@@ -3,7 +3,6 @@
 #include "lab/metrics/metrics.hpp"
 
 #include "device/simulated/press_schedule.hpp"
-#include "lab/metrics/angle.hpp"
 #include "lab/metrics/causality.hpp"
 #include "lab/metrics/columns.hpp"
 #include "lab/metrics/contact.hpp"
@@ -61,72 +60,6 @@ struct TraceColumns {
         return begin_s <= stretch.begin_s + 0.5 * tick_s && end_s >= stretch.end_s - 0.5 * tick_s;
     }
 };
-
-/// Of the pair of sides whose mean is largest; `distance(a, b, i)` is that of two at sample i.
-template <typename Distance>
-std::optional<Spread> widest_spread(std::size_t sides, std::size_t count, const Distance& distance)
-{
-    std::optional<Spread> widest;
-    std::vector<double> distances(count);
-    for (std::size_t a = 0; a < sides; ++a) {
-        for (std::size_t b = a + 1; b < sides; ++b) {
-            for (std::size_t i = 0; i < count; ++i) distances[i] = distance(a, b, i);
-            const auto spread = spread_of(distances);
-            if (!widest || (spread && !(spread->mean <= widest->mean))) widest = spread;
-        }
-    }
-    return widest;
-}
-
-/// Where a side's sample has one of the bodies.
-virtual_time::Pose pose_of(const virtual_time::Trace& trace, std::size_t side, std::size_t sample,
-                           std::size_t body)
-{
-    if (body > 0) return trace.further[side][sample * trace.further_bodies + body - 1];
-    const virtual_time::Sample& first = trace.sides[side][sample];
-    return {first.body, first.orientation};
-}
-
-/// Of the body, and the two copies of it, that are farthest apart in the mean.
-std::optional<Spread> body_discrepancy(const virtual_time::Trace& trace)
-{
-    std::optional<Spread> widest;
-    for (std::size_t body = 0; body <= trace.further_bodies; ++body) {
-        const auto apart = [&](std::size_t a, std::size_t b, std::size_t i) {
-            return std::abs(pose_of(trace, a, i, body).position.x() -
-                            pose_of(trace, b, i, body).position.x());
-        };
-        widest =
-            worse(widest, widest_spread(trace.sides.size(), trace.sides.front().size(), apart));
-    }
-    return widest;
-}
-
-bool is_turned_by_any(const virtual_time::Trace& trace, std::size_t body)
-{
-    for (std::size_t side = 0; side < trace.sides.size(); ++side) {
-        const glm::dquat first = pose_of(trace, side, 0, body).orientation;
-        for (std::size_t i = 0; i < trace.sides[side].size(); ++i)
-            if (pose_of(trace, side, i, body).orientation != first) return true;
-    }
-    return false;
-}
-
-/// Likewise of the bodies that turn.
-std::optional<Spread> turned_apart(const virtual_time::Trace& trace)
-{
-    std::optional<Spread> widest;
-    for (std::size_t body = 0; body <= trace.further_bodies; ++body) {
-        if (!is_turned_by_any(trace, body)) continue;
-        const auto angle = [&](std::size_t a, std::size_t b, std::size_t i) {
-            return angle_between(pose_of(trace, a, i, body).orientation,
-                                 pose_of(trace, b, i, body).orientation);
-        };
-        widest =
-            worse(widest, widest_spread(trace.sides.size(), trace.sides.front().size(), angle));
-    }
-    return widest;
-}
 
 std::optional<double> path_rms(const TraceColumns& columns, const Columns& side)
 {
@@ -244,8 +177,9 @@ Metrics metrics_of(const virtual_time::Trace& trace)
     if (!columns.exercise.lifted.empty()) metrics.drops = drops(columns);
     const Columns &left = columns.sides[0], &right = columns.sides[1];
     if (columns.exercise.presses) metrics.force_discrepancy = force_discrepancy_of(left, right);
-    metrics.discrepancy_m = body_discrepancy(trace);
-    metrics.turned_apart_rad = turned_apart(trace);
+    metrics.bodies = bodies_apart(trace);
+    metrics.discrepancy_m = widest_discrepancy_x(metrics.bodies);
+    metrics.turned_apart_rad = widest_turned_apart(metrics.bodies);
     metrics.energy_taken_j = energy_taken_of(work);
     if (columns.exercise.taps) metrics.response_s = response_of(left, right, columns.tick_s);
     return metrics;

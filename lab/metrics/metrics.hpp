@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/metrics/bodies.hpp"
 #include "lab/metrics/high_pass.hpp"
 #include "lab/metrics/similarity.hpp"
 #include "lab/metrics/spread.hpp"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace hapnet::lab::metrics {
 
@@ -43,6 +45,8 @@ struct Metrics {
     /// D of a body that turns: the angle between its orientations in two copies at equal times,
     /// radians; of the two copies that are farthest apart in the mean. nullopt when none turns.
     std::optional<Spread> turned_apart_rad{};
+    /// D of each shared body, in the order of their ids.
+    std::vector<BodyApart> bodies{};
     /// E: root mean square of the force on the hand in x above 20 Hz, newtons.
     BySide<ByOrder> force_vibration_n{};
     /// E between 20 and 300 Hz. Not weighted by how well a stylus transmits: no table of that was

@@ -22,12 +22,13 @@ using record::TickRow;
 // Once both let go, the copies have this long to agree again.
 constexpr base::Duration settling_time = 2s;
 
-std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& moments)
+std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& moments,
+                                                     base::Force TickRow::*force)
 {
     std::vector<double> distances;
     for (const Moment& moment : moments) {
         if (moment.both_in(Phase::running) && moment.both_touch()) {
-            distances.push_back(moment.force_distance());
+            distances.push_back(moment.force_distance(force));
         }
     }
     const auto spread = metrics::spread_of(distances);
@@ -48,6 +49,44 @@ std::vector<const Moment*> settled_moments(const std::vector<Moment>& moments)
     return settled;
 }
 
+/// How often one side of the moments says another owner than before.
+class Handovers {
+public:
+    void note(std::uint16_t owner)
+    {
+        if (owner == 0) return;
+        if (last_ != 0 && owner != last_) ++count_;
+        last_ = owner;
+    }
+    /// nullopt: it never said one.
+    [[nodiscard]] std::optional<std::uint64_t> count() const
+    {
+        return last_ == 0 ? std::nullopt : std::optional{count_};
+    }
+
+private:
+    std::uint16_t last_ = 0;
+    std::uint64_t count_ = 0;
+};
+
+void add_owners(const Copies& copies, const std::vector<Moment>& moments, BodyAgreement& agreement)
+{
+    Handovers of_a, of_b;
+    double same = 0.0, known = 0.0;
+    for (const Moment& moment : moments) {
+        if (!moment.both_in(Phase::running)) continue;
+        const std::uint16_t a = copies.a().owner_at(*moment.a);
+        const std::uint16_t b = copies.b().owner_at(*moment.before);
+        of_a.note(a);
+        of_b.note(b);
+        if (a == 0 || b == 0) continue;
+        known += 1.0;
+        same += a == b ? 1.0 : 0.0;
+    }
+    agreement.handovers = std::max(of_a.count(), of_b.count());
+    if (known > 0.0) agreement.same_owner = same / known;
+}
+
 BodyAgreement agreement_of(const Session& session, const RecordedBody& body,
                            const std::vector<Moment>& moments)
 {
@@ -65,6 +104,7 @@ BodyAgreement agreement_of(const Session& session, const RecordedBody& body,
     agreement.discrepancy_x = metrics::spread_of(along_x);
     agreement.discrepancy = metrics::spread_of(distances);
     agreement.turned_apart = metrics::spread_of(angles);
+    add_owners(copies, moments, agreement);
     for (const Moment* moment : settled_moments(moments)) {
         const auto apart = copies.apart_at(*moment);
         if (!apart) continue;
@@ -123,7 +163,9 @@ Agreement agreement_of(const Session& session)
     const auto moments = moments_of(session);
     Agreement agreement{.bodies{},
                         .discrepancy_x{},
-                        .force_discrepancy = force_discrepancy_of(moments),
+                        .force_discrepancy = force_discrepancy_of(moments, &TickRow::device),
+                        .contact_force_discrepancy =
+                            force_discrepancy_of(moments, &TickRow::contact),
                         .settled_discrepancy{},
                         .settled_turned_apart{},
                         .touching = touch_shares_of(moments),

@@ -6,6 +6,7 @@
 #include "lab/records/session.hpp"
 #include "proto/base/time.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,12 @@ struct BodyAgreement {
     /// nullopt when that was not reached, and the angle of a body that cannot turn.
     std::optional<double> settled_discrepancy{};
     std::optional<double> settled_turned_apart{};
+    /// How often its owner changed while both were running, as the side has it that saw more of
+    /// it; nullopt when the records do not say who owns it.
+    std::optional<std::uint64_t> handovers{};
+    /// The share of that time, 0 to 1, in which both say that the same peer owns it. While both
+    /// hands move it, each side says its own.
+    std::optional<double> same_owner{};
 };
 
 /// How well both copies of the scene agree at equal times, namely at each tick of A; B's state
@@ -48,9 +55,11 @@ struct Agreement {
     /// |x_A - x_B| of the body that is farthest apart in the mean, in metres, while both are
     /// running; nullopt when they never are.
     std::optional<metrics::Spread> discrepancy_x;
-    /// ||F_A| - |F_B|| of the contact forces while both are running and touch; nullopt when they
-    /// never do.
+    /// ||F_A| - |F_B|| of the forces that the devices were told, after their governors, while both
+    /// are running and touch; nullopt when they never do.
     std::optional<ForceDiscrepancy> force_discrepancy;
+    /// Likewise of the contact forces, before the governor.
+    std::optional<ForceDiscrepancy> contact_force_discrepancy;
     /// The largest of all bodies.
     std::optional<double> settled_discrepancy;
     std::optional<double> settled_turned_apart;

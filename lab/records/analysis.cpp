@@ -42,6 +42,8 @@ void judge(const Agreement& agreement, std::vector<std::string>& objections)
     const bool finite =
         (!agreement.discrepancy_x || std::isfinite(agreement.discrepancy_x->std)) &&
         (!agreement.force_discrepancy || std::isfinite(agreement.force_discrepancy->mean)) &&
+        (!agreement.contact_force_discrepancy ||
+         std::isfinite(agreement.contact_force_discrepancy->mean)) &&
         std::isfinite(agreement.settled_discrepancy.value_or(0.0)) &&
         std::isfinite(agreement.settled_turned_apart.value_or(0.0));
     if (!finite) objections.emplace_back("positions or forces were not finite");
@@ -53,7 +55,8 @@ std::int64_t id_of(const record::Record& record)
     return id.is_number_integer() ? id.get<std::int64_t>() : 0;
 }
 
-/// Of two pairs of copies of one body the farther apart, quantity by quantity.
+/// Of two pairs of copies of one body the farther apart, quantity by quantity; a quantity that only
+/// one has is that one's.
 BodyAgreement worse_of(const BodyAgreement& a, const BodyAgreement& b)
 {
     return {.body = a.body,
@@ -61,7 +64,10 @@ BodyAgreement worse_of(const BodyAgreement& a, const BodyAgreement& b)
             .discrepancy = worse(a.discrepancy, b.discrepancy),
             .turned_apart = worse(a.turned_apart, b.turned_apart),
             .settled_discrepancy = worse(a.settled_discrepancy, b.settled_discrepancy),
-            .settled_turned_apart = worse(a.settled_turned_apart, b.settled_turned_apart)};
+            .settled_turned_apart = worse(a.settled_turned_apart, b.settled_turned_apart),
+            .handovers = std::max(a.handovers, b.handovers),
+            .same_owner = a.same_owner && b.same_owner ? std::min(a.same_owner, b.same_owner)
+                                                       : std::max(a.same_owner, b.same_owner)};
 }
 
 } // namespace

@@ -98,7 +98,9 @@ Json json_of(const std::vector<BodyAgreement>& bodies)
             {"discrepancy_x_mm", json_of(one.discrepancy_x)},
             {"turned_apart_deg", json_of(one.turned_apart, degrees)},
             {"settled_discrepancy_mm", number(scaled(one.settled_discrepancy, mm))},
-            {"settled_turned_apart_deg", number(scaled(one.settled_turned_apart, degrees))}};
+            {"settled_turned_apart_deg", number(scaled(one.settled_turned_apart, degrees))},
+            {"handovers", one.handovers ? Json(*one.handovers) : Json(nullptr)},
+            {"same_owner", number(one.same_owner)}};
     }
     return out;
 }
@@ -113,7 +115,8 @@ TextTable bodies_table(const std::vector<BodyAgreement>& bodies)
 {
     TextTable table{"How far the copies of each body were apart at equal times",
                     "bodies",
-                    {"mean, mm", "max, mm", "mean, deg", "max, deg", "settled, mm", "settled, deg"},
+                    {"mean, mm", "max, mm", "mean, deg", "max, deg", "settled, mm", "settled, deg",
+                     "handovers"},
                     {},
                     {},
                     14};
@@ -126,7 +129,8 @@ TextTable bodies_table(const std::vector<BodyAgreement>& bodies)
                                number_text(part(turned, &metrics::Spread::mean, degrees), 3),
                                number_text(part(turned, &metrics::Spread::max, degrees), 3),
                                number_text(scaled(one.settled_discrepancy, mm), 4),
-                               number_text(scaled(one.settled_turned_apart, degrees), 4)}});
+                               number_text(scaled(one.settled_turned_apart, degrees), 4),
+                               one.handovers ? std::to_string(*one.handovers) : "-"}});
     }
     return table;
 }
@@ -134,21 +138,29 @@ TextTable bodies_table(const std::vector<BodyAgreement>& bodies)
 TextTable distances_table(const Agreement& agreement)
 {
     const auto& x = agreement.discrepancy_x;
-    const auto& force = agreement.force_discrepancy;
     const auto of_x = [&](double metrics::Spread::*member) {
         return number_text(part(x, member, mm), 3);
     };
-    const auto of_force = [&](double ForceDiscrepancy::*member) {
+    const auto of_force = [](const std::optional<ForceDiscrepancy>& force,
+                             double ForceDiscrepancy::*member) {
         return number_text(part(force, member, 1.0), 3);
     };
+    const auto& bodies = agreement.bodies;
+    const std::string who = bodies.size() == 1 ? name_of(bodies.front().body) : "farthest body";
+    const auto& device = agreement.force_discrepancy;
+    const auto& contact = agreement.contact_force_discrepancy;
     return {"How far both sides were apart at equal times",
             "",
             {"mean", "min", "max", "std"},
-            {{"cube |x_A - x_B|, mm",
+            {{who + " |x_A - x_B|, mm",
               {of_x(&metrics::Spread::mean), of_x(&metrics::Spread::min),
                of_x(&metrics::Spread::max), of_x(&metrics::Spread::std)}},
-             {"force ||F_A| - |F_B||, N",
-              {of_force(&ForceDiscrepancy::mean), "", of_force(&ForceDiscrepancy::max), ""}},
+             {"force on hands ||F_A| - |F_B||, N",
+              {of_force(device, &ForceDiscrepancy::mean), "",
+               of_force(device, &ForceDiscrepancy::max), ""}},
+             {"contact force, N",
+              {of_force(contact, &ForceDiscrepancy::mean), "",
+               of_force(contact, &ForceDiscrepancy::max), ""}},
              {agreement.settled_discrepancy ? "settled at the end, mm"
                                             : "settled at the end, mm (sessions above 4 s)",
               {"", "", number_text(scaled(agreement.settled_discrepancy, mm), 4), ""}}}};
@@ -158,10 +170,12 @@ TextTable touching_table(const Agreement& agreement)
 {
     const TouchShares& touching = agreement.touching;
     const auto percent = [](double share) { return number_text(1e2 * share, 1); };
-    return {"Who touched the cube, and for how long both sides were in session",
+    const auto& bodies = agreement.bodies;
+    const std::string what = bodies.size() == 1 ? named_in_text(bodies.front().body) : "a body";
+    return {fmt::format("Who touched {}, and for how long both sides were in session", what),
             "",
             {"A", "B", "either", "both"},
-            {{"touching the cube, %",
+            {{fmt::format("touching {}, %", what),
               {percent(touching.a), percent(touching.b), percent(touching.either),
                percent(touching.both)}},
              {"time compared, s", {"", "", "", number_text(base::to_seconds(agreement.scored), 3)}},
@@ -223,7 +237,7 @@ TextTable loops_table(const std::vector<std::pair<std::string, Loop>>& loops)
 TextTable pairs_table(const std::vector<PairAnalysis>& pairs)
 {
     TextTable table{"How far every two were apart at equal times",
-                    "cubes",
+                    "copies",
                     {"mean, mm", "max, mm", "std, mm", "settled, mm", "overlap, %"},
                     {},
                     {},
@@ -283,6 +297,7 @@ Json to_json(const Analysis& analysis)
     const Agreement& agreement = analysis.agreement;
     return {{"discrepancy_x_mm", json_of(agreement.discrepancy_x)},
             {"force_discrepancy_n", json_of(agreement.force_discrepancy)},
+            {"contact_force_discrepancy_n", json_of(agreement.contact_force_discrepancy)},
             {"settled_discrepancy_mm", number(scaled(agreement.settled_discrepancy, mm))},
             {"settled_turned_apart_deg", number(scaled(agreement.settled_turned_apart, degrees))},
             {"touching",

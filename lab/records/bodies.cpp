@@ -71,14 +71,32 @@ std::string name_of(const RecordedBody& body)
     return body.number ? fmt::format("body {}", *body.number + 1) : "the body";
 }
 
-std::optional<Pose> Poses::at(const record::TickRow& tick) const
+std::string named_in_text(const RecordedBody& body)
 {
-    if (!body_.has_rows) return Pose{tick.cube};
+    return body.name.empty() ? name_of(body) : "the " + body.name;
+}
+
+const record::BodyRow* Poses::row_of(const record::TickRow& tick) const
+{
+    if (!body_.has_rows) return nullptr;
     const auto key = [](const record::BodyRow& row) { return std::pair{row.tick, row.body}; };
     const std::pair wanted{tick.tick, *body_.number};
     const auto row = std::ranges::lower_bound(side_.bodies, wanted, {}, key);
-    if (row == side_.bodies.end() || key(*row) != wanted) return std::nullopt;
+    return row == side_.bodies.end() || key(*row) != wanted ? nullptr : &*row;
+}
+
+std::optional<Pose> Poses::at(const record::TickRow& tick) const
+{
+    if (!body_.has_rows) return Pose{tick.cube};
+    const record::BodyRow* const row = row_of(tick);
+    if (row == nullptr) return std::nullopt;
     return Pose{row->position, row->orientation};
+}
+
+std::uint16_t Poses::owner_at(const record::TickRow& tick) const
+{
+    const record::BodyRow* const row = row_of(tick);
+    return row == nullptr ? std::uint16_t{0} : row->owner;
 }
 
 std::optional<Apart> Copies::apart_at(const Moment& moment) const

@@ -7,6 +7,7 @@
 #include "lab/virtual_time/trace.hpp"
 #include "proto/base/space.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ namespace hapnet::lab::records {
 
 /// "cube", or "body 3" of one without a name; "the body" when its record does not say.
 [[nodiscard]] std::string name_of(const RecordedBody& body);
+/// "the cube", within a sentence.
+[[nodiscard]] std::string named_in_text(const RecordedBody& body);
 
 using virtual_time::Pose;
 
@@ -30,8 +33,12 @@ public:
 
     /// nullopt: its row is lost.
     [[nodiscard]] std::optional<Pose> at(const record::TickRow& tick) const;
+    /// Whose copy of the body counted, as the side saw it; 0: not said.
+    [[nodiscard]] std::uint16_t owner_at(const record::TickRow& tick) const;
 
 private:
+    [[nodiscard]] const record::BodyRow* row_of(const record::TickRow& tick) const;
+
     const Side& side_;
     const RecordedBody& body_;
 };
@@ -51,6 +58,9 @@ public:
 
     /// At a moment; nullopt: a row of it is lost.
     [[nodiscard]] std::optional<Apart> apart_at(const Moment& moment) const;
+
+    [[nodiscard]] const Poses& a() const { return a_; }
+    [[nodiscard]] const Poses& b() const { return b_; }
 
 private:
     Poses a_;

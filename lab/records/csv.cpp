@@ -76,6 +76,10 @@ void for_each_column(const R& row, const auto& add)
                 add(field.key, "_z", decimal(value.z));
             } else if constexpr (std::is_same_v<Value, bool>) {
                 add(field.key, "", value ? "1" : "0");
+            } else if constexpr (std::is_same_v<R, record::BodyRow> &&
+                                 std::is_same_v<Value, std::uint16_t>) {
+                const bool is_said = field.key != "owner" || value != 0;
+                add(field.key, "", is_said ? base::cell_of(value) : "");
             } else if constexpr (!std::is_same_v<Value, base::TimePoint>) {
                 add(field.key, "", base::cell_of(value));
             }

@@ -14,10 +14,10 @@ constexpr base::Duration gap_max{std::chrono::milliseconds{10}};
 
 } // namespace
 
-double Moment::force_distance() const
+double Moment::force_distance(base::Force record::TickRow::*force) const
 {
-    const base::Force step = after->contact - before->contact;
-    return std::abs(norm(a->contact) - norm(before->contact + share * step));
+    const base::Force step = after->*force - before->*force;
+    return std::abs(norm(a->*force) - norm(before->*force + share * step));
 }
 
 std::vector<Moment> moments_of(const Session& session)

@@ -25,8 +25,8 @@ struct Moment {
     {
         return a->touching && before->touching && after->touching;
     }
-    /// ||F_A| - |F_B|| of the contact forces.
-    [[nodiscard]] double force_distance() const;
+    /// ||F_A| - |F_B|| of one of the forces that a tick holds.
+    [[nodiscard]] double force_distance(base::Force record::TickRow::*force) const;
 };
 
 /// The moments at which both sides have data, one for each such tick of A. Refers into the session.

@@ -162,6 +162,8 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
         return base::fail("its config: this algorithm is for two peers");
     if (const auto fine = peer::check_bodies_of(settings.algorithm, *bodies); !fine)
         return base::fail("its config: 'algorithm_toml': " + fine.error().message);
+    if (const auto fine = peer::check_hands_of(settings.algorithm, settings.scene.hands); !fine)
+        return base::fail("its config: 'algorithm_toml': " + fine.error().message);
     const auto limits =
         device::parse_limits(written->governor_toml, "governor_toml", device::known_mechanisms);
     if (!limits) return tl::unexpected{limits.error()};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/recorded_trace.hpp"
 
+#include "lab/records/agreement.hpp"
 #include "lab/records/bodies.hpp"
 #include "peer/core/peer.hpp"
 
@@ -96,41 +97,96 @@ private:
     std::size_t at_ = 0;
 };
 
+/// Of each body the farthest of all these pairs; empty: hands were not off for so long in one.
+std::vector<virtual_time::Settled> settled_in(std::span<const Session> sessions,
+                                              const std::vector<RecordedBody>& bodies)
+{
+    std::vector<virtual_time::Settled> settled(bodies.size());
+    for (const Session& session : sessions) {
+        const Agreement agreement = agreement_of(session);
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            const auto body = std::ranges::find_if(agreement.bodies, [&](const BodyAgreement& one) {
+                return one.body.number == bodies[i].number;
+            });
+            if (!body->settled_discrepancy) return {};
+            settled[i].metres = std::max(settled[i].metres, *body->settled_discrepancy);
+            settled[i].radians =
+                std::max(settled[i].radians, body->settled_turned_apart.value_or(0.0));
+        }
+    }
+    return settled;
+}
+
 base::Duration hands_on(base::Duration length)
 {
     return length - std::min(peer::Peer::hands_off_length, length / 2);
 }
 
+/// One of a session: what it has recorded, and its clock against A's.
+struct Party {
+    const Side* side = nullptr;
+    Clock clock{};
+};
+
+/// In the order of their ids.
+std::vector<Party> parties_of(std::span<const Session> sessions)
+{
+    std::vector<Party> parties{{&sessions.front().a, {}}};
+    for (const Session& session : sessions) parties.push_back({&session.b, session.clock});
+    std::ranges::sort(parties, {}, [](const Party& party) { return party.side->peer_id; });
+    return parties;
+}
+
 } // namespace
 
-virtual_time::Trace trace_of(const Session& session)
+std::vector<RecordedBody> bodies_of(std::span<const Session> sessions)
 {
+    std::vector<RecordedBody> bodies = sessions.front().bodies;
+    for (const Session& session : sessions.subspan(1)) {
+        std::erase_if(bodies, [&](const RecordedBody& body) {
+            const auto& others = session.bodies;
+            return std::ranges::find(others, body.number, &RecordedBody::number) == others.end();
+        });
+    }
+    return bodies;
+}
+
+virtual_time::Trace trace_of(const Session& session) { return trace_of(std::span{&session, 1}); }
+
+virtual_time::Trace trace_of(std::span<const Session> sessions)
+{
+    const Session& session = sessions.front();
     virtual_time::Trace trace{.tick = session.tick};
     if (const auto task = device::task_named(session.task)) trace.task = *task;
-    const bool a_is_left = session.a.peer_id < session.b.peer_id;
-    RunningRows a{session.a, Clock{}, session.bodies};
-    RunningRows b{session.b, session.clock, session.bodies};
-    if (a.empty() || b.empty()) return trace;
+    const std::vector<Party> parties = parties_of(sessions);
+    const std::vector<RecordedBody> bodies = bodies_of(sessions);
+    trace.sides.resize(parties.size());
+    std::vector<RunningRows> rows;
+    for (const Party& party : parties)
+        if (rows.emplace_back(*party.side, party.clock, bodies).empty()) return trace;
+    if (bodies.empty()) return trace;
 
-    const base::TimePoint begin = std::max(a.begin(), b.begin());
-    const base::TimePoint end = std::min(a.end(), b.end());
-    base::Duration::rep bridged = 0;
-    trace.further_bodies = session.bodies.size() - 1;
-    trace.further.resize(2);
-    for (base::TimePoint time = begin; time <= end; time += session.tick) {
-        const auto of_a = a.at(time);
-        const auto of_b = b.at(time);
-        for (const auto& [side, reading] :
-             {std::pair{a_is_left ? 0U : 1U, &of_a}, std::pair{a_is_left ? 1U : 0U, &of_b}}) {
-            trace.sides[side].push_back(reading->sample);
-            auto& further = trace.further[side];
-            further.insert(further.end(), reading->further.begin(), reading->further.end());
-        }
-        if (of_a.is_bridged || of_b.is_bridged) ++bridged;
+    base::TimePoint begin = rows.front().begin(), end = rows.front().end();
+    for (const RunningRows& one : rows) {
+        begin = std::max(begin, one.begin());
+        end = std::min(end, one.end());
     }
-    const base::TimePoint start =
-        a_is_left ? session.a.terms.start : session.clock.to_a(session.b.terms.start);
-    trace.begin = begin - start;
+    base::Duration::rep bridged = 0;
+    trace.further_bodies = bodies.size() - 1;
+    trace.further.resize(parties.size());
+    for (base::TimePoint time = begin; time <= end; time += session.tick) {
+        bool is_bridged = false;
+        for (std::size_t side = 0; side < rows.size(); ++side) {
+            const auto reading = rows[side].at(time);
+            trace.sides[side].push_back(reading.sample);
+            auto& further = trace.further[side];
+            further.insert(further.end(), reading.further.begin(), reading.further.end());
+            is_bridged |= reading.is_bridged;
+        }
+        if (is_bridged) ++bridged;
+    }
+    trace.begin = begin - parties.front().clock.to_a(parties.front().side->terms.start);
+    if (bodies.front().has_rows) trace.settled = settled_in(sessions, bodies);
     const auto samples = static_cast<base::Duration::rep>(trace.sides[0].size());
     const base::Duration length = hands_on(session.a.terms.length);
     if (length > base::Duration{0}) {

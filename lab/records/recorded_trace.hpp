@@ -5,6 +5,9 @@
 #include "lab/records/session.hpp"
 #include "lab/virtual_time/trace.hpp"
 
+#include <span>
+#include <vector>
+
 namespace hapnet::lab::records {
 
 /// What two records tell of a session, as play() gives it of one in virtual time: both sides at the
@@ -16,5 +19,12 @@ namespace hapnet::lab::records {
 /// where the hand touched something else besides; `holding` is false throughout. Time without rows
 /// (more than 10 ms) is bridged by straight lines too, but does not count in `overlap`.
 [[nodiscard]] virtual_time::Trace trace_of(const Session& session);
+
+/// The same of more than two: one side of all these sessions, A, with each of the others. There is
+/// at least one. The sides of the trace are in the order of their ids.
+[[nodiscard]] virtual_time::Trace trace_of(std::span<const Session> sessions);
+
+/// The bodies that all of them share, in the order in which that trace has them.
+[[nodiscard]] std::vector<RecordedBody> bodies_of(std::span<const Session> sessions);
 
 } // namespace hapnet::lab::records

@@ -121,6 +121,8 @@ public:
     struct BodyDifference {
         double place_m = 0.0;
         double turn_rad = 0.0;
+        bool is_owner_said = false;
+        bool is_other_owner = false;
     };
     [[nodiscard]] BodyDifference body_difference(std::uint64_t tick)
     {
@@ -140,6 +142,9 @@ public:
             const double turn = metrics::angle_between(now.orientation, row.orientation);
             most.turn_rad = std::max(
                 most.turn_rad, std::isnan(turn) ? std::numeric_limits<double>::infinity() : turn);
+            if (row.owner == 0) continue;
+            most.is_owner_said = true;
+            most.is_other_owner |= now.owner != row.owner;
         }
         return most;
     }
@@ -195,13 +200,23 @@ base::Result<Replayed> replay(const record::Record& record,
                                       "is damaged",
                                       message.from));
     }
+    const std::string recorded = print_algorithm(settings->peer.algorithm);
     if (instead) settings->peer.algorithm = *instead;
+    if (!is_loaded(settings->peer.algorithm)) {
+        const auto& own = std::get<peer::SharedObject>(settings->peer.algorithm).options();
+        return base::fail(fmt::format("it was played with the algorithm of a shared object: name "
+                                      "the file, as in --algorithm {}",
+                                      own.file));
+    }
     if (others.size() > 1 && !peer::plays_with_many(settings->peer.algorithm))
         return base::fail("--algorithm: more than two peers play with base or remote-proxy");
 
     Replayed replayed;
     replayed.algorithm = peer::name_of(settings->peer.algorithm);
-    replayed.is_the_recorded_one = !instead;
+    // A shared object always has to be named.
+    replayed.is_the_recorded_one =
+        !instead || (std::holds_alternative<peer::SharedObject>(*instead) &&
+                     print_algorithm(*instead) == recorded);
     replayed.ticks.reserve(record.ticks.size());
     Replayer replayer{record, *settings};
     for (const record::TickRow& row : record.ticks) {
@@ -212,12 +227,17 @@ base::Result<Replayed> replay(const record::Record& record,
         replayed.device_difference_max_n = std::max(replayed.device_difference_max_n, device);
         bool differs = contact > tolerance_n || device > tolerance_n;
         if (!record.bodies.empty()) {
-            const auto [place_m, turn_rad] = replayer.body_difference(row.tick);
+            const auto of_bodies = replayer.body_difference(row.tick);
             auto& most_m = replayed.body_difference_max_m;
             auto& most_rad = replayed.turn_difference_max_rad;
-            most_m = std::max(most_m.value_or(0.0), place_m);
-            most_rad = std::max(most_rad.value_or(0.0), turn_rad);
-            differs = differs || place_m > tolerance_m || turn_rad > tolerance_rad;
+            most_m = std::max(most_m.value_or(0.0), of_bodies.place_m);
+            most_rad = std::max(most_rad.value_or(0.0), of_bodies.turn_rad);
+            differs = differs || of_bodies.place_m > tolerance_m ||
+                      of_bodies.turn_rad > tolerance_rad || of_bodies.is_other_owner;
+            if (of_bodies.is_owner_said) {
+                auto& ticks = replayed.other_owner_ticks;
+                ticks = ticks.value_or(0) + (of_bodies.is_other_owner ? 1U : 0U);
+            }
         }
         if (differs && !replayed.differs_from) replayed.differs_from = row.tick;
     }
@@ -237,6 +257,7 @@ nlohmann::json to_json(const Replayed& replayed)
                        {"tolerance_n", tolerance_n},
                        {"body_difference_max_mm", nullptr},
                        {"turn_difference_max_deg", nullptr},
+                       {"other_owner_ticks", nullptr},
                        {"differs_from_tick", nullptr},
                        {"complete", replayed.is_complete},
                        {"reproduced", !replayed.differs_from}};
@@ -245,6 +266,7 @@ nlohmann::json to_json(const Replayed& replayed)
         out["turn_difference_max_deg"] =
             finite(180.0 / std::numbers::pi * *replayed.turn_difference_max_rad);
     }
+    if (replayed.other_owner_ticks) out["other_owner_ticks"] = *replayed.other_owner_ticks;
     if (replayed.differs_from) out["differs_from_tick"] = *replayed.differs_from;
     return out;
 }
@@ -260,6 +282,10 @@ std::string to_table(const Replayed& replayed)
         text += fmt::format("bodies      {:.3g} mm and {:.3g} deg apart at most\n",
                             1e3 * *replayed.body_difference_max_m,
                             180.0 / std::numbers::pi * *replayed.turn_difference_max_rad);
+    }
+    if (replayed.other_owner_ticks) {
+        text += fmt::format("owners      other ones than recorded in {} ticks\n",
+                            *replayed.other_owner_ticks);
     }
     if (!replayed.is_complete) {
         text += "incomplete  the record stops before the session's end: its writer was killed, its "

@@ -38,6 +38,8 @@ struct Replayed {
     /// it has none.
     std::optional<double> body_difference_max_m;
     std::optional<double> turn_difference_max_rad;
+    /// Likewise in how many ticks a body has another owner; nullopt: the record does not say any.
+    std::optional<std::uint64_t> other_owner_ticks;
     /// The first tick with more than the tolerances.
     std::optional<std::uint64_t> differs_from;
     bool is_complete = false; // its last tick is one of the session's end: nothing is cut off

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "lab/metrics/paired.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
 #include "proto/plot/plot.hpp"
@@ -21,49 +22,46 @@ struct Criterion {
     std::string_view unit;
     std::optional<double> results::Judged::*value;
     plot::Scale scale;
-    bool is_worse_when_less;
     double (*threshold)(const metrics::Criteria&); // of what is usable
 };
 
 constexpr std::array criteria_drawn{
     Criterion{"vibration", "Vibration of the cube above 20 Hz", "mm",
-              &results::Judged::vibration_mm, plot::Scale::logarithmic, false,
+              &results::Judged::vibration_mm, plot::Scale::logarithmic,
               [](const metrics::Criteria& c) {
                   return 1e3 * at_order(c.usable.vibration_max_m, c.filter_order);
               }},
     Criterion{"stiffness", "Stiffness felt at 1 Hz", "of what it is at no delay",
-              &results::Judged::stiffness_ratio, plot::Scale::linear, true,
+              &results::Judged::stiffness_ratio, plot::Scale::linear,
               [](const metrics::Criteria& c) { return c.usable.stiffness_ratio_min; }},
     Criterion{"force-vibration", "Vibration of the force above 20 Hz", "N",
-              &results::Judged::force_vibration_n, plot::Scale::logarithmic, false,
+              &results::Judged::force_vibration_n, plot::Scale::logarithmic,
               [](const metrics::Criteria& c) { return c.usable.force_vibration_max_n; }}};
 
-/// The sessions of one level: the worst of them.
-struct LevelOfCurve {
-    std::optional<double> value;
-    bool is_unusable = false;
-};
+/// The values of the seeds at each level.
+using LevelValues = std::map<double, std::vector<double>>;
 
-std::map<double, LevelOfCurve> levels_of(const std::vector<results::CurveRow>& rows,
-                                         std::string_view algorithm, const Criterion& criterion)
+LevelValues values_of(const std::vector<results::CurveRow>& rows, std::string_view algorithm,
+                      const Criterion& criterion)
 {
-    std::map<double, LevelOfCurve> levels;
+    LevelValues levels;
     for (const results::CurveRow& row : rows) {
-        if (row.algorithm != algorithm) continue;
-        LevelOfCurve& level = levels[row.level];
-        level.is_unusable |= row.judged.tier == metrics::Tier::unusable;
         const auto value = row.judged.*criterion.value;
-        const bool is_worse =
-            value && (!level.value || (criterion.is_worse_when_less ? *value < *level.value
-                                                                    : *value > *level.value));
-        if (is_worse) level.value = value;
+        if (row.algorithm == algorithm && value && row.counts) levels[row.level].push_back(*value);
     }
     return levels;
 }
 
-/// Empty when none of the rows has this criterion.
-std::string curve_plot(const std::vector<results::CurveRow>& rows, const Criterion& criterion,
-                       const std::string& title, const std::optional<metrics::Criteria>& criteria)
+std::string unit_of(const Criterion& criterion)
+{
+    const bool is_log = criterion.scale == plot::Scale::logarithmic;
+    return fmt::format("{}{}", criterion.unit, is_log ? ", log scale" : "");
+}
+
+/// A point for each seed, and a line through the medians. Empty when none of the rows has this
+/// criterion.
+Drawing curve_plot(const std::vector<results::CurveRow>& rows, const Criterion& criterion,
+                   const std::string& title, const std::optional<metrics::Criteria>& criteria)
 {
     std::vector<plot::Curve> curves;
     plot::PlotOptions options{.scales = {.y = criterion.scale}, .size = {360.0, 250.0}};
@@ -71,50 +69,27 @@ std::string curve_plot(const std::vector<results::CurveRow>& rows, const Criteri
     const auto algorithms = distinct(rows, [](const auto& row) { return row.algorithm; });
     for (const std::string& algorithm : algorithms) {
         const auto colour = colour_of(algorithm);
-        plot::Curve curve{.name = algorithm,
-                          .colour = colour,
-                          .width = curve_width(algorithm),
-                          .shows_points = true};
-        bool has_failed = false;
-        for (const auto& [level, found] : levels_of(rows, algorithm, criterion)) {
-            options.x.include(level);
-            if (!found.value) continue;
-            curve.points.push_back({level, *found.value});
-            if (!found.is_unusable || has_failed) continue;
-            options.crosses.push_back({curve.points.back(), colour});
-            has_failed = true;
+        plot::Curve medians{.name = algorithm, .colour = colour, .width = curve_width(algorithm)};
+        plot::Curve seeds{.name = {}, .colour = colour, .width = 0.0, .shows_points = true};
+        for (const auto& [level, values] : values_of(rows, algorithm, criterion)) {
+            medians.points.push_back({level, metrics::median_of(values)});
+            for (const double value : values) seeds.points.push_back({level, value});
         }
-        if (!curve.points.empty()) curves.push_back(std::move(curve));
+        if (medians.points.empty()) continue;
+        curves.push_back(std::move(medians));
+        curves.push_back(std::move(seeds));
     }
-    if (curves.empty()) return "";
+    if (curves.empty()) return {};
     const auto& first = rows.front();
     const std::string across =
         fmt::format("{}, {}", impairment_text(first.impairment), unit_text(first.unit));
-    return plot::svg_plot({title, across, criterion.unit}, curves, options);
+    return drawn_plot({title, across, unit_of(criterion)}, curves, options);
 }
 
-/// Without what an algorithm did beyond the first level at which a task failed: there the others
-/// are no longer the worst of all tasks.
-std::vector<results::CurveRow> up_to_failure(const std::vector<results::CurveRow>& rows)
+/// Every task on its own: a line through the worst of several would jump from one to another.
+void add_tasks(Section& section, const std::vector<results::CurveRow>& rows,
+               const std::optional<metrics::Criteria>& criteria)
 {
-    std::map<std::string, double> ends;
-    for (const results::CurveRow& row : rows) {
-        if (row.judged.tier != metrics::Tier::unusable) continue;
-        const auto [found, is_new] = ends.emplace(row.algorithm, row.level);
-        if (!is_new) found->second = std::min(found->second, row.level);
-    }
-    std::vector<results::CurveRow> kept;
-    for (const results::CurveRow& row : rows) {
-        const auto end = ends.find(row.algorithm);
-        if (end == ends.end() || row.level <= end->second) kept.push_back(row);
-    }
-    return kept;
-}
-
-std::string by_task(const std::vector<results::CurveRow>& rows,
-                    const std::optional<metrics::Criteria>& criteria)
-{
-    std::string out;
     for (const std::string& task : distinct(rows, [](const auto& row) { return row.task; })) {
         std::vector<results::CurveRow> of_task;
         for (const results::CurveRow& row : rows) {
@@ -122,11 +97,13 @@ std::string by_task(const std::vector<results::CurveRow>& rows,
         }
         for (const Criterion& criterion : criteria_drawn) {
             const auto title = fmt::format("{}: {}", task, criterion.name);
-            const auto svg = curve_plot(of_task, criterion, title, criteria);
-            if (!svg.empty()) out += figure(svg, escaped(title));
+            auto drawing = curve_plot(of_task, criterion, title, criteria);
+            if (drawing.svg.empty()) continue;
+            section.add_figure(
+                fmt::format("curve-{}-{}-{}", rows.front().impairment, task, criterion.name),
+                std::move(drawing), escaped(fmt::format("{}: {}", task, criterion.title)));
         }
     }
-    return "<div class='panels small'>\n" + out + "</div>\n";
 }
 
 bool is_measured(const std::vector<results::CurveRow>& rows, const Criterion& criterion)
@@ -143,24 +120,18 @@ void add_curves(Section& section, const std::vector<results::CurveRow>& rows,
     const std::string& name = rows.front().impairment;
     section.html +=
         fmt::format("<h3>{}</h3>\n<div class='panels small'>\n", escaped(impairment_text(name)));
+    add_tasks(section, rows, criteria);
+    section.html += "</div>\n";
     std::string unmeasured;
     for (const Criterion& criterion : criteria_drawn) {
-        if (!is_measured(rows, criterion)) {
-            unmeasured += fmt::format("{}{}", unmeasured.empty() ? "" : ", ", criterion.name);
-        }
-        auto svg =
-            curve_plot(up_to_failure(rows), criterion, std::string{criterion.title}, criteria);
-        if (svg.empty()) continue;
-        section.add_figure(fmt::format("curve-{}-{}", name, criterion.name), std::move(svg),
-                           "Worst of tasks and seeds.");
+        if (is_measured(rows, criterion)) continue;
+        unmeasured += fmt::format("{}{}", unmeasured.empty() ? "" : ", ", criterion.name);
     }
-    section.html += "</div>\n";
     if (!unmeasured.empty()) {
         section.html += fmt::format("<p class='banner'>Not measured in any of these sessions, so "
                                     "no session can have failed by it: {}.</p>\n",
                                     unmeasured);
     }
-    section.html += folded("Each task on its own", by_task(rows, criteria));
 }
 
 } // namespace
@@ -169,10 +140,8 @@ std::optional<Section> curves_section(const results::Results& results)
 {
     if (results.curves.empty()) return std::nullopt;
     Section section{"curves", "The curves behind the limits",
-                    "<p>Every point is the worst session that the search played at that level. "
-                    "A cross marks the first level at which an algorithm fails, by whichever "
-                    "criterion: beyond it only the other tasks were played, each on its own "
-                    "below.</p>\n"};
+                    "<p>Every point is a session: all seeds at each level that counts. The line "
+                    "joins their medians.</p>\n"};
     const auto criteria = results.criteria();
     if (criteria) section.html += "<p>The dashed line is where usable ends.</p>\n";
     for (const auto& name : distinct(results.curves, [](const auto& r) { return r.impairment; })) {

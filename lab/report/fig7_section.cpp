@@ -64,8 +64,38 @@ std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot:
                                         .colour = right_colour,
                                         .points = points_of(rows, both.right)}};
     const std::string title = rows.front().algorithm + std::string{both.title};
-    return plot::svg_plot({title, "s", both.unit}, curves,
+    return plot::svg_plot({title, "time, s", both.unit}, curves,
                           {.size = {900.0, 230.0}, .y = range, .can_zoom = true});
+}
+
+/// x_L - x_R, where two curves that lie on each other cannot be told apart.
+std::string difference_plot(const Rows& rows, const plot::Range& range)
+{
+    std::vector<plot::Point> points;
+    for (const results::TrajectoryRow& row : rows)
+        points.push_back({row.time_s, row.cube_l_mm - row.cube_r_mm});
+    const std::array curves{plot::Curve{.name = "x of the cube at L − at R",
+                                        .colour = colour_of(rows.front().algorithm),
+                                        .points = plot::thinned(points, points_max)}};
+    const std::string title = rows.front().algorithm + ": difference";
+    return plot::svg_plot({title, "time, s", "x, mm"}, curves,
+                          {.size = {900.0, 170.0}, .y = range, .can_zoom = true});
+}
+
+/// What one sees: how a copy moves that follows.
+std::string steps_text(const Rows& rows)
+{
+    constexpr double step_mm = 5.0; // no hand moves a cube so far between two rows
+    std::size_t steps = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const double left = std::abs(rows[i].cube_l_mm - rows[i - 1].cube_l_mm);
+        const double right = std::abs(rows[i].cube_r_mm - rows[i - 1].cube_r_mm);
+        if (left > step_mm || right > step_mm) ++steps;
+    }
+    if (steps == 0) return " No copy jumps by more than 5 mm from one row to the next.";
+    return fmt::format(" A copy jumps by more than 5 mm from one row to the next {} times: it "
+                       "moves vigorously, and does not follow the curve of the other.",
+                       steps);
 }
 
 std::string apart_text(const Rows& rows)
@@ -78,7 +108,8 @@ std::string apart_text(const Rows& rows)
     }
     return fmt::format("{}: the copies are {} mm apart on average and {} mm at most.",
                        escaped(rows.front().algorithm),
-                       shown(sum / static_cast<double>(rows.size()), 2), shown(most, 1));
+                       shown(sum / static_cast<double>(rows.size()), 2), shown(most, 1)) +
+           steps_text(rows);
 }
 
 } // namespace
@@ -90,10 +121,11 @@ std::optional<Section> fig7_section(const results::Results& results)
         "fig7", "Fig. 7: where each side has the cube",
         "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to zoom; "
         "all follow. <span class='zoom-buttons'></span></p>\n"};
-    plot::Range range;
+    plot::Range range, apart;
     for (const results::TrajectoryRow& row : results.trajectories) {
         range.include(row.cube_l_mm);
         range.include(row.cube_r_mm);
+        apart.include(row.cube_l_mm - row.cube_r_mm);
     }
     std::string more;
     for (const auto& name :
@@ -104,6 +136,8 @@ std::optional<Section> fig7_section(const results::Results& results)
         }
         section.add_figure("fig7-" + name, both_sides_plot(rows, drawn_cubes, range),
                            apart_text(rows));
+        section.add_figure("fig7-difference-" + name, difference_plot(rows, apart),
+                           escaped(name) + ": the copies’ difference, on one scale for all.");
         more += figure(both_sides_plot(rows, drawn_hands), escaped(name)) +
                 figure(both_sides_plot(rows, drawn_forces), escaped(name));
     }

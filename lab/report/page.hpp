@@ -8,7 +8,8 @@ namespace hapnet::lab::report {
 
 // The scripts of a page: files of page/, compiled in.
 
-/// Zooming of plots, and the player of replays.
+/// What draws figures from their data, zooming of plots, and the player of replays.
+[[nodiscard]] std::string_view figures_script();
 [[nodiscard]] std::string_view zoom_script();
 [[nodiscard]] std::string_view player_script();
 

@@ -2,18 +2,23 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/section.hpp"
 #include "scene/description.hpp"
+#include "scene/mass.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::lab::report {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr double mm_per_m = 1e3;
 
 std::string base64(const std::vector<std::uint8_t>& bytes)
 {
@@ -53,34 +58,108 @@ Json packed(const std::vector<double>& column)
     return {{"step", step}, {"data", base64(bytes)}};
 }
 
-/// What stands in a scene, in mm.
+Json json_of(const glm::dvec3& mm) { return {mm.x, mm.y, mm.z}; }
+Json json_of(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
+
+/// Its parts, in the frame of its mass, in mm. Of a rounded one `half` is the box within it.
+Json parts_of_body(const scene::BodyDescription& body)
+{
+    Json parts = Json::array();
+    for (const scene::BodyPart& part : scene::parts_of(body)) {
+        const glm::dvec3 inner = part.half - glm::dvec3{part.rounding};
+        const bool is_round = part.rounding > 0.0;
+        parts.push_back({{"at", json_of(mm_per_m * part.at)},
+                         {"q", json_of(glm::quat_cast(part.axes))},
+                         {"half", json_of(mm_per_m * (is_round ? inner : part.half))},
+                         {"rounding", mm_per_m * part.rounding}});
+    }
+    return parts;
+}
+
+/// What stands in a scene.
 Json bodies_of(const scene::Description& scene)
 {
     Json list = Json::array();
     for (const scene::BodyDescription& body : scene.bodies) {
-        const auto at = body.position;
-        list.push_back({{"movable", body.movable},
-                        {"half", {1e3 * body.half.x, 1e3 * body.half.y, 1e3 * body.half.z}},
-                        {"at", {1e3 * at.x(), 1e3 * at.y(), 1e3 * at.z()}}});
+        const scene::MassFrame frame = scene::frame_of_mass(body);
+        list.push_back({{"name", body.name},
+                        {"movable", body.movable},
+                        {"turns", body.movable && body.turning != scene::Turning::locked},
+                        {"parts", parts_of_body(body)},
+                        {"at", json_of(mm_per_m * frame.centre.value)},
+                        {"q", json_of(frame.orientation)}});
     }
     return list;
 }
 
-Json packed(const results::Replay& replay)
+/// The height of the platform, in mm; of the paper's, where a scene has none that is level.
+double floor_of(const scene::Description& scene)
+{
+    for (const scene::PlaneDescription& plane : scene.planes)
+        if (plane.normal.y > 0.99) return mm_per_m * plane.offset_m;
+    return -20.0;
+}
+
+/// Calls packed() for a column of one number of each value.
+template <typename Value, typename Number>
+Json packed_column(const std::vector<Value>& values, const Number& number)
+{
+    std::vector<double> column;
+    column.reserve(values.size());
+    for (const Value& value : values) column.push_back(number(value));
+    return packed(column);
+}
+
+Json packed(const std::vector<glm::dvec3>& values)
 {
     Json columns;
-    base::for_each_field(
-        [&](const auto& field, const auto&) {
-            if (field.key == "time_s") return; // it runs in equal steps
-            std::vector<double> column;
-            for (const results::ReplayRow& row : replay.rows) column.push_back(row.*field.member);
-            columns[std::string{field.key}] = packed(column);
-        },
-        replay.rows.front());
-    return {{"algorithm", replay.algorithm},     {"task", replay.task},
-            {"bodies", bodies_of(replay.scene)}, {"hip_radius", 1e3 * replay.scene.hands.radius_m},
-            {"start_s", replay.start_s},         {"step_s", replay.step_s},
-            {"count", replay.rows.size()},       {"columns", columns}};
+    for (const auto& [name, axis] : {std::pair{"x", 0}, {"y", 1}, {"z", 2}})
+        columns[name] =
+            packed_column(values, [axis = axis](const glm::dvec3& v) { return v[axis]; });
+    return columns;
+}
+
+Json packed(const std::vector<virtual_time::Pose>& poses, bool turns)
+{
+    std::vector<glm::dvec3> places;
+    for (const virtual_time::Pose& pose : poses) places.push_back(mm_per_m * pose.position.value);
+    Json columns = packed(places);
+    if (!turns) return columns;
+    const auto add = [&](const char* name, double glm::dquat::*part) {
+        columns[name] = packed_column(
+            poses, [part](const virtual_time::Pose& pose) { return pose.orientation.*part; });
+    };
+    add("qw", &glm::dquat::w);
+    add("qx", &glm::dquat::x);
+    add("qy", &glm::dquat::y);
+    add("qz", &glm::dquat::z);
+    return columns;
+}
+
+bool can_turn(const scene::Description& scene, std::size_t body)
+{
+    return body < scene.bodies.size() && scene.bodies[body].turning != scene::Turning::locked;
+}
+
+Json packed(const results::Replay& replay)
+{
+    Json sides = Json::array();
+    for (const results::ReplaySide& side : replay.sides) {
+        Json bodies = Json::array();
+        for (std::size_t i = 0; i < side.bodies.size(); ++i)
+            bodies.push_back(packed(side.bodies[i], can_turn(replay.scene, replay.shared[i])));
+        sides.push_back({{"name", side.name},
+                         {"left", side.is_left},
+                         {"hand", packed(side.hand_mm)},
+                         {"force", packed(side.force_n)},
+                         {"bodies", std::move(bodies)}});
+    }
+    return {
+        {"algorithm", replay.algorithm},     {"task", replay.task},
+        {"bodies", bodies_of(replay.scene)}, {"shared", replay.shared},
+        {"floor", floor_of(replay.scene)},   {"hip_radius", mm_per_m * replay.scene.hands.radius_m},
+        {"start_s", replay.start_s},         {"step_s", replay.step_s},
+        {"count", replay.steps()},           {"sides", std::move(sides)}};
 }
 
 /// JSON that can stand inside a script element: nothing in it closes that.
@@ -108,18 +187,11 @@ constexpr std::string_view player = R"html(<div class="player" tabindex="0" role
 <option value="1" selected>1</option><option value="2">2</option><option value="5">5</option>
 </select></label>
 </div>
-<div class="stage">
-<figure><canvas class="left" width="900" height="382" role="img"
- aria-label="what L’s computer holds: its cube and its hand"></canvas>
-<figcaption>what L’s computer holds</figcaption></figure>
-<figure><canvas class="right" width="900" height="382" role="img"
- aria-label="what R’s computer holds: its cube and its hand"></canvas>
-<figcaption>what R’s computer holds</figcaption></figure>
-</div>
+<div class="stage"></div>
 <p class="numbers"><output class="clock"></output> <output class="apart"></output>
 <output class="forces"></output></p>
 <canvas class="strip" width="1800" height="240" role="img"
- aria-label="x of both cubes over time; click to go there"></canvas>
+ aria-label="x of a body in all copies over time; click to go there"></canvas>
 </div>
 <noscript><p>The replay needs JavaScript; everything else on this page does not.</p></noscript>
 )html";
@@ -131,13 +203,14 @@ std::optional<Section> replay_section(const results::Results& results)
     if (results.replays.empty()) return std::nullopt;
     Json replays = Json::array();
     for (const results::Replay& replay : results.replays) replays.push_back(packed(replay));
-    return Section{"replay", "Look at it",
-                   "<p>Both computers hold a copy of the blue cube. Each picture shows one of "
-                   "them, with the hand that is there; the dashed outline is where the other has "
-                   "the cube at the same moment. Arrows are forces on the hands.</p>\n" +
-                       std::string{player} +
-                       fmt::format("<script type='application/json' id='replays'>{}</script>\n",
-                                   for_script(replays))};
+    return Section{
+        "replay", "Look at it",
+        "<p>Each computer holds a copy of what is blue. Each picture shows one of them, "
+        "with the hand that is there; dashed outlines are what the others have at the "
+        "same moment: the bodies, and their hands. Arrows are forces on the hands.</p>\n" +
+            std::string{player} +
+            fmt::format("<script type='application/json' id='replays'>{}</script>\n",
+                        for_script(replays))};
 }
 
 } // namespace hapnet::lab::report

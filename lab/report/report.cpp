@@ -37,11 +37,13 @@ constexpr std::array parts_of_page{
     PartOfPage{"Fig. 6b", fig6b_section, "scripts/fig6b.sh --out", "fig6b"},
     PartOfPage{"the curves", curves_section, "scripts/fig6a.sh --out", "fig6a"},
     PartOfPage{"how far a limit can be trusted", trust_section, "scripts/fig6a.sh --out", "fig6a"},
+    PartOfPage{"what was not chosen", axis_section, ""},
+    PartOfPage{"algorithms seed by seed", paired_section, ""},
     PartOfPage{"Fig. 7", fig7_section, "scripts/fig7.sh --out", "fig7"},
     PartOfPage{"what a network must offer", qos_section, "scripts/qos.sh --out", "qos"},
     PartOfPage{"the closed-loop tasks", tasks_section, "scripts/table1.sh --out", "table1"},
     PartOfPage{"real time", real_time_section, "scripts/table1.sh --real-time --out", "table1"},
-    PartOfPage{"calibrated, predicted, missed", claims_section, ""},
+    PartOfPage{"what stands against the paper", claims_section, ""},
     PartOfPage{"how to repeat it", runs_section, ""}};
 
 /// The sections that there are, and as HTML what is missing.
@@ -167,14 +169,16 @@ std::string head_of(const results::Results& results, const std::string& title,
                     const Contents& contents)
 {
     const Claims claims = main_claims(results);
-    const std::size_t count = claims.calibrated.size() + claims.met.size() + claims.missed.size();
     std::string out = fmt::format("<header>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n{}",
                                   escaped(title), lead_of(subject_of(results)), validity(results));
-    if (count > 0) {
+    if (!claims.are_none()) {
+        const std::size_t seen = claims.selected.size() + claims.by_construction.size();
         out += fmt::format("<p class='tiles' aria-label='results that stand against the paper'>\n"
-                           "{}{}{}</p>\n",
+                           "{}{}{}{}{}</p>\n",
                            tile(claims.calibrated.size(), "calibrated", "calibrated"),
+                           tile(seen, "selected, or by construction", "seen"),
                            tile(claims.met.size(), "predicted and met", "met"),
+                           tile(claims.undecided.size(), "undecided", "seen"),
                            tile(claims.missed.size(), "missed", "missed"));
     }
     out += "<nav aria-label='contents'><ul>\n";
@@ -182,6 +186,20 @@ std::string head_of(const results::Results& results, const std::string& title,
         out += fmt::format("<li><a href='#{}'>{}</a></li>\n", section.id, escaped(section.title));
     }
     return out + "</ul></nav>\n</header>\n";
+}
+
+/// All that the page's script draws, in one element.
+std::string figures_data(const Contents& contents)
+{
+    Json all = Json::object();
+    for (const Section& section : contents.sections) {
+        for (const Figure& one : section.figures) {
+            if (!one.data.is_null()) all[one.name] = one.data;
+        }
+    }
+    if (all.empty()) return "";
+    return fmt::format("<script type='application/json' id='figures'>{}</script>\n",
+                       in_script(all));
 }
 
 std::string page_of(const results::Results& results, const Contents& contents)
@@ -203,7 +221,9 @@ std::string page_of(const results::Results& results, const Contents& contents)
         page += "<footer><p>The hands are simulated. A verdict is a calibrated convention, not a "
                 "finding about people.</p></footer>\n";
     }
-    return page + plot::page_foot(std::string{zoom_script()}.append(player_script()));
+    page += figures_data(contents);
+    return page + plot::page_foot(
+                      std::string{figures_script()}.append(zoom_script()).append(player_script()));
 }
 
 } // namespace

@@ -14,14 +14,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// "1 to 40" of whole numbers that follow one another; empty for what is none.
+std::string range_of(const Json& list)
+{
+    if (list.size() < 3) return {};
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const bool follows = list[i].is_number_integer() &&
+                             list[i].get<std::int64_t>() ==
+                                 list[0].get<std::int64_t>() + static_cast<std::int64_t>(i);
+        if (!follows) return {};
+    }
+    return fmt::format("{} to {}", list.front().get<std::int64_t>(),
+                       list.back().get<std::int64_t>());
+}
+
 /// What a person reads of a value: texts without quotes, lists with commas.
 std::string words_of(const Json& value)
 {
     if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
     if (value.is_null()) return "–";
     std::string out;
     if (value.is_array()) {
+        if (auto range = range_of(value); !range.empty()) return range;
         for (const Json& one : value) out += (out.empty() ? "" : ", ") + words_of(one);
         return out;
     }

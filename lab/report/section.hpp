@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/report/drawing.hpp"
 #include "lab/results/results.hpp"
 
 #include <optional>
@@ -15,6 +16,7 @@ namespace hapnet::lab::report {
 struct Figure {
     std::string name; // figures/NAME.svg
     std::string svg;
+    nlohmann::ordered_json data{}; // that page/figures.js draws it from; null: it stays as it is
 };
 
 /// A part of the page.
@@ -26,6 +28,8 @@ struct Section {
 
     /// A figure in the page and as a file; the caption is HTML.
     void add_figure(std::string name, std::string svg, std::string_view caption);
+    /// The same, drawn by the page's script.
+    void add_figure(std::string name, Drawing drawing, std::string_view caption);
 };
 
 // The sections. nullopt when the folder has no data for one.
@@ -43,6 +47,10 @@ struct Section {
 [[nodiscard]] std::optional<Section> fig6b_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> curves_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> trust_section(const results::Results& results);
+/// Limits by the values of a parameter: readings that were not chosen, the path's own delay.
+[[nodiscard]] std::optional<Section> axis_section(const results::Results& results);
+/// Algorithms seed by seed.
+[[nodiscard]] std::optional<Section> paired_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> fig7_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> qos_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> real_time_section(const results::Results& results);
@@ -52,13 +60,16 @@ struct Section {
 /// Results that stand against the paper, as lines of HTML.
 struct Claims {
     std::vector<std::string> calibrated;
-    std::vector<std::string> met;
-    std::vector<std::string> missed;
+    std::vector<std::string> selected;
+    std::vector<std::string> by_construction;
+    std::vector<std::string> met; // predicted
+    std::vector<std::string> undecided;
+    std::vector<std::string> missed; // of any class
+
+    [[nodiscard]] bool are_none() const;
 };
 
 /// What Table 1 and the worst of the tasks say.
 [[nodiscard]] Claims main_claims(const results::Results& results);
-/// What single tasks say.
-[[nodiscard]] Claims task_claims(const results::Results& results);
 
 } // namespace hapnet::lab::report

@@ -59,13 +59,21 @@ std::string validity_of(const records::Analysis& analysis)
     return out + (analysis.valid() ? "</div>\n" : "</ul></div>\n");
 }
 
+/// Whose copies the discrepancy in x is of.
+std::string farthest_or_only(const std::vector<records::BodyAgreement>& bodies)
+{
+    return bodies.size() == 1 ? escaped(named_in_text(bodies.front().body))
+                              : "the body that is farthest apart";
+}
+
 std::string apart_caption(const records::Analysis& analysis)
 {
     const auto& x = analysis.agreement.discrepancy_x;
     if (!x) return "The two sides were never running together.";
-    return fmt::format("How far the two copies of the cube are apart in x at equal times: {} mm "
-                       "on average while both hands were on, {} mm at most.",
-                       shown(1e3 * x->mean, 2), shown(1e3 * x->max, 1));
+    return fmt::format("How far the two copies of {} are apart in x at equal times: {} mm on "
+                       "average while both hands were on, {} mm at most.",
+                       farthest_or_only(analysis.agreement.bodies), shown(1e3 * x->mean, 2),
+                       shown(1e3 * x->max, 1));
 }
 
 void add_plots(Section& section, const results::RecordedSession& session, const std::string& prefix)
@@ -80,12 +88,15 @@ void add_plots(Section& section, const results::RecordedSession& session, const 
             caption);
     };
     const std::array apart{curve_of("|x_A − x_B|", "var(--ink)", curves.apart_mm)};
-    add("apart", {"Distance of the two copies of the cube", "s from the start", "mm"}, apart,
-        apart_caption(session.analysis));
-    const std::array cubes{curve_of("cube at A", colour_a, curves.cube_a_mm),
-                           curve_of("cube at B", colour_b, curves.cube_b_mm)};
-    add("cubes", {"Where each side has the cube", "s from the start", "x, mm"}, cubes,
-        "x of both copies of the cube.");
+    const auto& bodies = session.analysis.agreement.bodies;
+    const std::string body = bodies.empty() ? "the body" : named_in_text(bodies.front().body);
+    const std::string apart_title = "Distance of the two copies of " + body;
+    add("apart", {apart_title, "s from the start", "mm"}, apart, apart_caption(session.analysis));
+    const std::array copies{curve_of("at A", colour_a, curves.cube_a_mm),
+                            curve_of("at B", colour_b, curves.cube_b_mm)};
+    const std::string place_title = fmt::format("Where each side has {}", body);
+    add("cubes", {place_title, "s from the start", "x, mm"}, copies,
+        fmt::format("x of both copies of {}.", escaped(body)));
     const std::array forces{curve_of("on hand A", colour_a, curves.force_a_n),
                             curve_of("on hand B", colour_b, curves.force_b_n)};
     add("forces", {"Force on each hand", "s from the start", "N"}, forces,
@@ -172,7 +183,7 @@ std::optional<Section> session_section(const results::Results& results)
     if (results.sessions.empty()) return std::nullopt;
     Section section{"sessions", results.sessions.size() == 1 ? "The session" : "The sessions",
                     "<p>Times count from the start of the session on A’s clock. Each session ends "
-                    "with hands off: then the two copies of the cube should agree again.</p>\n"};
+                    "with hands off: then the two copies of each body should agree again.</p>\n"};
     for (const results::RecordedSession& session : results.sessions) {
         const bool is_one_of_many =
             std::ranges::count(results.sessions, session.name, &results::RecordedSession::name) > 1;

@@ -4,6 +4,7 @@
 #include "lab/report/words.hpp"
 #include "lab/results/paper.hpp"
 #include "proto/plot/bars.hpp"
+#include "proto/plot/plot.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
@@ -72,7 +73,7 @@ std::string table_of(const results::Results& results)
     for (const Quantity& quantity : quantities) {
         table.heads.insert(table.heads.end(), {std::string{quantity.name}, "paper", "band"});
     }
-    table.heads.insert(table.heads.end(), {"min", "verdict"});
+    table.heads.insert(table.heads.end(), {"min", "verdict", "class", "class<br>of max"});
     for (const results::Table1Row& row : results.table1) {
         const auto bands = bands_of(results, row);
         std::vector<HtmlCell> cells{{escaped(row.algorithm)}};
@@ -82,14 +83,19 @@ std::string table_of(const results::Results& results)
             cells.push_back(band_cell(band_of(bands, quantity.band)));
         }
         cells.push_back({shown(row.min_mm, 2), "ours"});
-        cells.push_back({claim_badge(row.verdict)});
+        const bool is_predicted = row.provenance == results::Provenance::predicted;
+        cells.push_back({row.verdict == results::Claim::met && !is_predicted
+                             ? "<span class='badge seen'>met</span>"
+                             : claim_badge(row.verdict)});
+        cells.push_back({class_badge(row.provenance)});
+        cells.push_back({class_badge(row.max_provenance)});
         table.rows.push_back(std::move(cells));
     }
     return html_of(table);
 }
 
 /// Ours beside the paper's, one group for each algorithm.
-std::string bars_of(const results::Results& results, const Quantity& quantity)
+Drawing bars_of(const results::Results& results, const Quantity& quantity)
 {
     std::vector<plot::BarGroup> groups;
     for (const results::Table1Row& row : results.table1) {
@@ -114,8 +120,7 @@ std::string bars_of(const results::Results& results, const Quantity& quantity)
         groups.push_back(std::move(group));
     }
     const std::string title = fmt::format("Table 1: {}", quantity.name);
-    return plot::svg_bars({title, "left: paper, right: this run", "mm"}, groups, {},
-                          {360.0, 240.0});
+    return drawn_bars({title, "left: paper, right: this run", "mm"}, groups, {}, {360.0, 240.0});
 }
 
 } // namespace
@@ -126,7 +131,9 @@ std::optional<Section> table1_section(const results::Results& results)
     Section section{"table1", "Table 1: how far the two copies are apart"};
     section.html = "<p>One hand carries the cube; the other side sees it late. The distance "
                    "between the two copies is what the network costs. Sep stands where the paper "
-                   "has TiDeC.</p>\n" +
+                   "has TiDeC. The hand follows a prescribed path and the delay is constant: "
+                   "nothing is drawn by lot, so there is one session of each algorithm, whatever "
+                   "the seed, and no interval.</p>\n" +
                    table_of(results) + "<div class='panels small'>\n";
     for (const Quantity& quantity : quantities) {
         section.add_figure(fmt::format("table1-{}", quantity.name), bars_of(results, quantity),
@@ -135,6 +142,29 @@ std::optional<Section> table1_section(const results::Results& results)
     section.html += "</div>\n";
     return section;
 }
+
+namespace {
+
+/// Each seed's mean discrepancy, one plot for each task.
+Drawing seeds_plot(const results::Results& results, const std::string& task)
+{
+    const auto names = distinct(results.tasks, [](const auto& row) { return row.algorithm; });
+    std::vector<plot::Curve> curves;
+    for (const std::string& name : names) {
+        plot::Curve curve{
+            .name = name, .colour = colour_of(name), .width = 0.0, .shows_points = true};
+        for (const results::SessionRow& row : results.rows_of_sessions) {
+            if (row.algorithm != name || row.task != task || !row.mean_mm) continue;
+            curve.points.push_back({static_cast<double>(row.seed), *row.mean_mm});
+        }
+        if (!curve.points.empty()) curves.push_back(std::move(curve));
+    }
+    if (curves.empty()) return {};
+    return drawn_plot({task, "seed", "mean discrepancy, mm"}, curves,
+                      {.size = {360.0, 220.0}, .y = {0.0, 0.0}});
+}
+
+} // namespace
 
 std::optional<Section> tasks_section(const results::Results& results)
 {
@@ -174,11 +204,19 @@ std::optional<Section> tasks_section(const results::Results& results)
             if (turn) table.rows.back().push_back({shown(row.turned_apart_deg, 2)});
         }
     }
-    return Section{"tasks", "The closed-loop tasks beside it",
-                   "<p>In P1 the cube follows a path whatever is felt. In these tasks both hands "
-                   "act on what they feel, so the numbers are not Table 1’s: they say what the "
-                   "same network does to people who work together.</p>\n" +
-                       html_of(table)};
+    Section section{"tasks", "The closed-loop tasks beside it",
+                    "<p>In P1 the cube follows a path whatever is felt. In these tasks both hands "
+                    "act on what they feel, so the numbers are not Table 1’s: they say what the "
+                    "same network does to people who work together.</p>\n" +
+                        html_of(table) + "<div class='panels small'>\n"};
+    for (const std::string& task : distinct(results.tasks, [](const auto& r) { return r.task; })) {
+        auto seeds = seeds_plot(results, task);
+        if (seeds.svg.empty()) continue;
+        section.add_figure("seeds-" + task, std::move(seeds),
+                           escaped(task) + ", a point for each seed");
+    }
+    section.html += "</div>\n";
+    return section;
 }
 
 } // namespace hapnet::lab::report

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/plot.hpp"
+#include "proto/plot/bars.hpp"
 
-#include <map>
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
-#include <tuple>
+#include <utility>
 
 namespace hapnet::lab::report {
 
@@ -60,14 +60,16 @@ std::string ways_table(const std::vector<results::SensitivityRow>& rows)
         bool is_open = false;
         for (const MeasuringMethod& method : methods) {
             const results::SensitivityRow* row = row_of(rows, like, method);
-            cells.push_back(
-                {row == nullptr ? "–" : escaped((row->is_open() ? "> " : "") + plain(row->limit))});
+            cells.push_back({row == nullptr
+                                 ? "–"
+                                 : escaped((row->is_open() ? "> " : "") +
+                                           shown(row->limit, row->limit < 20.0 ? 1 : 0))});
             if (row == nullptr) continue;
             range.include(row->limit);
             is_open |= row->is_open() && row->limit >= range.high;
         }
-        const auto span =
-            fmt::format("{} … {}{}", plain(range.low), is_open ? "> " : "", plain(range.high));
+        const auto span = fmt::format("{} … {}{}", shown(range.low, 1), is_open ? "> " : "",
+                                      shown(range.high, 1));
         cells.insert(
             cells.begin(),
             {{escaped(like.algorithm)}, {escaped(like.task), "name"}, {escaped(span), "ours"}});
@@ -76,60 +78,54 @@ std::string ways_table(const std::vector<results::SensitivityRow>& rows)
     return html_of(table);
 }
 
-/// The hands in the order of their strokes: nominal first.
-std::vector<std::string> hands_of(const std::vector<results::SensitivityRow>& rows)
+/// The least limit over the tasks.
+const results::SensitivityRow* least_of(const std::vector<results::SensitivityRow>& rows,
+                                        const std::string& algorithm, const MeasuringMethod& method)
 {
-    auto hands = distinct(rows, [](const auto& row) { return row.hand; });
-    std::stable_partition(hands.begin(), hands.end(),
-                          [](const std::string& hand) { return hand == "nominal"; });
-    return hands;
+    const results::SensitivityRow* least = nullptr;
+    for (const results::SensitivityRow& row : rows) {
+        const bool is_one = row.algorithm == algorithm && method_of(row) == method;
+        if (is_one && (least == nullptr || row.limit < least->limit)) least = &row;
+    }
+    return least;
 }
 
-/// The least limit over the tasks, by algorithm, hand and order.
-using Least = std::map<std::tuple<std::string, std::string, double>, double>;
-
-std::string ways_plot(const std::vector<results::SensitivityRow>& rows)
+/// A group for each algorithm, a bar for each method, with intervals.
+Drawing ways_plot(const std::vector<results::SensitivityRow>& rows)
 {
-    Least least;
-    for (const results::SensitivityRow& row : rows) {
-        const auto key = std::tuple{row.algorithm, row.hand, static_cast<double>(row.filter_order)};
-        const auto [found, is_new] = least.emplace(key, row.limit);
-        if (!is_new) found->second = std::min(found->second, row.limit);
-    }
-    constexpr std::array strokes{plot::Stroke::solid, plot::Stroke::dashed, plot::Stroke::dotted};
-    std::vector<plot::Curve> curves;
-    const auto hands = hands_of(rows);
-    const auto algorithms = distinct(rows, [](const auto& row) { return row.algorithm; });
-    for (const std::string& algorithm : algorithms) {
-        for (std::size_t i = 0; i < hands.size(); ++i) {
-            plot::Curve curve{i == 0 ? std::string_view{algorithm} : "",
-                              colour_of(algorithm),
-                              {},
-                              strokes[i % strokes.size()],
-                              true};
-            for (const auto& [key, limit] : least) {
-                const auto& [of, hand, order] = key;
-                if (of == algorithm && hand == hands[i]) curve.points.push_back({order, limit});
-            }
-            curves.push_back(std::move(curve));
+    std::vector<plot::BarGroup> groups;
+    for (const auto& algorithm : distinct(rows, [](const auto& row) { return row.algorithm; })) {
+        plot::BarGroup group{algorithm, {}};
+        for (const MeasuringMethod& method : distinct(rows, method_of)) {
+            const results::SensitivityRow* row = least_of(rows, algorithm, method);
+            if (row == nullptr) continue;
+            plot::Bar bar{.value = row->limit,
+                          .label = shown(row->limit, row->limit < 20.0 ? 1 : 0),
+                          .colour = colour_of(algorithm),
+                          .is_open = row->is_open(),
+                          .tip = fmt::format("{}: order {}, {}, {} seeds", algorithm,
+                                             method.filter_order, method.hand, row->seeds)};
+            if (row->ci_low && row->ci_high)
+                bar.interval = plot::Range{*row->ci_low, *row->ci_high};
+            group.bars.push_back(std::move(bar));
         }
+        groups.push_back(std::move(group));
     }
     const auto& first = rows.front();
     const std::string title = fmt::format("Limit of {}", impairment_text(first.impairment));
-    return plot::svg_plot({title, "order of the filter", unit_text(first.unit)}, curves,
-                          {.size = {440.0, 250.0}, .y = {0.0, 0.0}});
+    return drawn_bars({title, "", unit_text(first.unit)}, groups, {}, {900.0, 260.0});
 }
 
-std::string strokes_caption(const std::vector<results::SensitivityRow>& rows)
+std::string bars_caption(const std::vector<results::SensitivityRow>& rows)
 {
-    constexpr std::array<std::string_view, 3> names{"solid", "dashed", "dotted"};
-    std::string out = "Least of the tasks. Hands: ";
-    const auto hands = hands_of(rows);
-    for (std::size_t i = 0; i < hands.size(); ++i) {
-        out +=
-            fmt::format("{}{} {}", i == 0 ? "" : ", ", names[i % names.size()], escaped(hands[i]));
+    std::string out = "Least of the tasks. From left to right: ";
+    bool is_first = true;
+    for (const MeasuringMethod& method : distinct(rows, method_of)) {
+        out += fmt::format("{}order {} {}", is_first ? "" : ", ", method.filter_order,
+                           escaped(method.hand));
+        is_first = false;
     }
-    return out + ".";
+    return out + ". An arrow: not reached within the range.";
 }
 
 } // namespace
@@ -142,7 +138,7 @@ std::optional<Section> trust_section(const results::Results& results)
                     "measure is taken: with the order of the filter that separates vibration from "
                     "motion, and with how firmly the hand holds. What moves little is a finding; "
                     "what moves much is a convention.</p>\n"};
-    section.html += "<div class='panels'>\n";
+    section.html += "<div>\n";
     std::string tables;
     const auto names = distinct(results.sensitivity, [](const auto& r) { return r.impairment; });
     for (const std::string& name : names) {
@@ -150,7 +146,7 @@ std::optional<Section> trust_section(const results::Results& results)
         for (const results::SensitivityRow& row : results.sensitivity) {
             if (row.impairment == name) rows.push_back(row);
         }
-        section.add_figure("trust-" + name, ways_plot(rows), strokes_caption(rows));
+        section.add_figure("trust-" + name, ways_plot(rows), bars_caption(rows));
         tables += ways_table(rows);
     }
     section.html += "</div>\n" + tables;

@@ -65,6 +65,21 @@ std::string claim_badge(results::Claim claim)
     return fmt::format("<span class='badge {0}'>{0}</span>", claim_text(claim));
 }
 
+std::string class_badge(results::Provenance provenance)
+{
+    if (provenance == results::Provenance::none) return "";
+    return fmt::format("<span class='badge'>{}</span>", base::name_of(provenance));
+}
+
+std::string status_badge(results::LimitStatus status)
+{
+    if (status == results::LimitStatus::none) return "";
+    // Green is for predictions alone: the rest could hardly have come out otherwise.
+    std::string_view style = claim_text(to_claim(status));
+    if (style == "met" && status != results::LimitStatus::predicted_met) style = "seen";
+    return fmt::format("<span class='badge {}'>{}</span>", style, base::name_of(status));
+}
+
 std::string_view tier_symbol(metrics::Tier tier)
 {
     switch (tier) {

@@ -29,6 +29,9 @@ namespace hapnet::lab::report {
 
 [[nodiscard]] std::string_view claim_text(results::Claim claim); // "calibrated"
 [[nodiscard]] std::string claim_badge(results::Claim claim);     // as HTML; empty for none
+/// How a number came about, and how it stands to the paper's; as HTML.
+[[nodiscard]] std::string class_badge(results::Provenance provenance);
+[[nodiscard]] std::string status_badge(results::LimitStatus status);
 [[nodiscard]] std::string_view tier_symbol(metrics::Tier tier);
 [[nodiscard]] std::string tier_badge(metrics::Tier tier); // as HTML
 [[nodiscard]] std::string_view tier_colour(metrics::Tier tier);

@@ -4,30 +4,30 @@
 
 #include "lab/results/paper.hpp"
 #include "lab/results/party_columns.hpp"
+#include "lab/results/shipped.hpp"
 #include "lab/results/summary.hpp"
 
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
 #include <tuple>
 
 namespace hapnet::lab::results {
 
 namespace {
 
-/// The limit that a search found, in one task or in the worst of them.
+/// The threshold of one task, or of the worst of them.
 struct TaskLimit {
-    std::string_view algorithm;
+    const experiment::NamedAlgorithm* algorithm = nullptr;
     experiment::Impairment impairment{};
     std::string_view task;
     experiment::Party party{};
-    experiment::Limit limit{};
-
-    /// As the paper plays.
-    [[nodiscard]] bool is_usual() const { return party == experiment::Party{}; }
+    metrics::Threshold threshold{};
 };
 
 /// Less, and found rather than not.
-bool is_worse(const experiment::Limit& a, const experiment::Limit& b)
+bool is_worse(const metrics::Threshold& a, const metrics::Threshold& b)
 {
-    return std::tuple{a.level, !a.ever_failed} < std::tuple{b.level, !b.ever_failed};
+    return std::tuple{a.p50, a.is_open} < std::tuple{b.p50, b.is_open};
 }
 
 /// The tasks of an algorithm and impairment, and after them the worst.
@@ -40,11 +40,13 @@ std::vector<TaskLimit> limits_of(const experiment::Experiment& experiment,
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const auto* job = std::get_if<experiment::SearchJob>(&jobs[i]);
         if (job == nullptr) continue;
-        const std::string_view algorithm = experiment.algorithms[job->algorithm].name;
-        const experiment::Limit& limit = std::get<experiment::SearchResult>(results[i]).limit;
-        limits.push_back({algorithm, job->range.impairment, name_of(job->task), job->party, limit});
-        if (!worst || is_worse(limit, worst->limit)) {
-            worst = TaskLimit{algorithm, job->range.impairment, worst_task, job->party, limit};
+        const auto& outcomes = std::get<experiment::SearchResult>(results[i]).outcomes;
+        limits.push_back({&experiment.algorithms[job->algorithm], job->range.impairment,
+                          name_of(job->task), job->party,
+                          metrics::threshold_of(outcomes, in_units(job->range.to))});
+        if (!worst || is_worse(limits.back().threshold, worst->threshold)) {
+            worst = limits.back();
+            worst->task = worst_task;
         }
         if (job->task != experiment.tasks.back()) continue;
         limits.push_back(*worst);
@@ -53,48 +55,84 @@ std::vector<TaskLimit> limits_of(const experiment::Experiment& experiment,
     return limits;
 }
 
-FoundLimit in_unit(const experiment::Limit& limit)
+Bound bound_of(const metrics::Threshold& threshold)
 {
-    return {in_units(limit.level), limit.ever_failed};
+    return threshold.is_open ? Bound::open : Bound::found;
 }
 
-Bound bound_of(const experiment::Limit& limit)
-{
-    return limit.ever_failed ? Bound::found : Bound::open;
-}
-
-std::optional<FoundLimit> base_of(const std::vector<TaskLimit>& limits, const TaskLimit& like)
+const TaskLimit* limit_of(const std::vector<TaskLimit>& limits, const TaskLimit& like,
+                          std::string_view algorithm)
 {
     for (const TaskLimit& other : limits) {
-        if (other.algorithm == "base" && other.impairment == like.impairment &&
+        if (other.algorithm->name == algorithm && other.impairment == like.impairment &&
             other.task == like.task && other.party == like.party) {
-            return in_unit(other.limit);
+            return &other;
         }
     }
-    return std::nullopt;
+    return nullptr;
+}
+
+/// What the paper says of a row: it says it of two people and of no task in particular.
+void note_paper(const std::vector<TaskLimit>& limits, const TaskLimit& one, LimitRow& row)
+{
+    row.provenance = limit_provenance(one.algorithm->name, one.impairment, one.task);
+    if (one.task != worst_task) return;
+    row.paper_limit = paper_limit(one.algorithm->name, one.impairment);
+    const TaskLimit* base = limit_of(limits, one, "base");
+    const bool is_ours = base == nullptr || is_built_in(*base->algorithm);
+    row.status = limit_status(one.algorithm->name, one.impairment, one.threshold,
+                              base != nullptr && is_ours ? &base->threshold : nullptr);
 }
 
 } // namespace
 
 std::vector<LimitRow> make_limit_rows(const experiment::Experiment& experiment,
+                                      const metrics::Criteria& criteria,
                                       std::span<const experiment::JobResult> results)
 {
     std::vector<LimitRow> rows;
     const auto limits = limits_of(experiment, results);
+    const bool is_shipped = plays_as_shipped(experiment, criteria, "fig6a");
     for (const TaskLimit& one : limits) {
-        LimitRow row{.algorithm = std::string{one.algorithm},
+        const metrics::Threshold& threshold = one.threshold;
+        LimitRow row{.algorithm = one.algorithm->name,
                      .impairment = std::string{name_of(one.impairment)},
                      .task = std::string{one.task},
-                     .limit = in_units(one.limit.level),
-                     .bound = bound_of(one.limit),
-                     .unit = std::string{unit_of(one.impairment)}};
-        if (one.is_usual()) {
-            row.paper_limit = paper_limit(one.algorithm, one.impairment);
-            row.status = limit_status(one.algorithm, one.impairment, in_unit(one.limit),
-                                      base_of(limits, one));
-        }
+                     .limit = threshold.p50,
+                     .bound = bound_of(threshold),
+                     .unit = std::string{unit_of(one.impairment)},
+                     .p50 = threshold.p50,
+                     .p10 = threshold.p10,
+                     .ci_low = threshold.low,
+                     .ci_high = threshold.high,
+                     .seeds = threshold.seeds};
+        if (is_shipped && is_built_in(*one.algorithm)) note_paper(limits, one, row);
         note_party(experiment, one.party, row);
         rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::vector<PairedRow> make_paired_limit_rows(const experiment::Experiment& experiment,
+                                              std::span<const experiment::JobResult> results)
+{
+    std::vector<PairedRow> rows;
+    const auto limits = limits_of(experiment, results);
+    const std::string& reference = experiment.algorithms.front().name;
+    for (const TaskLimit& one : limits) {
+        const TaskLimit* against = limit_of(limits, one, reference);
+        if (one.algorithm->name == reference || against == nullptr) continue;
+        const auto difference = difference_of(one.threshold, against->threshold);
+        rows.push_back({.algorithm = one.algorithm->name,
+                        .reference = reference,
+                        .task = std::string{one.task},
+                        .measure = fmt::format("p50 of {}, {}", name_of(one.impairment),
+                                               unit_of(one.impairment)),
+                        .seeds = one.threshold.seeds,
+                        .difference = difference.value,
+                        .ci_low = difference.interval.low,
+                        .ci_high = difference.interval.high,
+                        .sign_test_p = std::nullopt});
     }
     return rows;
 }
@@ -119,6 +157,7 @@ std::vector<CurveRow> make_curve_rows(const experiment::Experiment& experiment,
                             .level = in_units(point.level),
                             .unit = std::string{unit_of(impairment)},
                             .seed = point.seed,
+                            .counts = point.counts,
                             .judged = judged});
             note_party(experiment, job->party, rows.back());
         }
@@ -135,16 +174,20 @@ std::vector<SensitivityRow> make_sensitivity_rows(const experiment::Experiment& 
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const auto* job = std::get_if<experiment::SensitivityJob>(&jobs[i]);
         if (job == nullptr) continue;
-        const auto& limits = std::get<experiment::SensitivityResult>(results[i]).limits;
-        for (std::size_t order = 0; order < limits.size(); ++order) {
+        const auto& outcomes = std::get<experiment::SensitivityResult>(results[i]).outcomes;
+        for (std::size_t order = 0; order < outcomes.size(); ++order) {
+            const auto threshold = metrics::threshold_of(outcomes[order], in_units(job->range.to));
             rows.push_back({.algorithm = experiment.algorithms[job->algorithm].name,
                             .impairment = std::string{name_of(job->range.impairment)},
                             .task = std::string{name_of(job->task)},
                             .filter_order = count_of(sensitivity.filter_orders[order]),
                             .hand = name_of(job->hands),
-                            .limit = in_units(limits[order].level),
-                            .bound = bound_of(limits[order]),
-                            .unit = std::string{unit_of(job->range.impairment)}});
+                            .limit = threshold.p50,
+                            .bound = bound_of(threshold),
+                            .unit = std::string{unit_of(job->range.impairment)},
+                            .ci_low = threshold.low,
+                            .ci_high = threshold.high,
+                            .seeds = threshold.seeds});
             note_party(experiment, job->party, rows.back());
         }
     }

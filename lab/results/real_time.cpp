@@ -112,6 +112,7 @@ base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
     virtual_time::Setting setting;
     const Json others = session.files.peer.value("others", Json::array());
     setting.players.resize(std::max<std::size_t>(others.size(), 1) + 1);
+    setting.energy_limit = true; // as the daemons have it
     setting.length = base::from_seconds(peer.at<double>("/duration_s"));
     setting.seed = base::Seed{emulator.at<std::uint64_t>("/seed")};
     setting.players[0].seed = base::Seed{peer.at<std::uint64_t>("/session/seed")};

@@ -8,6 +8,8 @@
 #include "lab/results/limit_rows.hpp"
 #include "lab/results/paper.hpp"
 #include "lab/results/party_columns.hpp"
+#include "lab/results/session_rows.hpp"
+#include "lab/results/shipped.hpp"
 #include "lab/results/summary.hpp"
 #include "proto/base/math.hpp"
 
@@ -66,24 +68,36 @@ std::optional<double> in_thousandths(std::optional<double> value)
     return value ? std::optional{1e3 * *value} : std::nullopt;
 }
 
+/// `is_papers`: it was played as the paper's table is.
 Table1Row table1_row(const Group& group, const Summary& summary,
-                     const std::optional<metrics::Spread>& base_mm)
+                     const std::optional<metrics::Spread>& base_mm, bool is_papers)
 {
-    const auto paper = paper_table1(group.algorithm);
     const metrics::Spread mm = in_mm(summary.typical_m.value_or(metrics::Spread{}));
     Table1Row row{.algorithm = std::string{group.algorithm},
                   .mean_mm = mm.mean,
                   .min_mm = mm.min,
                   .max_mm = mm.max,
-                  .std_mm = mm.std,
-                  .verdict = summary.typical_m ? table1_verdict(group.algorithm, mm, base_mm)
-                                               : Claim::missed};
-    if (paper) {
-        row.paper_mean_mm = paper->mean_mm;
-        row.paper_max_mm = paper->max_mm;
-        row.paper_std_mm = paper->std_mm;
-    }
+                  .std_mm = mm.std};
+    const auto paper = paper_table1(group.algorithm);
+    if (!paper || !is_papers) return row;
+    row.paper_mean_mm = paper->mean_mm;
+    row.paper_max_mm = paper->max_mm;
+    row.paper_std_mm = paper->std_mm;
+    row.verdict = summary.typical_m ? table1_verdict(group.algorithm, mm, base_mm) : Claim::missed;
+    const Table1Provenance provenance = table1_provenance(group.algorithm);
+    row.provenance = provenance.typical;
+    row.max_provenance = provenance.max;
     return row;
+}
+
+/// As in the paper's table: the built-in algorithm of that name, under the built-in conditions.
+bool is_papers_row(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
+                   std::string_view algorithm)
+{
+    const auto& all = experiment.algorithms;
+    const auto named = std::ranges::find(all, algorithm, &experiment::NamedAlgorithm::name);
+    return named != all.end() && is_built_in(*named) &&
+           plays_as_shipped(experiment, criteria, "table1");
 }
 
 TaskRow task_row(const Group& group, const Summary& summary, const metrics::Criteria& criteria)
@@ -123,7 +137,7 @@ std::string origin_of(const experiment::Experiment& experiment)
 {
     std::vector<std::string_view> tasks;
     for (const device::Task task : experiment.tasks) tasks.push_back(name_of(task));
-    return fmt::format("# Written by `hapnet-lab run calibration`: {}, {} seeds of {}, {}.\n",
+    return fmt::format("# Written by `scripts/calibrate.sh`: {}, {} seeds of {}, {}.\n",
                        experiment.algorithms.front().name, experiment.seeds, fmt::join(tasks, ", "),
                        name_of(experiment.hands));
 }
@@ -143,7 +157,8 @@ struct ResultsOf {
         for (const Group& group : groups) {
             const Summary summary = summarize(group.scores, criteria);
             if (group.task == device::Task::p1) {
-                table.push_back(table1_row(group, summary, base_mm));
+                table.push_back(table1_row(group, summary, base_mm,
+                                           is_papers_row(experiment, criteria, group.algorithm)));
             } else {
                 tasks.push_back(task_row(group, summary, criteria));
                 if (group.party.scene)
@@ -154,16 +169,23 @@ struct ResultsOf {
         }
         files.push_back({"table1.csv", base::csv_text(table)});
         files.push_back({"tasks.csv", base::csv_text(tasks)});
+        const auto sessions = make_session_rows(experiment, criteria, results);
+        files.push_back({"sessions.csv", base::csv_text(sessions)});
+        files.push_back({"paired.csv", base::csv_text(make_paired_rows(sessions))});
         return files;
     }
 
     base::Result<std::vector<File>> operator()(const experiment::Limits& limits) const
     {
         std::vector<File> files;
-        files.push_back({"limits.csv", base::csv_text(make_limit_rows(experiment, results))});
+        files.push_back(
+            {"limits.csv", base::csv_text(make_limit_rows(experiment, criteria, results))});
+        files.push_back(
+            {"paired.csv", base::csv_text(make_paired_limit_rows(experiment, results))});
         files.push_back(
             {"curves.csv", base::csv_text(make_curve_rows(experiment, criteria, results))});
-        if (limits.sensitivity) {
+        files.push_back(sessions());
+        if (limits.sensitivity && limits.sensitivity->seeds > 0) {
             files.push_back(
                 {"limits_by_convention.csv",
                  base::csv_text(make_sensitivity_rows(experiment, *limits.sensitivity, results))});
@@ -179,7 +201,7 @@ struct ResultsOf {
                 rows.push_back(to_trajectory(std::string{group.algorithm}, row));
             }
         }
-        return std::vector<File>{{"trajectories.csv", base::csv_text(rows)}};
+        return std::vector<File>{{"trajectories.csv", base::csv_text(rows)}, sessions()};
     }
 
     base::Result<std::vector<File>> operator()(const experiment::ImpairmentGrid& grid) const
@@ -199,7 +221,7 @@ struct ResultsOf {
                        .judged = make_judged(summarize(groups[i].scores, criteria), criteria)});
             note_party(experiment, groups[i].party, row);
         }
-        return std::vector<File>{{"qos.csv", base::csv_text(rows)}};
+        return std::vector<File>{{"qos.csv", base::csv_text(rows)}, sessions()};
     }
 
     base::Result<std::vector<File>> operator()(const experiment::Claims&) const
@@ -221,8 +243,14 @@ struct ResultsOf {
         const auto rest = std::span{scores}.subspan(half.size());
         return calibrated({half, rest}, criteria).map([this](const metrics::Criteria& found) {
             return std::vector<File>{
-                {"criteria.toml", origin_of(experiment) + print_criteria(found)}};
+                {"criteria.toml", origin_of(experiment) + print_criteria(found)}, sessions()};
         });
+    }
+
+private:
+    [[nodiscard]] File sessions() const
+    {
+        return {"sessions.csv", base::csv_text(make_session_rows(experiment, criteria, results))};
     }
 };
 

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <iterator>
 #include <map>
 #include <spdlog/fmt/fmt.h>
 #include <type_traits>
@@ -84,7 +86,26 @@ Outcome add_rows(const File& file, Results& results)
     return append(results.*rows, std::move(read));
 }
 
+/// Those of Table 1, which plays P1 and all else on one network; others are not shown one by one,
+/// and those of claims have columns of their own.
+Outcome add_sessions(const File& file, Results& results)
+{
+    const std::string_view header = std::string_view{file.text}.substr(0, file.text.find('\n'));
+    if (header.find("network") == std::string_view::npos) return {};
+    auto rows = base::read_csv<SessionRow>(file.text, file.path);
+    if (!rows) return tl::unexpected{rows.error()};
+    const auto is_other = [&](const SessionRow& row) {
+        return row.network != rows->front().network;
+    };
+    const bool has_p1 = std::ranges::find(*rows, "P1", &SessionRow::task) != rows->end();
+    if (!has_p1 || std::ranges::any_of(*rows, is_other)) return {};
+    return append(results.rows_of_sessions, std::move(rows));
+}
+
 constexpr std::array kinds{FileKind{"manifest.json", add_run},
+                           FileKind{"sessions.csv", add_sessions},
+                           FileKind{"paired.csv", add_rows<&Results::paired>},
+                           FileKind{"limits_by_axis.csv", add_rows<&Results::limits_by_axis>},
                            FileKind{"table1.csv", add_rows<&Results::table1>},
                            FileKind{"tasks.csv", add_rows<&Results::tasks>},
                            FileKind{"limits.csv", add_rows<&Results::limits>},
@@ -176,6 +197,47 @@ std::string text_in(const nlohmann::json& config, const char* key)
     return found != config.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+base::Result<RecordedSession> recorded_session(const std::string& name, const record::Record& a,
+                                               const record::Record& b)
+{
+    const auto analysis = records::analyse(a, b);
+    if (!analysis) return tl::unexpected{analysis.error()};
+    const auto session = records::common_session(a, b);
+    if (!session) return tl::unexpected{session.error()};
+    const std::string of_task = session->task.empty() ? "session" : session->task;
+    return RecordedSession{.name = name.empty() ? of_task : name,
+                           .task = session->task,
+                           .algorithm = text_in(a.config, "algorithm"),
+                           .peer_a = session->a.peer_id,
+                           .peer_b = session->b.peer_id,
+                           .analysis = *analysis,
+                           .curves = curves_of(*session)};
+}
+
+/// Without algorithm and task. nullopt: they were hardly ever in session at the same time.
+std::optional<Replay> replay_of(std::span<const records::Session> sessions,
+                                const std::string& scene_toml)
+{
+    constexpr base::Duration step = base::Duration{std::chrono::seconds{1}} / replay_rows_per_s;
+    const virtual_time::Trace trace = trace_of(sessions);
+    const auto every = static_cast<std::size_t>(std::max<std::int64_t>(step / trace.tick, 1));
+    if (trace.sides.front().size() < every + 1) return std::nullopt;
+    Replay replay{.algorithm = "", .task = "", .start_s = base::to_seconds(trace.begin)};
+    replay.step_s = base::to_seconds(static_cast<std::int64_t>(every) * trace.tick);
+    if (const auto scene = scene::parse_scene(scene_toml, "scene_toml")) replay.scene = *scene;
+    std::vector<std::int64_t> ids{sessions.front().a.peer_id};
+    for (const records::Session& session : sessions) ids.push_back(session.b.peer_id);
+    std::ranges::sort(ids);
+    std::vector<std::string> names;
+    for (const std::int64_t id : ids) names.push_back(fmt::format("peer {}", id));
+    replay.sides = replay_sides(trace, names, every);
+    for (const records::RecordedBody& body : bodies_of(sessions)) {
+        const auto first = first_movable(replay.scene);
+        replay.shared.push_back(body.number ? std::size_t{*body.number} : first);
+    }
+    return replay;
+}
+
 } // namespace
 
 bool Run::is_valid() const
@@ -196,33 +258,34 @@ std::optional<metrics::Criteria> Results::criteria() const
 base::Result<void> add_session(Results& results, const std::string& name, const record::Record& a,
                                const record::Record& b)
 {
-    const auto analysis = records::analyse(a, b);
-    if (!analysis) return tl::unexpected{analysis.error()};
-    const auto session = records::common_session(a, b);
-    if (!session) return tl::unexpected{session.error()};
-    const auto task_or = [&](std::string_view otherwise) {
-        return session->task.empty() ? std::string{otherwise} : session->task;
-    };
-    RecordedSession recorded{.name = name.empty() ? task_or("session") : name,
-                             .task = session->task,
-                             .algorithm = text_in(a.config, "algorithm"),
-                             .peer_a = session->a.peer_id,
-                             .peer_b = session->b.peer_id,
-                             .analysis = *analysis,
-                             .curves = curves_of(*session)};
-    auto rows = make_replay_rows(trace_of(*session), replay_rows_per_s);
-    if (rows.size() >= 2) { // there are none when the two were hardly in session together
-        const double start_s = rows.front().time_s;
-        Replay replay{.algorithm = recorded.algorithm.empty() ? "recorded" : recorded.algorithm,
-                      .task = recorded.name,
-                      .start_s = start_s,
-                      .step_s = 1.0 / replay_rows_per_s,
-                      .rows = std::move(rows)};
-        const auto scene = scene::parse_scene(text_in(a.config, "scene_toml"), "scene_toml");
-        if (scene) replay.scene = *scene;
-        results.replays.push_back(std::move(replay));
+    const std::array records{&a, &b};
+    return add_session(results, name, records);
+}
+
+base::Result<void> add_session(Results& results, const std::string& name,
+                               std::span<const record::Record* const> records)
+{
+    std::vector<RecordedSession> pairs;
+    std::vector<records::Session> with_first; // of the first record with each of the others
+    for (std::size_t a = 0; a < records.size(); ++a) {
+        for (std::size_t b = a + 1; b < records.size(); ++b) {
+            auto pair = recorded_session(name, *records[a], *records[b]);
+            if (!pair) {
+                return base::fail(fmt::format("record {} with record {}: {}", a + 1, b + 1,
+                                              pair.error().message));
+            }
+            pairs.push_back(*std::move(pair));
+            if (a == 0) with_first.push_back(*records::common_session(*records[0], *records[b]));
+        }
     }
-    results.sessions.push_back(std::move(recorded));
+    auto replay = replay_of(with_first, text_in(records.front()->config, "scene_toml"));
+    if (replay) { // there is none when they were hardly in session together
+        const std::string& algorithm = pairs.front().algorithm;
+        replay->algorithm = algorithm.empty() ? "recorded" : algorithm;
+        replay->task = pairs.front().name;
+        results.replays.push_back(*std::move(replay));
+    }
+    std::ranges::move(pairs, std::back_inserter(results.sessions));
     return {};
 }
 

@@ -7,6 +7,7 @@
 #include "lab/records/curves.hpp"
 #include "lab/results/demo.hpp"
 #include "lab/results/rows.hpp"
+#include "lab/results/session_rows.hpp"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -48,6 +49,9 @@ struct Results {
     std::vector<TrajectoryRow> trajectories;
     std::vector<QosRow> qos;
     std::vector<RealTimeRow> real_time;
+    std::vector<SessionRow> rows_of_sessions; // of the experiments of Table 1
+    std::vector<AxisLimitRow> limits_by_axis;
+    std::vector<PairedRow> paired;
     std::vector<Replay> replays;
     std::vector<RecordedSession> sessions;
     std::optional<DemoRun> demo;
@@ -60,6 +64,11 @@ struct Results {
 /// The error: the records cannot be compared.
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              const record::Record& a, const record::Record& b);
+
+/// Likewise that of two or more: every two of them, and one replay of all. The error says which two
+/// cannot be compared.
+[[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
+                                             std::span<const record::Record* const> records);
 
 /// Whether a file of this name is one that read_results() reads; all others it leaves alone.
 /// Replays are those of a folder replay/.

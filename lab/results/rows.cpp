@@ -16,6 +16,23 @@ tl::unexpected<base::Error> fail_at_row(const File& file, std::size_t index, std
     return base::fail(fmt::format("{}:{}: {}", file.path, index + 2, what));
 }
 
+/// L and R, and the body that they share.
+std::vector<ReplaySide> sides_of(const std::vector<ReplayRow>& rows)
+{
+    constexpr double m_per_mm = 1e-3;
+    std::vector<ReplaySide> sides{{.name = "L", .bodies = {{}}},
+                                  {.name = "R", .is_left = false, .bodies = {{}}}};
+    for (const ReplayRow& row : rows) {
+        sides[0].hand_mm.push_back({row.lhx, row.lhy, row.lhz});
+        sides[0].force_n.push_back({row.lfx, 0.0, 0.0});
+        sides[0].bodies[0].push_back({{m_per_mm * glm::dvec3{row.lx, row.ly, row.lz}}});
+        sides[1].hand_mm.push_back({row.rhx, row.rhy, row.rhz});
+        sides[1].force_n.push_back({row.rfx, 0.0, 0.0});
+        sides[1].bodies[0].push_back({{m_per_mm * glm::dvec3{row.rx, row.ry, row.rz}}});
+    }
+    return sides;
+}
+
 } // namespace
 
 std::vector<ReplayRow> make_replay_rows(const virtual_time::Trace& trace, std::uint32_t rows_per_s)
@@ -52,6 +69,36 @@ std::string to_lines(const std::vector<ReplayRow>& rows)
     std::string lines;
     for (const ReplayRow& row : rows) lines += base::csv_line(row) + '\n';
     return lines;
+}
+
+std::size_t first_movable(const scene::Description& scene)
+{
+    const auto body = std::ranges::find_if(scene.bodies, &scene::BodyDescription::movable);
+    return static_cast<std::size_t>(body - scene.bodies.begin());
+}
+
+std::vector<ReplaySide> replay_sides(const virtual_time::Trace& trace,
+                                     std::span<const std::string> names, std::size_t every)
+{
+    constexpr double mm = 1e3;
+    std::vector<ReplaySide> sides;
+    for (std::size_t number = 0; number < trace.sides.size(); ++number) {
+        ReplaySide& side = sides.emplace_back();
+        side.name = names[number];
+        side.is_left = number % 2 == 0;
+        side.bodies.resize(trace.further_bodies + 1);
+        const auto& samples = trace.sides[number];
+        for (std::size_t i = 0; i < samples.size(); i += every) {
+            side.hand_mm.push_back(mm * samples[i].hip.value);
+            side.force_n.push_back(samples[i].on_hand.value);
+            side.bodies[0].push_back({samples[i].body, samples[i].orientation});
+            for (std::size_t body = 1; body <= trace.further_bodies; ++body) {
+                side.bodies[body].push_back(
+                    trace.further[number][i * trace.further_bodies + body - 1]);
+            }
+        }
+    }
+    return sides;
 }
 
 TrajectoryRow to_trajectory(const std::string& algorithm, const ReplayRow& row)
@@ -94,7 +141,8 @@ base::Result<Replay> read_replay(const File& file)
                            fmt::format("time_s: expected equal steps and so {:.4f}, found {:.4f}",
                                        expected, time_s));
     }
-    replay.rows = *std::move(rows);
+    replay.sides = sides_of(*rows);
+    replay.shared = {first_movable(replay.scene)};
     return replay;
 }
 

@@ -8,8 +8,11 @@
 #include "proto/base/csv.hpp"
 #include "scene/description.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,17 +27,62 @@ namespace hapnet::lab::results {
 inline constexpr base::Spare<base::Count> peers_column{};
 inline constexpr base::Spare<base::Text> scene_column{};
 
-/// How a result stands to what the paper says.
-enum class Claim : std::uint8_t { none, calibrated, met, missed };
-constexpr auto names_of(base::Tag<Claim>) { return base::names("", "calibrated", "met", "missed"); }
+/// How a result stands to what the paper says; undecided: its interval lies across the edge of what
+/// would agree.
+enum class Claim : std::uint8_t { none, calibrated, met, missed, undecided };
+constexpr auto names_of(base::Tag<Claim>)
+{
+    return base::names("", "calibrated", "met", "missed", "undecided");
+}
 
-/// The same of a limit.
-enum class LimitStatus : std::uint8_t { none, calibrated, predicted_met, predicted_missed };
+/// How a number that stands beside one of the paper's came about.
+enum class Provenance : std::uint8_t {
+    none,            // the paper has nothing that it stands beside
+    calibrated,      // fitted to it
+    selected,        // follows from a reading chosen among several with a look at it
+    by_construction, // another number again
+    predicted,       // it had no part in it
+};
+constexpr auto names_of(base::Tag<Provenance>)
+{
+    return base::names("", "calibrated", "selected", "by-construction", "predicted");
+}
+
+/// Of a limit: both at once.
+enum class LimitStatus : std::uint8_t {
+    none,
+    calibrated,
+    calibrated_missed,
+    selected_met,
+    selected_missed,
+    by_construction_met,
+    by_construction_missed,
+    predicted_met,
+    predicted_missed,
+    undecided,
+};
 constexpr auto names_of(base::Tag<LimitStatus>)
 {
-    return base::names("", "calibrated", "predicted-met", "predicted-missed");
+    return base::names("", "calibrated", "calibrated-missed", "selected-met", "selected-missed",
+                       "by-construction-met", "by-construction-missed", "predicted-met",
+                       "predicted-missed", "undecided");
 }
-[[nodiscard]] constexpr Claim to_claim(LimitStatus status) { return static_cast<Claim>(status); }
+[[nodiscard]] constexpr Claim to_claim(LimitStatus status)
+{
+    switch (status) {
+    case LimitStatus::none: break;
+    case LimitStatus::calibrated: return Claim::calibrated;
+    case LimitStatus::selected_met:
+    case LimitStatus::by_construction_met:
+    case LimitStatus::predicted_met: return Claim::met;
+    case LimitStatus::calibrated_missed:
+    case LimitStatus::selected_missed:
+    case LimitStatus::by_construction_missed:
+    case LimitStatus::predicted_missed: return Claim::missed;
+    case LimitStatus::undecided: return Claim::undecided;
+    }
+    return Claim::none;
+}
 
 /// Whether a limit was found, or nothing failed as far as was tried.
 enum class Bound : std::uint8_t { found, open };
@@ -42,6 +90,7 @@ constexpr auto names_of(base::Tag<Bound>) { return base::names("=", ">"); }
 
 inline constexpr base::Decimals thousandths{3};
 inline constexpr base::Decimals ten_thousandths{4};
+inline constexpr base::Decimals level_cell{2}; // of a limit, in the impairment's unit
 
 /// Of table1.csv.
 struct Table1Row {
@@ -54,6 +103,8 @@ struct Table1Row {
     std::optional<double> paper_max_mm{};
     std::optional<double> paper_std_mm{};
     Claim verdict{};
+    Provenance provenance{};     // of mean and standard deviation
+    Provenance max_provenance{}; // of the maximum
 };
 constexpr auto fields_of(base::Tag<Table1Row>)
 {
@@ -66,7 +117,9 @@ constexpr auto fields_of(base::Tag<Table1Row>)
                         base::field("paper_mean_mm", &Row::paper_mean_mm, thousandths),
                         base::field("paper_max_mm", &Row::paper_max_mm, thousandths),
                         base::field("paper_std_mm", &Row::paper_std_mm, thousandths),
-                        base::field("verdict", &Row::verdict));
+                        base::field("verdict", &Row::verdict),
+                        base::field("class", &Row::provenance),
+                        base::field("max_class", &Row::max_provenance));
 }
 
 /// Of tasks.csv: the worst of the seeds, mean and std as their mean.
@@ -115,7 +168,7 @@ constexpr auto fields_of(base::Tag<TaskRow>)
 /// In limits.csv, where the limit of the worst of the tasks stands.
 inline constexpr std::string_view worst_task = "worst";
 
-/// Of limits.csv.
+/// Of limits.csv: `limit` is p50, the level at which half of the seeds fail.
 struct LimitRow {
     std::string algorithm;
     std::string impairment;
@@ -125,6 +178,12 @@ struct LimitRow {
     std::string unit;
     std::optional<double> paper_limit{};
     LimitStatus status{};
+    Provenance provenance{};
+    double p50 = 0.0;
+    std::optional<double> p10{};
+    std::optional<double> ci_low{};  // of p50, 95 %
+    std::optional<double> ci_high{}; // nullopt: above the range
+    std::uint32_t seeds = 0;
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};
 
@@ -136,10 +195,27 @@ constexpr auto fields_of(base::Tag<LimitRow>)
     return base::fields(
         "limits", base::field("algorithm", &Row::algorithm),
         base::field("impairment", &Row::impairment), base::field("task", &Row::task),
-        base::field("limit", &Row::limit), base::field("bound", &Row::bound),
+        base::field("limit", &Row::limit, level_cell), base::field("bound", &Row::bound),
         base::field("unit", &Row::unit), base::field("paper_limit", &Row::paper_limit),
-        base::field("status", &Row::status), base::field("peers", &Row::peers, peers_column),
+        base::field("status", &Row::status), base::field("class", &Row::provenance),
+        base::field("p50", &Row::p50, level_cell), base::field("p10", &Row::p10, level_cell),
+        base::field("ci_low", &Row::ci_low, level_cell),
+        base::field("ci_high", &Row::ci_high, level_cell), base::field("seeds", &Row::seeds),
+        base::field("peers", &Row::peers, peers_column),
         base::field("scene", &Row::scene, scene_column));
+}
+
+/// Of limits_by_axis.csv: the limits at one value of a parameter.
+struct AxisLimitRow {
+    std::string parameter; // "both.delay"
+    std::string value;
+    LimitRow limit{};
+};
+constexpr auto fields_of(base::Tag<AxisLimitRow>)
+{
+    return base::fields("limits by axis", base::field("parameter", &AxisLimitRow::parameter),
+                        base::field("value", &AxisLimitRow::value),
+                        base::part(&AxisLimitRow::limit));
 }
 
 /// Of limits_by_convention.csv: how sensitive a limit is to the filter and to the hands.
@@ -152,6 +228,9 @@ struct SensitivityRow {
     double limit = 0.0;
     Bound bound{};
     std::string unit;
+    std::optional<double> ci_low{};
+    std::optional<double> ci_high{};
+    std::uint32_t seeds = 0;
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};
 
@@ -164,8 +243,10 @@ constexpr auto fields_of(base::Tag<SensitivityRow>)
         "limits by convention", base::field("algorithm", &Row::algorithm),
         base::field("impairment", &Row::impairment), base::field("task", &Row::task),
         base::field("filter_order", &Row::filter_order), base::field("hand", &Row::hand),
-        base::field("limit", &Row::limit), base::field("bound", &Row::bound),
-        base::field("unit", &Row::unit), base::field("peers", &Row::peers, peers_column),
+        base::field("limit", &Row::limit, level_cell), base::field("bound", &Row::bound),
+        base::field("unit", &Row::unit), base::field("ci_low", &Row::ci_low, level_cell),
+        base::field("ci_high", &Row::ci_high, level_cell), base::field("seeds", &Row::seeds),
+        base::field("peers", &Row::peers, peers_column),
         base::field("scene", &Row::scene, scene_column));
 }
 
@@ -198,6 +279,7 @@ struct CurveRow {
     double level = 0.0;
     std::string unit;
     std::uint32_t seed = 0;
+    bool counts = true; // false: of the coarse scan alone
     Judged judged{};
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};
@@ -209,7 +291,8 @@ constexpr auto fields_of(base::Tag<CurveRow>)
                         base::field("impairment", &Row::impairment),
                         base::field("task", &Row::task), base::field("level", &Row::level),
                         base::field("unit", &Row::unit), base::field("seed", &Row::seed),
-                        base::part(&Row::judged), base::field("peers", &Row::peers, peers_column),
+                        base::field("counts", &Row::counts), base::part(&Row::judged),
+                        base::field("peers", &Row::peers, peers_column),
                         base::field("scene", &Row::scene, scene_column));
 }
 
@@ -320,15 +403,36 @@ constexpr auto fields_of(base::Tag<ReplayRow>)
 /// What lies along x.
 [[nodiscard]] TrajectoryRow to_trajectory(const std::string& algorithm, const ReplayRow& row);
 
-/// What both sides did, in equal steps of time.
+/// One of those who played, with its copy of what is shared, in equal steps of time.
+struct ReplaySide {
+    std::string name; // "L", or "peer 3"
+    bool is_left = true;
+    std::vector<glm::dvec3> hand_mm{};
+    std::vector<glm::dvec3> force_n{}; // on the hand
+    /// Of each shared body the steps.
+    std::vector<std::vector<virtual_time::Pose>> bodies{};
+};
+
+/// What all sides did, in equal steps of time.
 struct Replay {
     std::string algorithm;
     std::string task;
     double start_s = 0.0;
     double step_s = 0.01;
-    std::vector<ReplayRow> rows{};                   // at least two
+    std::vector<ReplaySide> sides{};                 // two or more, of at least two steps
     scene::Description scene = scene::paper_scene(); // in which it was played
+    std::vector<std::size_t> shared{};               // which of its bodies; they stand there
+
+    [[nodiscard]] std::size_t steps() const { return sides.front().hand_mm.size(); }
 };
+
+/// The number of the first movable body.
+[[nodiscard]] std::size_t first_movable(const scene::Description& scene);
+
+/// Every so many ticks of a trace; `names` are those of its sides.
+[[nodiscard]] std::vector<ReplaySide> replay_sides(const virtual_time::Trace& trace,
+                                                   std::span<const std::string> names,
+                                                   std::size_t every);
 
 /// The times of each algorithm must increase.
 [[nodiscard]] base::Result<std::vector<TrajectoryRow>> read_trajectories(const File& file);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/virtual_time/play.hpp"
 
+#include "scene/maths/rotation.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -15,6 +17,8 @@ namespace {
 /// Sides that have not begun by then never will: at a loss of 99 % both ways two take 10 s.
 constexpr base::Duration begins_within{std::chrono::seconds{60}};
 constexpr std::int64_t steps_between_looks = 1024; // at `stop`
+/// Once all let go, the copies have this long to agree again.
+constexpr base::Duration settles_within{std::chrono::seconds{2}};
 
 /// One side while it was in session: one sample a tick, without gaps.
 struct Track {
@@ -55,6 +59,7 @@ public:
             world_.step();
             for (std::size_t side = 0; side < tracks_.size(); ++side) note(side);
         }
+        settle();
         return true;
     }
 
@@ -62,11 +67,14 @@ public:
 
 private:
     void note(std::size_t side);
+    void settle();
+    void note_settled();
     [[nodiscard]] bool has_any_session() const;
 
     VirtualWorld& world_;
     base::Duration tick_;
     std::vector<Track> tracks_; // of each side
+    std::vector<Settled> settled_;
     bool over_ = false;
 };
 
@@ -98,6 +106,39 @@ bool Play::has_any_session() const
     return false;
 }
 
+/// Plays on with hands off where the copies of what is shared take their time to agree again.
+void Play::settle()
+{
+    const peer::Peer& peer = world_.side(0).peer();
+    const base::Duration hands_off = peer.length() - peer.hands_on();
+    if (peer::is_one_without_turning(peer.shared()) || hands_off <= settles_within) return;
+    const base::TimePoint let_go = world_.now();
+    while (world_.now() < let_go + hands_off) {
+        world_.step();
+        if (world_.now() >= let_go + settles_within) note_settled();
+    }
+}
+
+void Play::note_settled()
+{
+    for (std::size_t side = 0; side < tracks_.size(); ++side)
+        if (world_.side(side).last().phase != peer::Phase::hands_off) return;
+    const auto shared = world_.side(0).peer().shared();
+    settled_.resize(shared.size());
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+        Settled& most = settled_[i];
+        for (std::size_t a = 0; a < tracks_.size(); ++a) {
+            const scene::BodyState here = world_.side(a).peer().world().body(shared[i].id);
+            for (std::size_t b = a + 1; b < tracks_.size(); ++b) {
+                const scene::BodyState there = world_.side(b).peer().world().body(shared[i].id);
+                const glm::dvec3 turn = scene::turn_between(here.orientation, there.orientation);
+                most.metres = std::max(most.metres, base::norm(here.position - there.position));
+                most.radians = std::max(most.radians, base::norm(base::Displacement{turn}));
+            }
+        }
+    }
+}
+
 /// From where on a track is read: `tick` samples into it, and `share` of a tick more.
 struct Offset {
     base::Duration::rep tick = 0;
@@ -125,6 +166,7 @@ Trace Play::trace() &&
 {
     Trace trace{.task = world_.setting().task, .tick = tick_};
     trace.simulated = world_.now() - VirtualWorld::start;
+    trace.settled = settled_;
     trace.sides.assign(tracks_.size(), {});
     const auto is_empty = [](const Track& track) { return track.samples.empty(); };
     if (std::ranges::any_of(tracks_, is_empty)) return trace;

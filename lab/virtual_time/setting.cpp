@@ -82,6 +82,8 @@ base::Result<void> validate(const Setting& setting)
     for (const PlayerSetting& player : setting.players) {
         if (const auto fine = peer::check_bodies_of(player.algorithm, *bodies); !fine)
             return tl::unexpected{fine.error()};
+        if (const auto fine = peer::check_hands_of(player.algorithm, setting.scene.hands); !fine)
+            return tl::unexpected{fine.error()};
     }
     if (auto world = scene::World::freeze(setting.scene, {.tick = setting.tick}); !world) {
         return tl::unexpected{std::move(world).error()};

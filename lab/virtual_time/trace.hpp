@@ -33,6 +33,12 @@ struct Pose {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
+/// How far copies of a body are apart at most once they have had time to agree again.
+struct Settled {
+    double metres = 0.0;
+    double radians = 0.0;
+};
+
 /// The sides of a session while all were running, at equal times: sample i of each is i ticks
 /// after the first. It comes from virtual time or from records; metrics do not know which.
 struct Trace {
@@ -46,6 +52,9 @@ struct Trace {
     /// order of their ids; empty where there is one body.
     std::vector<std::vector<Pose>> further{};
     std::size_t further_bodies = 0;
+    /// Of each shared body, from 2 s after hands off to the end, where several are shared or one
+    /// that can turn; empty: not played so far.
+    std::vector<Settled> settled{};
     /// The share of the session, 0 to 1, in which all were running; hands off not counted.
     double overlap = 0.0;
     base::Duration simulated{}; // that was played for it, from the first hello; 0 for records

@@ -119,13 +119,14 @@ std::string_view parts_in(device::Task task)
         return "both press the cube to the right against the static one; by turns one lets go";
     case device::Task::t6: return "L taps the cube, R rests a hand on its far side";
     case device::Task::t8:
-        return "both turn the cube between them to and fro, each pushing beside its middle";
+        return "all turn the cube between them to and fro, each pushing beside its middle, "
+               "from the left and from the right by turns of their ids";
     case device::Task::t9:
         return "by the primary button L takes the left cube and puts it on the middle one, then R "
-               "the right one on both";
+               "the right one on both; further hands watch";
     case device::Task::t10:
         return "by the primary button L lifts the screwdriver and holds it out, R takes it and "
-               "puts it down on the right";
+               "puts it down on the right; further hands watch";
     }
     return "";
 }

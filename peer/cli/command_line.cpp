@@ -27,9 +27,9 @@ constexpr const char* footer =
   T5  both press the cube against the static one; in turn one lets go suddenly
   T6  L taps the cube at 3 Hz while R rests on its far side
   T7  T3 with two to eight hands: by their ids the 1st, 3rd, ... act as L, the others as R
-  T8  both turn the cube of the scene turning to and fro
-  T9  L puts a cube of stack-of-three on another, then R the third on both
-  T10 L hands R the screwdriver of the scene bench, and R puts it down
+  T8  two to eight hands turn the cube of the scene turning to and fro; sides as in T7
+  T9  L puts a cube of stack-of-three on another, then R the third on both; others watch
+  T10 L hands R the bench's screwdriver, and R puts it down; others watch
 Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). All peers
 need the same task and scene; the shortest --duration counts, from their common start. A peer waits
 for the others without a limit.
@@ -43,7 +43,10 @@ Algorithms (docs/design/algorithms.md; two peers may use different ones):
   base-tdpa       base, with damping where the other side's force brings in more than its work
   wave            the copies are joined by a channel of waves; passive, and soft over a delay
   couple          the copies are joined by springs within their energy; passive, and soft
-A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
+  lag             all copies play equally late: they agree, and touch is late and soft
+  rollback        past exactly, present computed again with each message: a yardstick
+A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from. FILE.so is
+a shared object with an algorithm of your own (docs/use/libraries.md).
 
 Examples:
   hapnet-peer --id 1 --listen :7101 --remote 127.0.0.1:7102 --task T3

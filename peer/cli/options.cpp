@@ -4,6 +4,7 @@
 
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
+#include "peer/shared_object/load.hpp"
 #include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/parsers.hpp"
@@ -77,9 +78,7 @@ base::Result<void> take_scene(const std::string& file_or_name, Options& options)
 
 base::Result<Algorithm> parse_algorithm_name(const std::string& name_or_file)
 {
-    return cli::meant_value("--algorithm", name_or_file).and_then([](const std::string& meant) {
-        return load_algorithm(meant, net::text_of_file);
-    });
+    return cli::meant_value("--algorithm", name_or_file).and_then(shared_object::load_from_disk);
 }
 
 base::Result<device::Task> parse_task(std::string name)
@@ -304,7 +303,8 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
     program.option(
         "--algorithm", "NAME|FILE",
         "How the copies of the cube are kept together: base (default), dead-reckoning, sep, "
-        "remote-proxy, base-tdpa, wave, couple, or a file of parameters in TOML",
+        "remote-proxy, base-tdpa, wave, couple, lag, rollback, a file of parameters in TOML, or a "
+        "shared object of your own (FILE.so)",
         cli::into(options.algorithm, parse_algorithm_name));
     program
         .option("--print-algorithm", "NAME|FILE",
@@ -344,6 +344,8 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
     }
     const auto played = check_bodies_of(options.algorithm, shared_bodies(options.scene).value());
     if (!played) return base::fail(fmt::format("--algorithm: {}", played.error().message));
+    const auto felt = check_hands_of(options.algorithm, options.scene.hands);
+    if (!felt) return base::fail(fmt::format("--algorithm: {}", felt.error().message));
     if (auto fine = check_circle(options); !fine) return fine;
     return check_room(options);
 }

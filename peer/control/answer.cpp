@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -23,10 +24,13 @@ bool is_for_an_emulator(std::string_view command)
     return std::find(commands.begin(), commands.end(), command) != commands.end();
 }
 
-std::string shown(const PeerControl& peer)
+/// How often frames may be had at most: as often as clients are served.
+constexpr base::Duration frames_least = std::chrono::milliseconds{10};
+
+std::string fine(const Json& members)
 {
     Json reply{{"ok", true}};
-    reply.update(peer.show());
+    reply.update(members);
     return control::line_of(reply);
 }
 
@@ -68,30 +72,33 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer)
     Members members{*json};
     const std::string command = members.text("command");
     if (members.error()) return control::refusal(*members.error());
-    if (command == "show") return answer_with(members, [&] { return shown(peer); });
+    if (command == "show") return answer_with(members, [&] { return fine(peer.show()); });
+    if (command == "scene") return answer_with(members, [&] { return fine(peer.scene()); });
     if (command == "stop") return answer_with(members, [&] { return stopped(peer); });
     if (command == "estop") return answer_with(members, [&] { return stopped_in_emergency(peer); });
     if (command == "stats") {
         return answer_with(members, [&] { return control::statistics_reply(peer.statistics()); });
     }
     if (command == "wait") return begun(members, control::wait_request(members));
-    if (command == "watch") return begun(members, control::watch_request(members));
+    if (command == "watch") return begun(members, control::watch_request(members, frames_least));
     if (is_for_an_emulator(command)) {
         return control::refusal(fmt::format(
-            "'{}' is for an emulator: a running peer cannot be changed; use show, stats, "
+            "'{}' is for an emulator: a running peer cannot be changed; use show, scene, stats, "
             "watch, wait, stop or estop",
             command));
     }
-    return control::refusal("\"command\" must be one of show, stats, watch, wait, stop, estop");
+    return control::refusal("\"command\" must be one of show, scene, stats, watch, wait, stop, "
+                            "estop");
 }
 
 control::Subject subject_of(PeerControl peer)
 {
     auto statistics = peer.statistics;
+    auto frames = peer.frames;
     return {[peer = std::move(peer)](std::string_view line, base::TimePoint /*now*/) {
                 return answer_to(line, peer);
             },
-            std::move(statistics)};
+            std::move(statistics), std::move(frames)};
 }
 
 } // namespace hapnet::peer

@@ -19,10 +19,14 @@ struct PeerControl {
     std::function<void()> stop;
     /// Zero force from now on, until the program is started anew; the session goes on without.
     std::function<void()> stop_in_emergency;
+    /// What is in the scene, for whoever draws it; an object.
+    std::function<nlohmann::ordered_json()> scene;
+    /// Begins a watch of frames.
+    std::function<control::FrameSource()> frames;
 };
 
-/// The answer to a request line; PROTOCOL.md describes the requests. A request that would change
-/// the peer is refused.
+/// The answer to a request line; docs/formats/control.md describes the requests. A request that
+/// would change the peer is refused.
 [[nodiscard]] control::Answer answer_to(std::string_view line, const PeerControl& peer);
 
 /// The peer for a control socket.

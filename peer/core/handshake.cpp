@@ -46,7 +46,10 @@ std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
     if (const auto reason = refusal_of(hello)) return reason;
     const bool is_of_another_run = !remote_ || remote_->nonce != hello.nonce;
     if (is_of_another_run && remote_ && known == Known::heard) return std::nullopt;
-    if (is_of_another_run) meet(hello);
+    if (is_of_another_run) {
+        meet(hello);
+        met_at_ = arrived;
+    }
     remote_->hears_us = hello.nonce_heard == self_.nonce;
     remote_->heard = hello.heard;
     remote_->length_ms = hello.length_ms;

@@ -76,12 +76,12 @@ std::optional<FingerFriction> friction_of(const Settings& settings)
 }
 
 /// The share of the force on the hand that may be rendered.
-double rendered_share(const Settings& settings)
+double rendered_share(const Settings& settings, base::Duration late = {})
 {
     const VirtualWall wall = hardest_wall(settings.scene);
-    return std::min(
-        share_within(settings.stiffness_max_n_per_m, wall),
-        passive_share(wall, base::to_seconds(settings.tick), settings.grip_damping_ns_per_m));
+    const double tick_s = base::to_seconds(settings.tick + 2 * late); // held for half a tick more
+    return std::min(share_within(settings.stiffness_max_n_per_m, wall),
+                    passive_share(wall, tick_s, settings.grip_damping_ns_per_m));
 }
 
 Member::Config member_of(const Settings& settings)
@@ -113,7 +113,7 @@ Peer::Peer(const Settings& settings)
       effects_(shared_.size())
 {
     base::ensure(circle_.is_pair() || plays_with_many(settings.algorithm));
-    prepare(settings_.algorithm, others_.size());
+    prepare(settings_.algorithm, others_.size(), world_);
 }
 
 void Peer::tell(Event event, const Member* about)
@@ -216,7 +216,8 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
                                  .tick = settings_.tick,
                                  .force_max_n = force_max_n_,
                                  .from = from,
-                                 .hand = other.handshake().hand()};
+                                 .hand = other.handshake().hand(),
+                                 .start = other.session()->start};
     std::visit([&](auto& algorithm) { algorithm.hear(received); }, settings_.algorithm);
 }
 
@@ -398,7 +399,9 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .clock = clock(lowest),
                               .force_max_n = force_max_n_,
                               .lower_ids = circle_.rank(),
-                              .hands = &settings_.scene.hands};
+                              .hands = &settings_.scene.hands,
+                              .start = session()->start,
+                              .number = ticks_played_++};
     note_places();
     if (body_known_) move_world(tick, situation, input);
     keep_within_reach();
@@ -459,7 +462,8 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandI
         tick.touched.on_hand += -rubbing;
         on_hand += -rubbing;
     }
-    tick.force = share_ * on_hand;
+    const bool is_late = outcome.late > base::Duration{0};
+    tick.force = (is_late ? rendered_share(settings_, outcome.late) : share_) * on_hand;
 }
 
 void Peer::account(const Tick& tick, base::TimePoint now)

@@ -31,7 +31,7 @@ struct Settings {
     Introduction introduction;
     Roster roster; // the others; with more than one: plays_with_many()
     scene::Description scene = scene::paper_scene(); // one that shared_bodies() accepts
-    Algorithm algorithm;                             // one that check_bodies_of() accepts
+    Algorithm algorithm; // one that check_bodies_of() and check_hands_of() accept
     /// Damping of the device and the loosest grip on it. It bounds the contacts that can be
     /// rendered without the hand drawing energy from them (passive_share). The default is a nominal
     /// grip on a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z.
@@ -146,6 +146,12 @@ public:
     [[nodiscard]] const scene::World& world() const { return world_; }
     /// All of them: every movable body of the scene, by their ids.
     [[nodiscard]] std::span<const SharedBody> shared() const { return shared_; }
+    /// Whose copy of the i-th of them counts: BaseBodies::owner(); 0 where one is shared that does
+    /// not turn.
+    [[nodiscard]] std::uint16_t owner(std::size_t body) const
+    {
+        return base_bodies_ ? base_bodies_->owner(body) : std::uint16_t{0};
+    }
     /// The first shared body in this copy of the scene.
     [[nodiscard]] scene::BodyState body() const { return world_.body(body_); }
     [[nodiscard]] base::Position position() const { return world_.position(body_); } // of body()
@@ -156,6 +162,7 @@ public:
     {
         return others()[of].handshake().clock();
     }
+    [[nodiscard]] const Algorithm& algorithm() const { return settings_.algorithm; }
     [[nodiscard]] const Counters& counters() const { return counters_; }
     [[nodiscard]] bool is_alone() const; // all others said goodbye
     /// Its place among all in the order of their ids, from 0: the 1st, 3rd, ... hand acts as L, the
@@ -239,6 +246,7 @@ private:
     std::vector<Effect> effects_;            // on the shared bodies
     Outbox<Notice, 32> notices_;
     Counters counters_;
+    std::int64_t ticks_played_ = 0; // in the session
 
     Phase phase_ = Phase::waiting;
     bool body_known_ = true; // false: joined late, the others' bodies not all seen yet

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/side.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <glm/geometric.hpp>
 
 namespace hapnet::peer {
@@ -31,8 +33,8 @@ device::Cue Side::take_cue()
 {
     const Session& session = *peer_.session();
     cued_ = session.start;
-    return {session.start, peer_.hands_on(), base::Seed{session.seed},
-            id_,           peer_.is_left(),  peer_.share_of_side()};
+    return {session.start,   peer_.hands_on(),      base::Seed{session.seed}, id_,
+            peer_.is_left(), peer_.share_of_side(), peer_.rank() < 2};
 }
 
 double Side::work_since(const device::Sample& before) const
@@ -69,12 +71,15 @@ record::TickRow Side::row(std::uint64_t number, const TickTime& time) const
 record::BodyRow Side::body_row(std::uint64_t number, const SharedBody& body) const
 {
     const scene::BodyState state = peer_.world().body(body.id);
+    const auto shared = peer_.shared();
+    const auto index = std::ranges::find(shared, body.id, &SharedBody::id) - shared.begin();
     return {.tick = number,
             .body = static_cast<std::uint16_t>(body.id),
             .position = state.position,
             .velocity = state.velocity,
             .orientation = state.orientation,
-            .angular_velocity = {state.angular_velocity}};
+            .angular_velocity = {state.angular_velocity},
+            .owner = peer_.owner(static_cast<std::size_t>(index))};
 }
 
 device::Sample sample_of(const record::TickRow& row)

@@ -79,7 +79,7 @@ public:
     [[nodiscard]] base::Force told() const { return told_; }
     /// All of it for a record; its number and time are the loop's to know.
     [[nodiscard]] record::TickRow row(std::uint64_t number, const TickTime& time) const;
-    /// Likewise one of the shared bodies.
+    /// Likewise one of peer().shared().
     [[nodiscard]] record::BodyRow body_row(std::uint64_t number, const SharedBody& body) const;
 
 private:

@@ -86,9 +86,9 @@ void look_after(const Supervised& supervised, EmergencyStop& emergency)
     net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
                        net::monotonic_now() + every);
     emergency.look();
-    if (control_session != nullptr) control_session->serve(net::monotonic_now());
     monitor.on_sending(servo.sending());
-    monitor.drain();
+    monitor.drain(); // first: frames are made of it
+    if (control_session != nullptr) control_session->serve(net::monotonic_now());
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "peer/control/answer.hpp"
 #include "peer/monitor/report.hpp"
+#include "peer/monitor/scene_report.hpp"
 
 #include <utility>
 
@@ -31,7 +32,9 @@ control::Subject ControlSession::subject()
                                return json;
                            },
                        .stop = [this] { parts_.stop.request(); },
-                       .stop_in_emergency = [this] { parts_.gate.stop_in_emergency(); }});
+                       .stop_in_emergency = [this] { parts_.gate.stop_in_emergency(); },
+                       .scene = [this] { return scene_json(parts_.options.scene); },
+                       .frames = [this] { return parts_.monitor.watch_frames(); }});
 }
 
 void ControlSession::serve(base::TimePoint now)

@@ -24,7 +24,7 @@ public:
         const net::StopSignal& stop;
         loop::ForceGate& gate;
         const Options& options;
-        const Monitor& monitor;
+        Monitor& monitor;
         std::string device; // its description
         Recovery recovery{};
     };

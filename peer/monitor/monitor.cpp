@@ -48,13 +48,13 @@ std::string longest_of(const std::map<std::uint16_t, base::Duration>& round_trip
     return ms < 1.0 ? fmt::format("{:5.3f}", ms) : fmt::format("{:5.1f}", ms);
 }
 
-std::string line_of(const StatusLine& status, const StatusLine& before, bool is_pair)
+std::string line_of(const StatusLine& status, const StatusLine& before, const Named& named)
 {
     const record::TickRow& tick = *status.tick;
     if (const auto trouble = describe(status.sending); !trouble.empty()) {
         return fmt::format("nothing can be sent to the other peer: {}", trouble);
     }
-    if (!status.session) return words_on_waiting(status.awaited, is_pair);
+    if (!status.session) return words_on_waiting(status.awaited, named.others.size() <= 1);
     const double at = base::to_seconds(tick.due - status.session->start);
     if (at < 0.0) return fmt::format("starts in {:.1f} s", -at);
     // Per 1000 ticks of the session, which are a second of it.
@@ -69,11 +69,11 @@ std::string line_of(const StatusLine& status, const StatusLine& before, bool is_
                            "the force was stopped",
                            at, base::to_seconds(status.session->length));
     }
-    return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube x {:+6.1f} mm  force {:4.2f} N  "
+    return fmt::format("{:5.1f} of {:.0f} s  {:<9}  {} x {:+6.1f} mm  force {:4.2f} N  "
                        "received {:4.0f}/s  round trip {} ms  missed ticks {}",
-                       at, base::to_seconds(status.session->length), phase, tick.cube.x() * 1e3,
-                       base::norm(tick.device), rate, longest_of(status.round_trips),
-                       status.missed);
+                       at, base::to_seconds(status.session->length), phase, named.body,
+                       tick.cube.x() * 1e3, base::norm(tick.device), rate,
+                       longest_of(status.round_trips), status.missed);
 }
 
 } // namespace
@@ -93,13 +93,14 @@ std::string_view describe(net::SendOutcome outcome)
     return "";
 }
 
-std::string_view describe(Event event)
+std::string describe(Event event, std::string_view shared)
 {
     switch (event) {
     case Event::met: return "the other peer answers";
     case Event::agreed: return "session agreed; it starts within a second";
     case Event::started: return "session started";
-    case Event::joined: return "joined the session under way; the cube is where the other has it";
+    case Event::joined:
+        return fmt::format("joined the session under way, with {} as the other has it", shared);
     case Event::lost:
         return "the other peer has been silent for 300 ms: force faded to zero; waiting for it "
                "(is it running, and is the emulator between the two?)";
@@ -110,8 +111,10 @@ std::string_view describe(Event event)
     case Event::hands_off: return "hands off";
     case Event::ended: return "session ended";
     case Event::no_body:
-        return "messages of the other peer come, but none that tells where the cube is: something "
-               "on the path drops the longer ones (136 bytes and more); the copies will not agree";
+        return fmt::format("messages of the other peer come, but none that tells the place of {}: "
+                           "something on the path drops the longer ones (136 bytes and more); the "
+                           "copies will not agree",
+                           shared);
     case Event::clock_jumped:
         return "clock jumped: that of the other peer's host stands elsewhere than before, as after "
                "a suspend or a move of a virtual machine; delays count anew";
@@ -145,37 +148,38 @@ std::string describe_in_circle(line::News news, std::uint16_t about)
     return with_name(describe(news), about);
 }
 
-std::string describe_in_circle(Event event, std::uint16_t about)
+std::string describe_in_circle(Event event, std::string_view shared, std::uint16_t about)
 {
     switch (event) {
-    case Event::joined: return "joined the session under way; the cube is where the others have it";
+    case Event::joined:
+        return fmt::format("joined the session under way, with {} as the others have it", shared);
     case Event::lost:
-        return fmt::format("peer {} has been silent for 300 ms: zero force if its hand was on the "
-                           "cube, until it is back or has been silent for 1 s",
-                           about);
+        return fmt::format("peer {} has been silent for 300 ms: zero force if its hand was on {}, "
+                           "until it is back or has been silent for 1 s",
+                           about, shared);
     case Event::back: return fmt::format("peer {} is heard again", about);
     case Event::left: return fmt::format("peer {} said goodbye: its hand is gone", about);
     case Event::refused: return "the peers do not match: no session";
-    default: return with_name(describe(event), about);
+    default: return with_name(describe(event, shared), about);
     }
 }
 
 Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
-                 std::optional<record::Writer> writer, std::uint16_t peer_id,
-                 std::vector<std::uint16_t> others)
+                 std::optional<record::Writer> writer, Named named)
     : journal_{journal},
       screen_{screen},
-      peer_id_{peer_id},
-      others_{std::move(others)},
+      frames_{named.peer_id},
+      named_{std::move(named)},
       line_{STDERR_FILENO}
 {
-    status_.awaited = others_;
+    status_.awaited = named_.others;
     if (writer) recorder_.emplace(*std::move(writer));
 }
 
 void Monitor::drain()
 {
     while (const auto entry = journal_.take()) {
+        frames_.take(*entry);
         if (const auto* row = std::get_if<record::Row>(&*entry)) {
             take(*row);
         } else if (const auto* message = std::get_if<loop::HeardMessage>(&*entry)) {
@@ -201,8 +205,8 @@ void Monitor::on_event(const loop::TimedEvent& event)
         std::erase_if(status_.awaited,
                       [&](std::uint16_t id) { return is_pair() || id == event.about; });
     }
-    tell(event.at, is_pair() ? std::string{describe(event.event)}
-                             : describe_in_circle(event.event, event.about));
+    tell(event.at, is_pair() ? describe(event.event, named_.shared())
+                             : describe_in_circle(event.event, named_.shared(), event.about));
 }
 
 void Monitor::take(const record::Row& row)
@@ -277,7 +281,7 @@ void Monitor::tell(base::TimePoint at, std::string_view words)
 
 void Monitor::say(std::string_view text)
 {
-    screen_.put(fmt::format("{}hapnet-peer {}: {}\n", line_.room(), peer_id_, text));
+    screen_.put(fmt::format("{}hapnet-peer {}: {}\n", line_.room(), named_.peer_id, text));
 }
 
 void Monitor::show(base::TimePoint now)
@@ -288,9 +292,9 @@ void Monitor::show(base::TimePoint now)
     for (const auto& [id, shortest] : std::exchange(round_trips_, {}))
         status_.round_trips[id] = shortest;
     if (next_show_ || line_.is_terminal()) {
-        const std::string line = line_of(status_, shown_, is_pair());
+        const std::string line = line_of(status_, shown_, named_);
         if (line_.is_terminal()) {
-            screen_.put(line_.shown(fmt::format("hapnet-peer {}: {}", peer_id_, line)));
+            screen_.put(line_.shown(fmt::format("hapnet-peer {}: {}", named_.peer_id, line)));
         } else {
             say(line);
         }

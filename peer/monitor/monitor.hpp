@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/loop/journal.hpp"
+#include "peer/monitor/frame_tap.hpp"
 #include "peer/monitor/rate_limit.hpp"
 #include "peer/monitor/recorder.hpp"
 #include "proto/net/batch_sender.hpp"
@@ -32,9 +33,20 @@ struct StatusLine {
     net::SendOutcome sending = net::SendOutcome::sent; // of late
 };
 
-/// Reads the journal of the servo thread: hands rows to the record, prints events for a person, and
-/// draws a status line on a terminal (elsewhere a plain line every 5 s). It waits for nobody:
-/// record and text are written by threads of their own.
+/// What the words for a person have to name.
+struct Named {
+    std::uint16_t peer_id = 0;
+    std::vector<std::uint16_t> others{0}; // the ids of the roster
+    std::string body = "body";            // the first of the shared ones
+    bool has_several = false;             // bodies
+
+    /// "the cube"; "the bodies" where there are several.
+    [[nodiscard]] std::string shared() const { return has_several ? "the bodies" : "the " + body; }
+};
+
+/// Reads the journal of the servo thread: hands rows to the record and to those who watch frames,
+/// prints events for a person, and draws a status line on a terminal (elsewhere a plain line every
+/// 5 s). It waits for nobody: record and text are written by threads of their own.
 class Monitor {
 public:
     /// Events beyond so many are left out, and counted: the network must not fill a log.
@@ -42,9 +54,8 @@ public:
     static constexpr base::Duration event_every{std::chrono::milliseconds{500}};
 
     /// Text goes to `screen`, which outlives it. `writer` may be empty.
-    /// `others`: the ids of the roster.
     Monitor(loop::Journal& journal, net::TextQueue& screen, std::optional<record::Writer> writer,
-            std::uint16_t peer_id, std::vector<std::uint16_t> others = {0});
+            Named named);
 
     /// Reads everything in the journal. When the record cannot be written any more (a full disk),
     /// it says so once and goes on without it.
@@ -59,6 +70,9 @@ public:
     [[nodiscard]] bool is_done() const { return !recorder_ || recorder_->is_done(); }
     /// After close(): tells of a record that has failed meanwhile, and ends the line.
     void finish();
+
+    /// Begins a watch of frames of what is drained from now on.
+    [[nodiscard]] control::FrameSource watch_frames() { return frames_.watch(); }
 
     /// Why the record is incomplete; null: its file has not refused.
     [[nodiscard]] std::exception_ptr record_failure() const;
@@ -76,7 +90,7 @@ private:
     void take(const record::Row& row);
     void note_round_trip(const loop::HeardMessage& heard);
     void look_at_record();
-    [[nodiscard]] bool is_pair() const { return others_.size() <= 1; }
+    [[nodiscard]] bool is_pair() const { return named_.others.size() <= 1; }
     void on_event(const loop::TimedEvent& event);
     void tell(base::TimePoint at, std::string_view words);
     void say(std::string_view text);
@@ -84,12 +98,12 @@ private:
     loop::Journal& journal_;
     net::TextQueue& screen_;
     std::optional<Recorder> recorder_;
+    FrameTap frames_;
     bool is_failure_told_ = false;
     bool is_closed_ = false;
     RateLimit events_{events_at_once, event_every};
     std::uint64_t events_left_out_ = 0;
-    std::uint16_t peer_id_;
-    std::vector<std::uint16_t> others_;
+    Named named_;
     net::TerminalLine line_;
     std::map<std::uint16_t, base::Duration> round_trips_; // the shortest since the last line
     StatusLine status_;
@@ -103,11 +117,12 @@ private:
 /// News of the line to the other peer of two in words, with what to do about it.
 [[nodiscard]] std::string_view describe(line::News news);
 
-/// An event in a session of two in words for a person.
-[[nodiscard]] std::string_view describe(Event event);
+/// An event in a session of two in words for a person. `shared`: "the cube".
+[[nodiscard]] std::string describe(Event event, std::string_view shared);
 
 /// The same among more than two: whom it is about.
 [[nodiscard]] std::string describe_in_circle(line::News news, std::uint16_t about);
-[[nodiscard]] std::string describe_in_circle(Event event, std::uint16_t about);
+[[nodiscard]] std::string describe_in_circle(Event event, std::string_view shared,
+                                             std::uint16_t about);
 
 } // namespace hapnet::peer::monitor

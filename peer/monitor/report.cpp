@@ -445,6 +445,8 @@ Ordered show_json(const Run& run, const Recovery& recovery)
             {"duration_s", base::to_seconds(options.duration)},
             {"device", run.device},
             {"force_limit_n", status.force_limit_n},
+            {"tick_rate_hz", 1000},
+            {"boot_id", net::boot_id()},
             {"elapsed_s", base::to_seconds(status.elapsed)},
             {"state", state_of(status)},
             {"says", says(status, recovery)},

@@ -46,14 +46,26 @@ double font_size(const Bar& bar, const Place& place)
     return std::clamp(1.1 * place.width / (width_per_size * characters), least, usual);
 }
 
-std::string drawn_bar(const Bar& bar, const Place& place)
+/// The two ends of an interval, in pixels, and the line between them.
+std::string whisker(const Bar& bar, const Place& place, const Axis& y)
 {
-    return fmt::format("<g><title>{}</title>{}<text x='{:.1f}' y='{:.1f}' text-anchor='middle' "
-                       "font-size='{:.1f}'{}>{}</text></g>\n",
-                       escaped(bar.tip.empty() ? bar.label : bar.tip), shape(bar, place),
-                       place.left + place.width / 2.0, place.top - 4.0, font_size(bar, place),
-                       bar.is_missed ? " fill='var(--missed)' font-weight='bold'" : "",
-                       escaped(bar.label));
+    if (!bar.interval) return "";
+    const double middle = place.left + place.width / 2.0;
+    return fmt::format("<path d='M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h8M{3:.1f} {2:.1f}h8' "
+                       "stroke='currentColor' stroke-width='1.2' fill='none'/>",
+                       middle, y.pixel(bar.interval->low), y.pixel(bar.interval->high),
+                       middle - 4.0);
+}
+
+std::string drawn_bar(const Bar& bar, const Place& place, const Axis& y)
+{
+    const double top = bar.interval ? std::min(place.top, y.pixel(bar.interval->high)) : place.top;
+    return fmt::format(
+        "<g><title>{}</title>{}{}<text x='{:.1f}' y='{:.1f}' text-anchor='middle' "
+        "font-size='{:.1f}'{}>{}</text></g>\n",
+        escaped(bar.tip.empty() ? bar.label : bar.tip), shape(bar, place), whisker(bar, place, y),
+        place.left + place.width / 2.0, top - 4.0, font_size(bar, place),
+        bar.is_missed ? " fill='var(--missed)' font-weight='bold'" : "", escaped(bar.label));
 }
 
 } // namespace
@@ -64,7 +76,10 @@ std::string svg_bars(const PlotTitles& titles, const std::vector<BarGroup>& grou
     const Margins margins = margins_for(size, !legend.empty());
     Range range{0.0, 0.0};
     for (const BarGroup& group : groups) {
-        for (const Bar& bar : group.bars) range.include(head_room * bar.value);
+        for (const Bar& bar : group.bars) {
+            range.include(head_room * bar.value);
+            if (bar.interval) range.include(head_room * bar.interval->high);
+        }
     }
     const Axis y{Scale::linear,
                  {0.0, range.high > 0.0 ? range.high : 1.0},
@@ -80,8 +95,9 @@ std::string svg_bars(const PlotTitles& titles, const std::vector<BarGroup>& grou
         double at = left + (room - step * bars) / 2.0;
         for (const Bar& bar : group.bars) {
             if (std::isfinite(bar.value)) {
-                out += drawn_bar(
-                    bar, {at + 0.05 * step, 0.9 * step, y.pixel(bar.value), y.pixels().from});
+                const Place place{at + 0.05 * step, 0.9 * step, y.pixel(bar.value),
+                                  y.pixels().from};
+                out += drawn_bar(bar, place, y);
             }
             at += step;
         }

@@ -4,6 +4,7 @@
 
 #include "proto/plot/axis.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,11 +15,12 @@ namespace hapnet::plot {
 struct Bar {
     double value = 0.0;
     std::string label;
-    std::string_view colour;  // as CSS writes it
-    bool is_outlined = false; // for what others measured
-    bool is_open = false;     // the value is more than that: an arrow instead of an end
-    bool is_missed = false;   // its label is red
-    std::string tip{};        // shown where a pointer rests
+    std::string_view colour;         // as CSS writes it
+    bool is_outlined = false;        // for what others measured
+    bool is_open = false;            // the value is more than that: an arrow instead of an end
+    bool is_missed = false;          // its label is red
+    std::optional<Range> interval{}; // in which the value lies: a line with two ends
+    std::string tip{};               // shown where a pointer rests
 };
 
 struct BarGroup {

@@ -7,6 +7,7 @@
 #include "proto/record/fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::record {
@@ -32,9 +33,7 @@ template <typename R>
 void for_each_field_of(const Layout& layout, R& row, const auto& visit)
 {
     for_each_field(row, [&]<typename T>(std::string_view name, T& field) {
-        const bool is_newer =
-            name == "from" || name == "other" || name == "noted_at" || name == "remote_skew_ppm";
-        if (layout.version > 2 || !is_newer) visit(name, field);
+        if (layout.has_field(name)) visit(name, field);
     });
 }
 
@@ -65,13 +64,21 @@ base::Result<Row> decode_fields(base::ByteReader in, std::size_t size, const Lay
 
 } // namespace
 
+bool Layout::has_field(std::string_view name) const
+{
+    constexpr std::array<std::string_view, 4> since_3{"from", "other", "noted_at",
+                                                      "remote_skew_ppm"};
+    if (version < 3 && std::ranges::find(since_3, name) != since_3.end()) return false;
+    return version >= 5 || name != "owner";
+}
+
 std::optional<std::size_t> Layout::bytes_of(std::byte kind) const
 {
     switch (std::to_integer<std::uint8_t>(kind)) {
     case kind_code<TickRow>:
     case kind_code<SessionRow>: return row_bytes;
     case kind_code<MessageRow>: return message_row_bytes;
-    case kind_code<BodyRow>: return has_bodies() ? std::optional{body_row_bytes} : std::nullopt;
+    case kind_code<BodyRow>: return has_bodies() ? std::optional{bytes_of_body()} : std::nullopt;
     default: return std::nullopt;
     }
 }

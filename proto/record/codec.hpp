@@ -8,23 +8,24 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::record {
 
 /// A row of a tick or a session takes this many bytes.
 inline constexpr std::size_t row_bytes = 216;
-/// A row of a body takes this many.
-inline constexpr std::size_t body_row_bytes = 115;
+/// A row of a body takes this many, since version 5.
+inline constexpr std::size_t body_row_bytes = 117;
 /// Of a row of a message, those before the message.
 inline constexpr std::size_t message_head_bytes = 21;
 
 /// How the rows of a file are laid out: all rows of one kind have one length.
 struct Layout {
     /// Version 2 has no `from` in its messages, and less in its session rows; version 4 has rows of
-    /// bodies besides, and is otherwise version 3.
+    /// bodies besides, and is otherwise version 3; version 5 has their owner in them.
     static constexpr int version_min = 2;
-    static constexpr int version_max = 4;
+    static constexpr int version_max = 5;
 
     int version = 3;
     std::size_t message_row_bytes = message_head_bytes + MessageRow::bytes_max;
@@ -37,13 +38,20 @@ struct Layout {
     /// The same with rows of bodies.
     [[nodiscard]] constexpr Layout with_bodies() const
     {
-        return {.version = 4, .message_row_bytes = message_row_bytes};
+        return {.version = 5, .message_row_bytes = message_row_bytes};
     }
     [[nodiscard]] constexpr bool has_bodies() const { return version >= 4; }
+    [[nodiscard]] constexpr std::size_t bytes_of_body() const
+    {
+        return version >= 5 ? body_row_bytes : body_row_bytes - sizeof(BodyRow::owner);
+    }
+    /// Whether its rows have the field of this name, which some row of the newest version has.
+    [[nodiscard]] bool has_field(std::string_view name) const;
     [[nodiscard]] static constexpr Layout of_version_2()
     {
         return {.version = 2, .message_row_bytes = row_bytes};
     }
+    [[nodiscard]] static constexpr Layout of_version_4() { return {.version = 4}; }
     /// The longest message that has room.
     [[nodiscard]] constexpr std::size_t message_bytes_max() const
     {

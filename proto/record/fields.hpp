@@ -92,8 +92,10 @@ constexpr auto fields_of(base::Tag<BodyRow>)
         base::member("orientation", &BodyRow::orientation,
                      "quaternion w, x, y, z from the body's frame to the scene's; 1, 0, 0, 0 where "
                      "it cannot turn"),
-        base::member("angular_velocity", &BodyRow::angular_velocity,
-                     "about the axes of the scene"));
+        base::member("angular_velocity", &BodyRow::angular_velocity, "about the axes of the scene"),
+        base::member("owner", &BodyRow::owner,
+                     "id of the peer whose copy of the body counts, as this peer sees it; 0: not "
+                     "known, as before the session. Not in version 4"));
 }
 
 /// Calls visit(name, field) for every field of a row.

@@ -14,12 +14,13 @@ namespace hapnet::record {
 namespace {
 
 template <typename R>
-nlohmann::json schema_of()
+nlohmann::json schema_of(const Layout& layout)
 {
     std::size_t offset = sizeof(kind_code<R>);
     auto fields = nlohmann::json::array();
     const R row{};
     for_each_field(row, [&]<typename T>(std::string_view name, const T&) {
+        if (!layout.has_field(name)) return;
         nlohmann::json field{{"name", name}, {"type", FieldType<T>::type}, {"offset", offset}};
         if (!FieldType<T>::unit.empty()) field["unit"] = FieldType<T>::unit;
         if constexpr (std::same_as<T, Phase>) field["values"] = base::names_of_enum<Phase>;
@@ -32,18 +33,19 @@ nlohmann::json schema_of()
 /// All of the header that is the same in every record of this layout.
 nlohmann::json description_of(const Layout& layout)
 {
-    nlohmann::json description{{"format", "hapnet-record"},
-                               {"version", layout.version},
-                               {"row_bytes", row_bytes},
-                               {"message_row_bytes", layout.message_row_bytes},
-                               {"byte_order", "little"},
-                               {"schema",
-                                {{base::described_name<TickRow>, schema_of<TickRow>()},
-                                 {base::described_name<MessageRow>, schema_of<MessageRow>()},
-                                 {base::described_name<SessionRow>, schema_of<SessionRow>()}}}};
+    nlohmann::json description{
+        {"format", "hapnet-record"},
+        {"version", layout.version},
+        {"row_bytes", row_bytes},
+        {"message_row_bytes", layout.message_row_bytes},
+        {"byte_order", "little"},
+        {"schema",
+         {{base::described_name<TickRow>, schema_of<TickRow>(layout)},
+          {base::described_name<MessageRow>, schema_of<MessageRow>(layout)},
+          {base::described_name<SessionRow>, schema_of<SessionRow>(layout)}}}};
     if (layout.has_bodies()) {
-        description["body_row_bytes"] = body_row_bytes;
-        description["schema"][base::described_name<BodyRow>] = schema_of<BodyRow>();
+        description["body_row_bytes"] = layout.bytes_of_body();
+        description["schema"][base::described_name<BodyRow>] = schema_of<BodyRow>(layout);
     }
     return description;
 }
@@ -90,7 +92,8 @@ base::Result<Header> parse_header(std::string_view line)
                                           Layout::version_max));
         }
         if (version == 2) layout = Layout::of_version_2();
-        if (version == 4) layout = layout.with_bodies();
+        if (version == 4) layout = Layout::of_version_4();
+        if (version == 5) layout = layout.with_bodies();
     }
     if (const auto bytes = found("message_row_bytes"); bytes.is_number_unsigned()) {
         const auto most = layout.message_row_bytes;

@@ -131,6 +131,10 @@ struct BodyRow {
     base::Velocity velocity{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     AngularVelocity angular_velocity{};
+    /// The id of the peer whose copy of the body counts, as this peer sees it: its own while its
+    /// hand moves the body, that of the lowest other while only others do, and else the owner. 0:
+    /// not said, as before a session and in records of version 4.
+    std::uint16_t owner = 0;
 
     friend bool operator==(const BodyRow&, const BodyRow&) = default;
 };

@@ -21,7 +21,8 @@ refuses() {
     "$script" "$@" >"$out/said" 2>&1 || code=$?
     ((code == 2)) || fail "demo.sh $* exits $code and not 2"
 }
-"$script" --help | grep -q -- '--scene turning' || fail "the help"
+"$script" --help >"$out/said" # whole: a script that writes to a closed pipe fails
+grep -q -- '--scene turning' "$out/said" || fail "the help"
 refuses --scene nowhere
 grep -q 'write turning' "$out/said" || fail "what would be right is not said"
 refuses --peers 9

@@ -18,8 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* table1 =
-    "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,verdict\n"
-    "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated\n";
+    "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,verdict,class,"
+    "max_class\n"
+    "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated,calibrated,calibrated\n";
 
 void write_file(const fs::path& path, const std::string& text)
 {
@@ -162,7 +163,7 @@ TEST(LabReport, RefusesWhatIsNoResultWithFileAndLine)
     EXPECT_NE(refusal().find("holds no results: expected manifest.json"), std::string::npos);
     write_file(folder / "table1.csv", std::string{table1} + "sep,1,2\n");
     const auto broken = refusal();
-    EXPECT_NE(broken.find("table1.csv:3: expected 9 cells as in the header, found 3"),
+    EXPECT_NE(broken.find("table1.csv:3: expected 11 cells as in the header, found 3"),
               std::string::npos)
         << broken;
     const auto none = run("hapnet-lab", {"report", temporary.file("none")});

@@ -3,11 +3,13 @@
 // hapnet-lab run: the same bytes whenever and however it is run, also after an interruption.
 #include "tests/e2e/process.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -59,7 +61,7 @@ protected:
 
     void expect_same_csv(const std::string& a, const std::string& b) const
     {
-        for (const char* name : {"limits.csv", "curves.csv"}) {
+        for (const char* name : {"limits.csv", "curves.csv", "sessions.csv", "paired.csv"}) {
             EXPECT_FALSE(result(a, name).empty()) << name;
             EXPECT_EQ(result(a, name), result(b, name)) << name;
         }
@@ -134,12 +136,79 @@ TEST_F(LabRun, WritesTheTableOfP1WithAReplayOfEveryTask)
     ASSERT_EQ(outcome.exit, 0) << outcome.err;
     const auto table = result("t1", "table1.csv");
     EXPECT_EQ(table.find("algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,"
-                         "paper_std_mm,verdict\nbase,"),
+                         "paper_std_mm,verdict,class,max_class\nbase,"),
               0U)
         << table;
     EXPECT_EQ(result("t1", "replay/dead-reckoning-P1.csv").find("time_s,lx,ly,lz,"), 0U);
     EXPECT_NE(result("t1", "tasks.csv").find("\nsep,T1,1,"), std::string::npos);
     EXPECT_NE(outcome.out.find("paper_mean_mm"), std::string::npos);
+}
+
+TEST_F(LabRun, KeepsRecordsThatAnalyseExportAndReplayTake)
+{
+    std::ofstream{file} << "kind = \"trajectories\"\ntasks = \"T3\"\nduration = \"6s\"\n"
+                           "algorithms = [\"base\"]\nrecord = true\nboth.delay = \"40ms\"\n"
+                           "both.loss = \"10%\"\n";
+    ASSERT_EQ(run_into("kept").exit, 0);
+    const auto a = folder.file("kept") + "/records/base-T3/peer-1.rec";
+    const auto b = folder.file("kept") + "/records/base-T3/peer-2.rec";
+    const auto analysed = run("hapnet-lab", {"analyse", a, b, "--json"});
+    ASSERT_EQ(analysed.exit, 0) << analysed.err;
+    const auto analysis = nlohmann::json::parse(analysed.out);
+    EXPECT_EQ(analysis["valid"], true) << analysis["invalid_because"];
+    EXPECT_NEAR(analysis["a_to_b"]["loss"].get<double>(), 0.1, 0.02);
+    EXPECT_NEAR(analysis["a_to_b"]["delay_ms"]["p50"].get<double>(), 40.0, 0.1);
+    const auto sessions = result("kept", "sessions.csv");
+    const auto mean = analysis["discrepancy_x_mm"]["mean"].get<double>();
+    std::istringstream lines{sessions};
+    std::string head, row, cell;
+    std::getline(lines, head);
+    std::getline(lines, row);
+    const auto column = [&](const std::string& name) {
+        const auto at = head.find("," + name + ",");
+        return std::count(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(at) + 1, ',');
+    };
+    std::istringstream cells{row};
+    for (auto i = column("mean_mm"); i >= 0; --i) std::getline(cells, cell, ',');
+    EXPECT_NEAR(std::stod(cell), mean, 0.001) << "the row of the session says the same";
+    const auto replayed = run("hapnet-lab", {"replay", a, "--json"});
+    EXPECT_EQ(replayed.exit, 0) << replayed.err;
+    const auto exported = run("hapnet-lab", {"export", a, b, "--csv"});
+    EXPECT_EQ(exported.exit, 0) << exported.err;
+    EXPECT_EQ(exported.out.find("time_s,"), 0U);
+}
+
+TEST_F(LabRun, RepeatsItselfAlongAnAxis)
+{
+    const auto outcome = run_into("axis", {"--set", "tasks=T1", "--set", "axis.key=both.delay",
+                                           "--set", "axis.values=[\"0ms\", \"5ms\"]"});
+    ASSERT_EQ(outcome.exit, 0) << outcome.err;
+    const auto limits = result("axis", "limits_by_axis.csv");
+    EXPECT_EQ(limits.find("parameter,value,algorithm,"), 0U) << limits;
+    EXPECT_NE(limits.find("\nboth.delay,5ms,base,jitter,T1,"), std::string::npos) << limits;
+    EXPECT_FALSE(result("axis", "sessions_by_axis.csv").empty());
+    EXPECT_EQ(result("axis", "limits.csv"), "");
+    EXPECT_EQ(run("hapnet-lab", {"report", folder.file("axis")}).exit, 0);
+}
+
+TEST_F(LabRun, PlaysOwnScenesOptionsAndRecordedHands)
+{
+    std::ofstream{folder.file("left.csv")} << "time_s,x_m,y_m,z_m\n0,-0.06,0,0\n2,-0.02,0,0\n";
+    std::ofstream{file} << "kind = \"trajectories\"\ntasks = \"T3\"\nduration = \"6s\"\n"
+                           "algorithms = [\"base\"]\nscene = \"carry\"\n"
+                           "replay = [\"" +
+                               folder.file("left.csv") + "\", \"\"]\n[task_options]\npace = 1.0\n";
+    const auto outcome = run_into("own");
+    ASSERT_EQ(outcome.exit, 0) << outcome.err;
+    const auto rows = result("own", "sessions.csv");
+    EXPECT_NE(rows.find(",carry,"), std::string::npos) << rows;
+    std::istringstream lines{result("own", "trajectories.csv")};
+    std::string line, last;
+    while (std::getline(lines, line)) last = line;
+    std::istringstream cells{last};
+    for (int i = 0; i < 5; ++i) std::getline(cells, line, ',');
+    EXPECT_NEAR(std::stod(line), -20.0, 1.0) << "the left hand stays where its file ends: " << last;
+    expect_refused(run_into("none", {"--set", "replay=[\"none.csv\", \"\"]"}), {"none.csv"});
 }
 
 TEST_F(LabRun, NamesBadInputAndWhatWouldBeRight)

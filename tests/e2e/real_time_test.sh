@@ -34,6 +34,18 @@ grep -q 'real time against virtual time' "$out/said" || fail "no table was print
 jq -e '.kind == "real-time" and (.real_time.sessions | length) == 2' "$out/manifest.json" \
     >/dev/null || fail "manifest.json"
 
+# Two and three hands that turn a cube, each beside the same in virtual time.
+for peers in 2 3; do
+    "$script" --peers "$peers" --task T8 --delay 10ms --duration 4 --programs "$programs" \
+        --out "$out/t8-$peers" >"$out/said-t8" 2>&1 || fail "T8 with $peers: $(cat "$out/said-t8")"
+    table=$out/t8-$peers/real_time.csv
+    IFS=, read -r algorithm where mean _ _ virtual_mean _ < <(tail -n 1 "$table")
+    [[ $algorithm,$where == base,loopback ]] || fail "the row of T8 with $peers"
+    [[ $mean =~ ^[0-9.]+$ && $virtual_mean =~ ^[0-9.]+$ ]] ||
+        fail "T8 with $peers: mean '$mean', virtual '$virtual_mean'"
+    [[ -s $out/t8-$peers/real-time/loopback/t8-$peers/peer-$peers.rec ]] || fail "no record of T8"
+done
+
 # As Ctrl-C does it: to all processes of a group.
 set -m
 "$script" --quick --duration 20 --programs "$programs" --out "$out/interrupted" >/dev/null 2>&1 &

@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     using namespace hapnet;
     const auto bytes = fuzz::bytes_of(data, size);
-    for (const auto layout : {record::Layout{}, record::Layout{}.with_bodies()}) {
+    for (const auto layout :
+         {record::Layout{}, record::Layout::of_version_4(), record::Layout{}.with_bodies()}) {
         const auto row = record::decode(bytes, layout);
         if (row) base::ensure(std::ranges::equal(record::encode(*row, layout), bytes));
     }

@@ -21,6 +21,25 @@ fi
 "$repository/scripts/package.sh" --out "$work/packages"
 lintian --allow-root --fail-on error,warning "$work"/packages/*.deb
 
+# The tarball: nothing but the C library, and libudev for devices; no newer than Ubuntu 22.04 has.
+tar -C "$work" -xzf "$work"/packages/hapnet-*.tar.gz
+folder=$(find "$work" -maxdepth 1 -name 'hapnet-*-linux-*' -type d)
+newest() {
+    objdump -T "$1" | sed -n 's/.*(\?GLIBC_\([0-9.]*\))\? .*/\1/p' | sort -uV | tail -1
+}
+for program in "$folder"/bin/*; do
+    foreign=$(objdump -p "$program" | sed -n 's/ *NEEDED *//p' |
+        grep -Ev '^(libc\.so\.6|libm\.so\.6|libudev\.so\.1|ld-linux.*)$' || true)
+    [[ -z $foreign ]] || fail "$program needs $foreign"
+    [[ $program == */hapnet-peer ]] || ! objdump -p "$program" | grep -q libudev ||
+        fail "$program needs libudev"
+    version=$(newest "$program")
+    [[ -n $version ]] || fail "$program: no version of the C library was found"
+    [[ $(printf '%s\n2.35\n' "$version" | sort -V | tail -1) == 2.35 ]] ||
+        fail "$program needs GLIBC_$version: $(objdump -T "$program" | grep "GLIBC_$version")"
+done
+"$folder/bin/hapnet-emulator" --version
+
 complaints=$(systemd-analyze verify "$repository"/packaging/systemd/*.service 2>&1 |
     grep "/packaging/" | grep -v "is not executable: No such file" || true)
 [[ -z $complaints ]] || fail "systemd-analyze verify: $complaints"
@@ -28,10 +47,10 @@ complaints=$(systemd-analyze verify "$repository"/packaging/systemd/*.service 2>
 root=$work/root
 cleanup() {
     mountpoint -q "$root/proc" && umount "$root/proc"
-    rm -rf "$root"
+    rm -rf "$root" "$root.13"
 }
 trap cleanup EXIT
-rm -rf "$root"
+rm -rf "$root" "$root.13"
 debootstrap --variant=minbase bookworm "$root" >"$work/debootstrap.log" 2>&1 ||
     fail "no bare root: $(tail -3 "$work/debootstrap.log")"
 cp /etc/apt/sources.list "$root/etc/apt/" 2>/dev/null || true
@@ -58,8 +77,42 @@ echo "ship_test: installed and tried in $((SECONDS - begin)) s"
 for file in man/man1/hapnet-emulator.1.gz bash-completion/completions/hapnet-ctl; do
     [[ -s $root/usr/share/$file ]] || fail "$file is not there"
 done
-inside sh -c 'apt-get -q -y purge hapnet-emulator' >>"$work/apt.log" 2>&1
-left=$(inside find / -xdev -iname '*hapnet*' -not -path '/root/*' -not -path '/var/log/*' \
-    -not -path '/var/cache/*')
-[[ -z $left ]] || fail "left behind: $left"
-echo "ship_test: removed without a trace"
+# nothing_left PACKAGE...: they are removed without a trace.
+nothing_left() {
+    inside apt-get -q -y purge "$@" >>"$work/apt.log" 2>&1
+    local left
+    left=$(inside find / -xdev -iname '*hapnet*' -not -path '/root/*' -not -path '/var/log/*' \
+        -not -path '/var/cache/*')
+    [[ -z $left ]] || fail "left behind by $*: $left"
+    echo "ship_test: $*: removed without a trace"
+}
+nothing_left hapnet-emulator
+
+# The tarball runs where no package of ours is.
+cp -r "$folder" "$root/root/"
+inside "/root/${folder##*/}/bin/hapnet-emulator" --version
+inside "/root/${folder##*/}/bin/hapnet-lab" --version
+
+# Then the others, together.
+inside sh -c 'apt-get -q -y install --no-install-recommends /root/*.deb' >>"$work/apt.log" 2>&1 ||
+    fail "installing all: $(tail -5 "$work/apt.log")"
+inside hapnet-peer doctor || (($? == 1)) || fail "hapnet-peer doctor"
+inside hapnet-lab run --list >"$work/experiments.log" || fail "hapnet-lab run --list"
+inside python3 -c '
+import hapnet
+with hapnet.Emulator(delay="5ms") as network:
+    print("from Python:", network.address_a, network.stats()["valid"])' ||
+    fail "python3-hapnet does not drive the emulator"
+inside test -s /usr/include/hapnet/algorithm.h || fail "hapnet-dev has no hapnet/algorithm.h"
+nothing_left hapnet hapnet-emulator hapnet-dev python3-hapnet
+
+# Debian 13, where it can be had.
+if debootstrap --variant=minbase trixie "$root.13" >"$work/debootstrap-13.log" 2>&1; then
+    cp -r "$folder" "$root.13/root/"
+    chroot "$root.13" "/root/${folder##*/}/bin/hapnet-emulator" --version ||
+        fail "the tarball does not run on Debian 13"
+    echo "ship_test: the tarball runs on Debian 13"
+else
+    echo "ship_test: no Debian 13 here: the tarball was not tried on it" \
+        "($(tail -1 "$work/debootstrap-13.log"))"
+fi

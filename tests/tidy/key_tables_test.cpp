@@ -134,6 +134,9 @@ const std::vector<KeyTable>& tables()
         {"base-tdpa", base::markdown(own_rows<peer::BaseTdpaOptions>())},
         {"wave", rows_of<peer::WaveOptions>()},
         {"couple", rows_of<peer::CoupleOptions>()},
+        {"lag", rows_of<peer::LagOptions>()},
+        {"rollback", rows_of<peer::RollbackOptions>()},
+        {"shared-object", rows_of<peer::SharedObjectOptions>()},
         {"governor", base::markdown(device::limit_keys())},
         {"operator", rows_of<device::Operator>()},
         {"task-options", rows_of<device::TaskOptions>()},
@@ -174,11 +177,12 @@ const std::set<std::string>& without_table()
         "HandDynamics", "ProxyHandOptions", "Material", "Sway", "ByOrder", "UsableCriteria",
         "GoodCriteria", "HandImpedance", "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent",
         "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques", "RangeOf<what",
-        "SearchRanges", "Sensitivity",
+        "SearchRanges", "Sensitivity", "Axis",
         // JSON, CSV and the settings in a record's header
-        "Spread", "ForceSteps", "Similarity", "Metrics", "Table1Row", "TaskRow", "LimitRow",
-        "SensitivityRow", "Judged", "CurveRow", "ClaimRow", "ClaimSessionRow", "QosRow",
-        "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount", "WrittenConfig"};
+        "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "Table1Row", "TaskRow",
+        "LimitRow", "AxisLimitRow", "PairedRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow",
+        "ClaimSessionRow", "QosRow", "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount",
+        "WrittenConfig"};
     return names;
 }
 
@@ -192,6 +196,9 @@ const std::set<std::string>& with_table()
                                              "BaseTdpaOptions",
                                              "WaveOptions",
                                              "CoupleOptions",
+                                             "LagOptions",
+                                             "RollbackOptions",
+                                             "SharedObjectOptions",
                                              "WrittenLimits",
                                              "Operator",
                                              "TaskOptions",

@@ -18,7 +18,8 @@ constexpr std::size_t function_lines_max = 60;
 
 bool is_code(const SourceFile& file)
 {
-    return file.is_cpp() || file.is_cmake() || file.is_script() || file.is_web();
+    return file.is_cpp() || file.is_cmake() || file.is_script() || file.is_web() ||
+           file.is_python();
 }
 
 /// The characters of UTF-8 text: its bytes without the continuation bytes.

@@ -15,18 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is built or recorded lies at the top, as .gitignore has it; docs/results is of the project.
+/// What is built or recorded lies at the top, as .gitignore has it, and what
+/// npm installs below pages; docs/results is of the project.
 bool is_left_out(const fs::recursive_directory_iterator& folder)
 {
     const auto name = folder->path().filename().string();
     const bool is_output = folder.depth() == 0 && (name == "build" || name == "results");
-    return is_output || (name.front() == '.' && name != ".ci");
+    return is_output || name == "node_modules" || (name.front() == '.' && name != ".ci");
 }
 
 bool is_text(const fs::path& file)
 {
     constexpr std::array extensions{".hpp",  ".cpp", ".in",   ".txt", ".cmake", ".sh",
-                                    ".json", ".md",  ".toml", ".css", ".js"};
+                                    ".json", ".md",  ".toml", ".css", ".js",    ".py"};
     if (file.filename() == ".git") return false; // where a worktree has its history
     const auto extension = file.extension().string();
     return extension.empty() ||
@@ -45,6 +46,8 @@ bool SourceFile::is_cmake() const
 }
 
 bool SourceFile::is_script() const { return !lines.empty() && lines.front().starts_with("#!"); }
+
+bool SourceFile::is_python() const { return path.ends_with(".py"); }
 
 bool SourceFile::is_web() const { return path.ends_with(".css") || path.ends_with(".js"); }
 

@@ -20,6 +20,7 @@ struct SourceFile {
     [[nodiscard]] bool is_cmake() const;
     [[nodiscard]] bool is_script() const; // starts with #!
     [[nodiscard]] bool is_web() const;    // a script or a style sheet of a page
+    [[nodiscard]] bool is_python() const;
     /// Whether the file lies in `folder` ("proto/net") or below it.
     [[nodiscard]] bool is_in(std::string_view folder) const;
 };

@@ -47,4 +47,10 @@ struct Profile {
     friend bool operator==(const Profile&, const Profile&) = default;
 };
 
+/// A profile that says what something else said, and a sentence on each thing that it cannot do.
+struct TranslatedProfile {
+    Profile profile;
+    std::vector<std::string> warnings;
+};
+
 } // namespace hapnet::emulator

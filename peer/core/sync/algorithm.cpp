@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/algorithm.hpp"
 
+#include "proto/base/ensure.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <spdlog/fmt/fmt.h>
+#include <type_traits>
 
 namespace hapnet::peer {
 
@@ -29,8 +31,17 @@ base::Result<Algorithm> algorithm_named(std::string_view name)
         return algorithm_at(static_cast<std::size_t>(found - algorithm_names.begin()),
                             base::Tag<Algorithm>{});
     }
+    if (name == base::described_name<SharedObjectOptions>) return SharedObject{};
     return base::fail(
         fmt::format("unknown algorithm '{}': {}", name, base::suggestion(name, algorithm_names)));
+}
+
+std::string_view name_of(const Algorithm& algorithm)
+{
+    const auto name = [](const auto& one) -> std::string_view {
+        return base::described_name<std::remove_cvref_t<decltype(one.options())>>;
+    };
+    return std::visit(name, algorithm);
 }
 
 Stale stale_of(const Algorithm& algorithm)
@@ -47,23 +58,36 @@ Stale stale_of(const Algorithm& algorithm)
     return std::visit(stale, algorithm);
 }
 
-void prepare(Algorithm& algorithm, std::size_t others)
+void prepare(Algorithm& algorithm, std::size_t others, const scene::World& world)
 {
-    const auto tell = [others](auto& one) {
-        if constexpr (requires { one.prepare(others); }) one.prepare(others);
+    base::ensure(check_hands_of(algorithm, world.frozen().hands).has_value());
+    const auto tell = [&](auto& one) {
+        if constexpr (requires { one.prepare(others, world); }) {
+            one.prepare(others, world);
+        } else if constexpr (requires { one.prepare(others); }) {
+            one.prepare(others);
+        }
     };
     std::visit(tell, algorithm);
 }
 
 bool has_hands_of_others(const Algorithm& algorithm)
 {
-    return std::holds_alternative<RemoteProxy>(algorithm);
+    return std::holds_alternative<RemoteProxy>(algorithm) ||
+           std::holds_alternative<Lag>(algorithm) || std::holds_alternative<Rollback>(algorithm);
 }
 
 bool plays_with_many(const Algorithm& algorithm)
 {
+    if (const auto* own = std::get_if<SharedObject>(&algorithm)) return own->plays_with_many();
     return !std::holds_alternative<DeadReckoning>(algorithm) &&
            !std::holds_alternative<EstimatorPredictor>(algorithm);
+}
+
+bool is_loaded(const Algorithm& algorithm)
+{
+    const auto* const own = std::get_if<SharedObject>(&algorithm);
+    return own == nullptr || own->is_loaded();
 }
 
 base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const SharedBody> bodies)
@@ -74,7 +98,7 @@ base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const S
         return base::fail(fmt::format(
             "'{}' is for one body that does not turn: use base, or a scene with one movable body "
             "that has turning = \"locked\"",
-            algorithm_names.at(algorithm.index())));
+            name_of(algorithm)));
     }
     BaseOptions rest = base->options(); // but for what these bodies have, too
     rest.stale = {};
@@ -85,6 +109,16 @@ base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const S
     return base::fail("bodies that turn, and several, follow the other side as base does by "
                       "default: leave out all of its keys but stale, let_go_after, settle_after "
                       "and settle_within");
+}
+
+base::Result<void> check_hands_of(const Algorithm& algorithm, const scene::HandDescription& hands)
+{
+    const bool computes_late =
+        std::holds_alternative<Lag>(algorithm) || std::holds_alternative<Rollback>(algorithm);
+    if (!computes_late || hands.friction == 0.0) return {};
+    return base::fail(fmt::format("'{}' is for hands without friction: leave friction out of the "
+                                  "scene's [hips], or use another algorithm",
+                                  algorithm_names.at(algorithm.index())));
 }
 
 } // namespace hapnet::peer

@@ -179,9 +179,13 @@ void BaseBodies::place_all(scene::World& world, const Situation& situation,
         }
         untouched_since_[i].reset();
         blends_[i].reset();
-        if (movers_[i] == Mover::own) continue;
+        if (movers_[i] == Mover::own) {
+            owners_[i] = own_id_;
+            continue;
+        }
         for (const Toucher& toucher : touchers.list()) {
             if (!has_body(groups_[toucher.body], i)) continue;
+            owners_[i] = toucher.other->id;
             if (const wire::BodyState* const there =
                     toucher.other->remote->body(static_cast<std::uint16_t>(bodies_[i].id)))
                 follow(world, situation, i, *there);
@@ -224,6 +228,7 @@ void BaseBodies::settle(scene::World& world, const Situation& situation, std::si
     if (!since) since = situation.now;
     const Present present = present_in(situation);
     const std::uint16_t owner = ownership_.owner(groups_[body], present.list(), situation.now);
+    owners_[body] = owner;
     const bool waited = options_.settle_after && situation.now - *since >= *options_.settle_after;
     const auto found = std::ranges::find_if(
         situation.others, [owner](const Other& each) { return each.id == owner; });

@@ -42,6 +42,10 @@ public:
     /// Whose hands moved a body in the last tick, by themselves or by way of others.
     enum class Mover : std::uint8_t { none, own, others };
     [[nodiscard]] Mover mover(std::size_t body) const { return movers_[body]; }
+    /// Whose copy of a body counted in the last tick, as this peer sees it: its own while its hand
+    /// moves it, that of the lowest other while only others do, and else its owner's (Ownership).
+    /// 0 before the first.
+    [[nodiscard]] std::uint16_t owner(std::size_t body) const { return owners_[body]; }
 
 private:
     /// The way of a body that nobody moves to where its owner has it.
@@ -93,6 +97,7 @@ private:
         touching_{};                                 // of two bodies, when last
     std::array<BodySet, wire::bodies_max> groups_{}; // by body: those that it touches, and itself
     std::array<Mover, wire::bodies_max> movers_{};
+    std::array<std::uint16_t, wire::bodies_max> owners_{};
     std::array<std::optional<base::TimePoint>, wire::bodies_max> untouched_since_{};
     std::array<std::optional<Blend>, wire::bodies_max> blends_{};
 };

@@ -26,6 +26,25 @@ glm::dvec3 shortened(const glm::dvec3& v, double length_max)
 
 } // namespace
 
+void HandMotion::step(const HandDynamics& hand, double friction_n, const glm::dvec3& force,
+                      double seconds)
+{
+    const double damping = 1.0 + hand.damping_ns_per_m * seconds / hand.mass_kg;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double before = speed[axis];
+        const double along =
+            before != 0.0 ? std::copysign(1.0, before) : std::copysign(1.0, force[axis]);
+        const bool sticks = before == 0.0 && std::abs(force[axis]) <= friction_n;
+        const double after =
+            sticks
+                ? 0.0
+                : (before + seconds * (force[axis] - along * friction_n) / hand.mass_kg) / damping;
+        // Friction ends a motion, and turns none round.
+        speed[axis] = after * along < 0.0 ? 0.0 : after;
+        place[axis] += seconds * speed[axis];
+    }
+}
+
 ProxyHand::ProxyHand(const ProxyHandOptions& options)
     : options_{options}, hand_{options.hand}, words_(words_max)
 {}
@@ -138,9 +157,9 @@ void ProxyHand::look(const View& view)
     if (!is_there_) { // as deep in the body as it is over there
         is_there_ = true;
         trust_ = 1.0;
-        place_ = view.body.position.value + (state->hip - body->position).value;
-        speed_ = view.body.velocity.value;
-        anchor_ = place_ + (intention_ - state->hip.value);
+        motion_.place = view.body.position.value + (state->hip - body->position).value;
+        motion_.speed = view.body.velocity.value;
+        anchor_ = motion_.place + (intention_ - state->hip.value);
     }
     const double ahead_max_s = base::to_seconds(options_.ahead_max);
     const glm::dvec3 wanted = intention_ + (eta_ * std::min(age_s, ahead_max_s)) * velocity_;
@@ -160,18 +179,18 @@ void ProxyHand::look(const View& view)
 scene::HandInput ProxyHand::input() const
 {
     if (!is_there_) return {.present = false};
-    return {.position = {place_}, .velocity = {speed_}, .gripping = gripping_};
+    return {.position = {motion_.place}, .velocity = {motion_.speed}, .gripping = gripping_};
 }
 
 double ProxyHand::kinetic_energy_j() const
 {
-    return is_there_ ? 0.5 * hand_.mass_kg * glm::dot(speed_, speed_) : 0.0;
+    return is_there_ ? 0.5 * hand_.mass_kg * glm::dot(motion_.speed, motion_.speed) : 0.0;
 }
 
 double ProxyHand::drive_energy_j() const
 {
     if (!is_there_) return 0.0;
-    const glm::dvec3 stretch = anchor_ - place_;
+    const glm::dvec3 stretch = anchor_ - motion_.place;
     const double k = hand_.stiffness_n_per_m;
     return 0.5 * (trust_ * k * glm::dot(stretch, stretch) +
                   (1.0 - trust_) * glm::dot(contact_force_, contact_force_) / k);
@@ -180,36 +199,16 @@ double ProxyHand::drive_energy_j() const
 double ProxyHand::step(base::Force on_hand, const Drive& drive)
 {
     if (!is_there_) return 0.0;
-    // Short against every hand's own period, also with the stiffest contact.
-    constexpr int parts = 4;
-    const double seconds = base::to_seconds(drive.tick) / parts;
-    const glm::dvec3 before = place_;
+    const double seconds = base::to_seconds(drive.tick) / hand_steps_per_tick;
+    const glm::dvec3 before = motion_.place;
     const glm::dvec3 steady =
         (1.0 - trust_) * (contact_force_ + (eta_ * hand_.damping_ns_per_m) * velocity_);
-    for (int part = 0; part < parts; ++part) {
-        const glm::dvec3 spring = (trust_ * hand_.stiffness_n_per_m) * (anchor_ - place_);
-        move(drive.share * (spring + steady) + on_hand.value, seconds);
+    for (int part = 0; part < hand_steps_per_tick; ++part) {
+        const glm::dvec3 spring = (trust_ * hand_.stiffness_n_per_m) * (anchor_ - motion_.place);
+        motion_.step(hand_, trust_ * hand_.friction_n,
+                     drive.share * (spring + steady) + on_hand.value, seconds);
     }
-    return glm::dot(on_hand.value, place_ - before);
-}
-
-/// A short time under a constant force, damping and friction (Karnopp 1985), each axis by itself.
-void ProxyHand::move(const glm::dvec3& force, double seconds)
-{
-    const double friction_n = trust_ * hand_.friction_n;
-    const double damping = 1.0 + hand_.damping_ns_per_m * seconds / hand_.mass_kg;
-    for (int axis = 0; axis < 3; ++axis) {
-        double& speed = speed_[axis];
-        const double along =
-            speed != 0.0 ? std::copysign(1.0, speed) : std::copysign(1.0, force[axis]);
-        const bool sticks = speed == 0.0 && std::abs(force[axis]) <= friction_n;
-        const double after =
-            sticks
-                ? 0.0
-                : (speed + seconds * (force[axis] - along * friction_n) / hand_.mass_kg) / damping;
-        speed = after * along < 0.0 ? 0.0 : after; // friction ends a motion, and turns none round
-        place_[axis] += seconds * speed;
-    }
+    return glm::dot(on_hand.value, motion_.place - before);
 }
 
 } // namespace hapnet::peer

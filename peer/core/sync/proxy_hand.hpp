@@ -4,6 +4,7 @@
 
 #include "peer/core/finger_friction.hpp"
 #include "peer/core/intention.hpp"
+#include "peer/core/sync/base_options.hpp"
 #include "peer/core/sync/recent_age.hpp"
 #include "peer/core/sync/situation.hpp"
 #include "proto/base/fields.hpp"
@@ -34,6 +35,60 @@ struct ProxyHandOptions {
     friend bool operator==(const ProxyHandOptions&, const ProxyHandOptions&) = default;
 };
 
+constexpr auto fields_of(base::Tag<HandDynamics> /*struct*/)
+{
+    return base::fields(
+        "hand-dynamics",
+        base::field("mass", &HandDynamics::mass_kg, base::Quantity{base::mass_kind, 0.02, 10.0},
+                    "mass of a hand whose peer does not tell it"),
+        base::field("damping", &HandDynamics::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, 100.0}, "damping of such a hand"),
+        base::field("stiffness", &HandDynamics::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 10.0, 5000.0},
+                    "stiffness of such a grip, to where the hand means to be"),
+        base::field("friction", &HandDynamics::friction_n,
+                    base::Quantity{base::force_kind, 0.0, 10.0},
+                    "friction of such a device, to be right within 0.05 N"));
+}
+constexpr auto fields_of(base::Tag<ProxyHandOptions> /*struct*/)
+{
+    using Options = ProxyHandOptions;
+    constexpr base::Quantity length{base::length_kind, 1e-6, 1.0};
+    constexpr base::Quantity speed{base::speed_kind, 0.0, 10.0};
+    return base::fields(
+        "proxy-hand", base::part(&Options::hand),
+        base::field("anchor_filter", &Options::anchor_filter, parameter_time,
+                    "time constant with which the anchor goes to the projected intention"),
+        base::field("anchor_speed", &Options::anchor_speed_m_per_s, speed,
+                    "greatest speed of the anchor"),
+        base::field("velocity_filter", &Options::velocity_filter, base::Number{0.0, 10.0},
+                    "time constant of the intention's velocity, as a share of its age"),
+        base::field("velocity_filter_min", &Options::velocity_filter_min, parameter_time,
+                    "the least time constant of the intention's velocity"),
+        base::field("believed_above", &Options::believed_above_m_per_s, speed,
+                    "a hand that is slower is not projected"),
+        base::field("memory", &Options::memory, parameter_time,
+                    "over what time eta and g are learnt"),
+        base::field("ahead_max", &Options::ahead_max, parameter_time,
+                    "the farthest that an intention is projected"),
+        base::field("unsure_by", &Options::unsure_by_m, length,
+                    "error of the projection at which half of the spring becomes a force"),
+        base::field("soft_by", &Options::soft_by_m, length,
+                    "length of the projection at which half of the spring becomes a force"));
+}
+
+/// A hand as a mass that moves.
+struct HandMotion {
+    glm::dvec3 place{0.0};
+    glm::dvec3 speed{0.0};
+
+    /// A short time under a constant force, the hand's damping and friction (Karnopp 1985), each
+    /// axis by itself.
+    void step(const HandDynamics& hand, double friction_n, const glm::dvec3& force, double seconds);
+};
+/// Short against every hand's own period, also with the stiffest contact: a tick in so many parts.
+inline constexpr int hand_steps_per_tick = 4;
+
 /// The hand of another peer in this copy of the scene: a mass on a spring, with damping and
 /// friction, drawn to where its owner means to be by now. How far the heard intention is projected
 /// to now is learnt from how well that would have worked (eta); how far the hand is trusted to be a
@@ -63,6 +118,10 @@ public:
     /// When it last touched a body, on this peer's clock.
     [[nodiscard]] const std::optional<base::TimePoint>& touched_at() const { return touched_at_; }
     [[nodiscard]] base::TimePoint sent_at() const { return sent_at_; } // on this peer's clock
+    [[nodiscard]] const HandDynamics& dynamics() const { return hand_; }
+    [[nodiscard]] const glm::dvec3& intention() const { return intention_; } // as last heard
+    /// Of the intention, smoothed.
+    [[nodiscard]] const glm::dvec3& intention_velocity() const { return velocity_; }
 
     /// Comes, stays or goes as its owner's hand does, and looks where to be drawn to.
     struct View {
@@ -75,7 +134,7 @@ public:
     void look(const View& view);
     [[nodiscard]] bool is_there() const { return is_there_; }
     [[nodiscard]] scene::HandInput input() const;
-    [[nodiscard]] base::Position place() const { return {place_}; }
+    [[nodiscard]] base::Position place() const { return {motion_.place}; }
 
     [[nodiscard]] double kinetic_energy_j() const;
     /// Of what drives it, at full share.
@@ -97,7 +156,6 @@ private:
     void take_dynamics(const wire::HandModel& said);
     void learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s);
     [[nodiscard]] const Heard* heard_at(std::uint32_t sequence);
-    void move(const glm::dvec3& force, double seconds);
 
     static constexpr std::size_t words_max = 1024; // a second of them
     static constexpr double trust_filter_s = 0.05;
@@ -129,8 +187,7 @@ private:
     // The hand in this copy.
     bool is_there_ = false;
     bool gripping_ = false;
-    glm::dvec3 place_{0.0};
-    glm::dvec3 speed_{0.0};
+    HandMotion motion_;
     glm::dvec3 anchor_{0.0};
 };
 

@@ -127,8 +127,27 @@ void RemoteProxy::move_proxies(const scene::World& world, const Situation& situa
     }
 }
 
-/// Whose pose counts: of the one who touched last; nullopt: this peer's. Nobody has touched: the
-/// lowest id's.
+bool RemoteProxy::is_anyone_touching(const Situation& situation) const
+{
+    return own_hand_touches_ || std::ranges::any_of(situation.others, [](const Other& other) {
+               return other.freshness > 0.0 && other.remote->state() &&
+                      other.remote->state()->touching;
+           });
+}
+
+/// Of those that are heard and this peer, the one with the lowest id; nullopt: this peer.
+std::optional<std::size_t> RemoteProxy::lowest(const Situation& situation)
+{
+    for (std::size_t i = 0; i < situation.lower_ids; ++i)
+        if (situation.others[i].freshness > 0.0) return i;
+    return std::nullopt;
+}
+
+/// Whose pose counts; nullopt: this peer's. First that of the one who touched last. But the
+/// messages that told of a touch may have been lost, or it may be told after this hand's last touch
+/// and be older: then several take themselves for the last, or nobody does. So a while after no
+/// hand touches any more it is the lowest id's. All that takes is what everybody's newest message
+/// says, and hears sooner or later, whatever was lost: all copies come to the same decision.
 std::optional<std::size_t> RemoteProxy::leader(const Situation& situation) const
 {
     std::optional<std::size_t> found;
@@ -142,8 +161,9 @@ std::optional<std::size_t> RemoteProxy::leader(const Situation& situation) const
             found = i;
         }
     }
-    if (!latest && situation.lower_ids > 0) return 0;
-    return found;
+    const bool is_quiet = !latest || (situation.now - *latest >= last_touch_counts_for &&
+                                      !is_anyone_touching(situation));
+    return is_quiet ? lowest(situation) : found;
 }
 
 /// How far this copy's body is from the leader's. While he moves it, from where it will be by now;

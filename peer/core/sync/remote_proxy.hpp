@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/sync/base_options.hpp"
 #include "peer/core/sync/proxy_hand.hpp"
 
 #include <chrono>
@@ -20,47 +19,6 @@ struct RemoteProxyOptions {
 
     friend bool operator==(const RemoteProxyOptions&, const RemoteProxyOptions&) = default;
 };
-constexpr auto fields_of(base::Tag<HandDynamics> /*struct*/)
-{
-    return base::fields(
-        "hand-dynamics",
-        base::field("mass", &HandDynamics::mass_kg, base::Quantity{base::mass_kind, 0.02, 10.0},
-                    "mass of a hand whose peer does not tell it"),
-        base::field("damping", &HandDynamics::damping_ns_per_m,
-                    base::Quantity{base::damping_kind, 0.0, 100.0}, "damping of such a hand"),
-        base::field("stiffness", &HandDynamics::stiffness_n_per_m,
-                    base::Quantity{base::stiffness_kind, 10.0, 5000.0},
-                    "stiffness of such a grip, to where the hand means to be"),
-        base::field("friction", &HandDynamics::friction_n,
-                    base::Quantity{base::force_kind, 0.0, 10.0},
-                    "friction of such a device, to be right within 0.05 N"));
-}
-constexpr auto fields_of(base::Tag<ProxyHandOptions> /*struct*/)
-{
-    using Options = ProxyHandOptions;
-    constexpr base::Quantity length{base::length_kind, 1e-6, 1.0};
-    constexpr base::Quantity speed{base::speed_kind, 0.0, 10.0};
-    return base::fields(
-        "proxy-hand", base::part(&Options::hand),
-        base::field("anchor_filter", &Options::anchor_filter, parameter_time,
-                    "time constant with which the anchor goes to the projected intention"),
-        base::field("anchor_speed", &Options::anchor_speed_m_per_s, speed,
-                    "greatest speed of the anchor"),
-        base::field("velocity_filter", &Options::velocity_filter, base::Number{0.0, 10.0},
-                    "time constant of the intention's velocity, as a share of its age"),
-        base::field("velocity_filter_min", &Options::velocity_filter_min, parameter_time,
-                    "the least time constant of the intention's velocity"),
-        base::field("believed_above", &Options::believed_above_m_per_s, speed,
-                    "a hand that is slower is not projected"),
-        base::field("memory", &Options::memory, parameter_time,
-                    "over what time eta and g are learnt"),
-        base::field("ahead_max", &Options::ahead_max, parameter_time,
-                    "the farthest that an intention is projected"),
-        base::field("unsure_by", &Options::unsure_by_m, length,
-                    "error of the projection at which half of the spring becomes a force"),
-        base::field("soft_by", &Options::soft_by_m, length,
-                    "length of the projection at which half of the spring becomes a force"));
-}
 constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
 {
     using Options = RemoteProxyOptions;
@@ -101,6 +59,10 @@ public:
     [[nodiscard]] double account_j() const { return account_j_; }
     [[nodiscard]] const std::vector<ProxyHand>& proxies() const { return proxies_; }
 
+    /// So long after the last touch that is known, the copy of who touched last counts; then that
+    /// of the lowest id. Longer than the largest age that an allowance is for.
+    static constexpr base::Duration last_touch_counts_for{std::chrono::milliseconds{500}};
+
 private:
     /// Who touched last, of the others.
     struct Leader {
@@ -120,6 +82,8 @@ private:
     void move_proxies(const scene::World& world, const Situation& situation, double share,
                       Outcome& outcome);
     [[nodiscard]] std::optional<std::size_t> leader(const Situation& situation) const;
+    [[nodiscard]] static std::optional<std::size_t> lowest(const Situation& situation);
+    [[nodiscard]] bool is_anyone_touching(const Situation& situation) const;
     [[nodiscard]] glm::dvec3 error_against(std::size_t leader, const Situation& situation,
                                            const scene::BodyState& body) const;
     void correct(scene::World& world, const Situation& situation);

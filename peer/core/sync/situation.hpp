@@ -29,6 +29,7 @@ struct ReceivedState {
     double force_max_n = scene::force_max_n; // that a contact of this scene can exert
     std::size_t from = 0;                    // which of the others sent it, in their order
     wire::HandModel hand{};                  // of its sender, as far as it has said
+    base::TimePoint start{};                 // of the session, on this peer's clock
 };
 
 /// One of the others as last heard.
@@ -51,14 +52,17 @@ struct Situation {
     double force_max_n = scene::force_max_n;
     std::size_t lower_ids = 0;                     // so many of the others
     const scene::HandDescription* hands = nullptr; // of the scene; nullptr: without friction
+    base::TimePoint start{};                       // as in ReceivedState
+    std::int64_t number = 0; // of this tick, from 0: so many states were sent in the session before
 };
 
 /// The result of one tick of an algorithm.
 struct Outcome {
-    scene::HandTouch touched;                 // by this peer's hand
-    base::Force on_hand;                      // what that hand is to feel
-    bool remote_touching = false;             // whether the remote hand counts as touching
-    base::Force remote_force;                 // that it counts as exerting on the body
+    scene::HandTouch touched;     // by this peer's hand
+    base::Force on_hand;          // what that hand is to feel
+    base::Duration late{};        // by so much later than it would be without an algorithm
+    bool remote_touching = false; // whether the remote hand counts as touching
+    base::Force remote_force;     // that it counts as exerting on the body
     std::optional<base::Position> remote_hip; // where it is taken to be: to be shown, not felt
 };
 

@@ -113,6 +113,7 @@ base::Result<Algorithm> parse_algorithm(std::string_view text, const std::string
 
 base::Result<Algorithm> load_algorithm(const std::string& file_or_name, const base::OpenFile& open)
 {
+    if (file_or_name.ends_with(".so")) return SharedObject{SharedObjectOptions{file_or_name, {}}};
     std::vector<base::BuiltInText> plain;
     for (const std::string_view name : algorithm_names) {
         plain.push_back({name, fmt::format("algorithm = {}", base::quoted(name))});
@@ -140,11 +141,6 @@ std::string explain_algorithm(const Algorithm& algorithm)
     return algorithm_line(algorithm) + std::visit(lines, algorithm) +
            (has_gaps ? "# (A1) to (A11): docs/design/algorithms.md\n"
                      : "# docs/design/algorithms.md\n");
-}
-
-std::string_view name_of(const Algorithm& algorithm)
-{
-    return algorithm_names.at(algorithm.index());
 }
 
 } // namespace hapnet::peer

@@ -25,7 +25,7 @@ namespace hapnet::peer {
                                                       const std::string& source);
 
 /// The algorithm of that name ("base", "sep", "dead-reckoning") with all defaults, or else the file
-/// that `open` gives the text of.
+/// that `open` gives the text of. What ends in ".so" is a shared object, and is not loaded here.
 [[nodiscard]] base::Result<Algorithm> load_algorithm(const std::string& file_or_name,
                                                      const base::OpenFile& open);
 
@@ -34,8 +34,5 @@ namespace hapnet::peer {
 
 /// The same with a few words about every parameter, for a person who wants to change it.
 [[nodiscard]] std::string explain_algorithm(const Algorithm& algorithm);
-
-/// "base", "sep", "dead-reckoning"
-[[nodiscard]] std::string_view name_of(const Algorithm& algorithm);
 
 } // namespace hapnet::peer

@@ -81,7 +81,7 @@ void Conversation::answer(const std::string& line, const Subject& subject, base:
     if (const auto* wait = std::get_if<WaitRequest>(&answer)) {
         begin(*wait, subject, now);
     } else if (const auto* watch = std::get_if<WatchRequest>(&answer)) {
-        pending_ = Watching{*watch, now};
+        begin(*watch, subject, now);
     } else {
         send(std::get<std::string>(answer), now);
     }
@@ -109,13 +109,42 @@ bool Conversation::look(Waiting& waiting, const Subject& subject, base::TimePoin
     return true;
 }
 
+void Conversation::begin(const WatchRequest& request, const Subject& subject, base::TimePoint now)
+{
+    if (!request.of_frames) {
+        pending_ = Watching{request, now};
+    } else if (subject.frames) {
+        pending_ = Watching{request, now, subject.frames()};
+    } else {
+        send(refusal("this program has no frames; leave \"what\" out"), now);
+    }
+}
+
 bool Conversation::show(Watching& watching, const Subject& subject, base::TimePoint now)
 {
     if (now < watching.next_line) return false;
     watching.next_line = std::max(watching.next_line + watching.request.every, now);
+    if (watching.request.of_frames) {
+        send_frame(watching, now);
+        return false;
+    }
     // A reader that is behind gets the newest line when it is ready for one, not all of them.
     if (output().empty()) send(statistics_reply(subject.statistics()), now);
     return false;
+}
+
+void Conversation::send_frame(Watching& watching, base::TimePoint now)
+{
+    if (output().size() > unread_frames_bytes_max) {
+        ++watching.left_out;
+        return;
+    }
+    if (output().empty()) last_progress_ = now;
+    const std::size_t before = output_.size();
+    watching.frames(output_, watching.left_out);
+    if (output_.size() == before) return;
+    output_ += '\n';
+    watching.left_out = 0;
 }
 
 std::optional<base::TimePoint> Conversation::next_deadline() const
@@ -147,8 +176,8 @@ void Conversation::on_written(std::size_t bytes, base::TimePoint now)
     base::ensure(bytes <= output().size());
     written_ += bytes;
     if (bytes > 0) last_progress_ = now;
-    if (!output().empty()) return;
-    output_.clear();
+    if (written_ < output_.size() && written_ < unread_frames_bytes_max) return;
+    output_.erase(0, written_); // a reader of frames that never catches up must not fill the memory
     written_ = 0;
 }
 

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -19,11 +20,18 @@ namespace hapnet::control {
 /// What becomes of a request: the line that answers it, without its newline, or what it waits for.
 using Answer = std::variant<std::string, WaitRequest, WatchRequest>;
 
+/// One watch of frames, which ends when this is destroyed. Appends the frame of all that has
+/// happened since the one before as a JSON object without a newline; nothing when there is none
+/// yet. `left_out`: frames that were due since then.
+using FrameSource = std::function<void(std::string& text, std::uint64_t left_out)>;
+
 /// The program that is asked, as its clients see it. Called from the thread that serves them.
 struct Subject {
     std::function<Answer(std::string_view line, base::TimePoint now)> answer;
     /// An object; what waits looks at it, and what watches is sent it.
     std::function<nlohmann::ordered_json()> statistics;
+    /// Begins a watch of frames; null: this program has none.
+    std::function<FrameSource()> frames{};
 };
 
 /// One client of a control socket: lines of JSON in, lines of JSON out, one reply to each request
@@ -34,6 +42,8 @@ public:
     /// For whole profiles.
     static constexpr std::size_t line_bytes_max = std::size_t{1} << 20;
     static constexpr std::size_t unread_bytes_max = std::size_t{256} << 10;
+    /// While more than this is unread, frames are left out: the newest is worth most.
+    static constexpr std::size_t unread_frames_bytes_max = std::size_t{64} << 10;
     /// A client that takes nothing of what it is sent for so long is given up.
     static constexpr base::Duration patience = std::chrono::seconds{10};
 
@@ -77,17 +87,21 @@ private:
         base::TimePoint next_look;
         std::optional<base::TimePoint> end;
     };
-    /// Statistics at intervals, until the next request.
+    /// Statistics or frames at intervals, until the next request.
     struct Watching {
         WatchRequest request;
         base::TimePoint next_line;
+        FrameSource frames{}; // of a watch of frames
+        std::uint64_t left_out = 0;
     };
 
     [[nodiscard]] std::optional<std::string> next_line();
     void answer(const std::string& line, const Subject& subject, base::TimePoint now);
     void begin(const WaitRequest& request, const Subject& subject, base::TimePoint now);
     bool look(Waiting& waiting, const Subject& subject, base::TimePoint now);
+    void begin(const WatchRequest& request, const Subject& subject, base::TimePoint now);
     bool show(Watching& watching, const Subject& subject, base::TimePoint now);
+    void send_frame(Watching& watching, base::TimePoint now);
     void send(std::string_view line, base::TimePoint now);
 
     std::size_t line_max_;

@@ -15,7 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
 
-constexpr base::Duration time_max = 24h;
+constexpr base::Duration frames_usual = 20ms;
+constexpr base::Duration frames_most = 1s;
 
 /// Refuses while it is read what would be dangerous or ambiguous once it has been.
 class Guard {
@@ -84,16 +85,17 @@ std::optional<std::string> Members::optional_text(const char* key)
     return value->get<std::string>();
 }
 
-std::optional<base::Duration> Members::time(const char* key, base::Duration least)
+std::optional<base::Duration> Members::time(const char* key, base::Duration least,
+                                            base::Duration most)
 {
     const auto text = optional_text(key);
     if (!text) return std::nullopt;
     const auto value = base::parse_duration(*text);
     if (!value) {
         fail(fmt::format("\"{}\": {}", key, value.error().message));
-    } else if (*value < least || *value > time_max) {
+    } else if (*value < least || *value > most) {
         fail(fmt::format("\"{}\": '{}' is out of range: use {} to {}", key, *text,
-                         base::bound_text(least), base::bound_text(time_max)));
+                         base::bound_text(least), base::bound_text(most)));
     } else {
         return *value;
     }
@@ -127,8 +129,13 @@ WaitRequest wait_request(Members& members)
     return {until ? *std::move(until) : base::Condition{}, members.time("timeout", 0ms)};
 }
 
-WatchRequest watch_request(Members& members)
+WatchRequest watch_request(Members& members, base::Duration frames_least)
 {
+    const auto what = members.optional_text("what").value_or("statistics");
+    if (what == "frames") {
+        return {members.time("every", frames_least, frames_most).value_or(frames_usual), true};
+    }
+    if (what != "statistics") members.fail("\"what\" must be statistics or frames");
     return {members.time("every", 50ms).value_or(WatchRequest{}.every)};
 }
 

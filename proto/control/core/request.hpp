@@ -25,9 +25,11 @@ struct WaitRequest {
     std::optional<base::Duration> timeout;
 };
 
-/// Answered again and again, until the next request.
+/// Answered again and again, until the next request: with the statistics, or with frames, which are
+/// short and may be had often.
 struct WatchRequest {
     base::Duration every = std::chrono::milliseconds{500};
+    bool of_frames = false;
 };
 
 /// How deep a request may be nested; an honest one needs 2.
@@ -46,8 +48,9 @@ public:
     /// A text that must be there.
     std::string text(const char* key);
     std::optional<std::string> optional_text(const char* key);
-    /// A time from `least` to a day.
-    std::optional<base::Duration> time(const char* key, base::Duration least);
+    /// A time from `least` to `most`.
+    std::optional<base::Duration> time(const char* key, base::Duration least,
+                                       base::Duration most = std::chrono::hours{24});
     /// The member as it is; null when it is not there.
     const nlohmann::ordered_json* find(const char* key);
     void fail(std::string what);
@@ -71,8 +74,8 @@ private:
     std::optional<std::string> error_;
 };
 
-/// The members of wait and of watch.
+/// The members of wait and of watch. `frames_least`: how often frames may be had.
 [[nodiscard]] WaitRequest wait_request(Members& members);
-[[nodiscard]] WatchRequest watch_request(Members& members);
+[[nodiscard]] WatchRequest watch_request(Members& members, base::Duration frames_least);
 
 } // namespace hapnet::control

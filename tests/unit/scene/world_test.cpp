@@ -194,6 +194,19 @@ TEST_P(EveryProfile, ASnapshotBringsBackTheSameFuture)
     EXPECT_EQ(other.hash(), future);
 }
 
+TEST_P(EveryProfile, AWorldGoesToWhereAnotherOneIs)
+{
+    World world = this->world();
+    play(world, 500);
+    World other = this->world();
+    play(other, 123);
+    other.restore(world);
+    EXPECT_EQ(other.hash(), world.hash());
+    play(world, 700);
+    play(other, 700);
+    EXPECT_EQ(other.hash(), world.hash());
+}
+
 TEST_P(EveryProfile, ACopyRunsOnItsOwn)
 {
     World world = this->world();

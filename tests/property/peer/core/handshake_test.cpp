@@ -44,6 +44,17 @@ TEST(Handshake, EndsInAgreementUnderLossReorderingAndDuplication)
     }
 }
 
+TEST(Handshake, TellsTheStartWithinASecondAndAHalfAlsoAt97PercentLoss)
+{
+    const Path path{.delay_min = 200ms, .delay_max = 230ms, .loss = 0.97};
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        Meeting meeting{path, base::Seed{seed}};
+        while (!meeting.sides[0]->session()) meeting.step();
+        while (!meeting.sides[1]->session()) meeting.step();
+        EXPECT_LT(meeting.now - meeting.sides[0]->session()->start, 1500ms) << "seed " << seed;
+    }
+}
+
 TEST(Handshake, EndsInAgreementAfterAnyRestarts)
 {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -16,11 +17,12 @@ namespace {
 using namespace std::chrono_literals;
 using device::Task;
 
-Setting playing(Task task, base::Duration delay)
+Setting playing(Task task, base::Duration delay, std::size_t players = 2)
 {
     emulator::Conditions conditions;
     if (delay > 0ms) conditions.delay = emulator::constant(delay);
     Setting setting = under(task, conditions);
+    setting.players.resize(players);
     setting.scene = scene::load_scene(std::string{device::scene_of(task)}, {}).value();
     return setting;
 }
@@ -47,29 +49,35 @@ double turned_rad(const World& world, std::size_t side)
 
 TEST(TaskT8, TurnsTheCubeToAndFroInBothCopies)
 {
-    for (const base::Duration delay : {0ms, 40ms}) {
-        World world{playing(Task::t8, delay)};
-        run_until_started(world);
-        double least = 0.0, most = 0.0;
-        while (world.side(0).last().phase == peer::Phase::running) {
-            world.step();
-            least = std::min(least, turned_rad(world, 1));
-            most = std::max(most, turned_rad(world, 1));
+    for (const std::size_t players : {2U, 3U}) {
+        for (const base::Duration delay : {0ms, 40ms}) {
+            World world{playing(Task::t8, delay, players)};
+            run_until_started(world);
+            double least = 0.0, most = 0.0;
+            while (world.side(0).last().phase == peer::Phase::running) {
+                world.step();
+                least = std::min(least, turned_rad(world, players - 1));
+                most = std::max(most, turned_rad(world, players - 1));
+            }
+            EXPECT_GT(most - least, 0.25) << players << ' ' << delay.count();
         }
-        EXPECT_GT(most - least, 0.25) << delay.count();
     }
 }
 
 TEST(TaskT9, BuildsATowerThatStandsInBothCopies)
 {
-    for (const base::Duration delay : {0ms, 80ms}) {
-        World world{playing(Task::t9, delay)};
-        play_to_hands_off(world);
-        for (const std::size_t side : {0U, 1U}) {
-            for (const scene::BodyId cube : {0U, 1U, 2U}) {
-                const glm::dvec3 at = place(world, side, cube);
-                EXPECT_NEAR(at.y, -0.028 + 0.024 * cube, 0.5e-3) << delay.count() << ' ' << cube;
-                EXPECT_LT(std::abs(at.x), 0.012) << delay.count() << ' ' << cube;
+    for (const std::size_t players : {2U, 3U}) { // the third watches
+        for (const base::Duration delay : {0ms, 80ms}) {
+            SCOPED_TRACE(std::to_string(players) +
+                         " peers, ms: " + std::to_string(delay.count() / 1'000'000));
+            World world{playing(Task::t9, delay, players)};
+            play_to_hands_off(world);
+            for (std::size_t side = 0; side < players; ++side) {
+                for (const scene::BodyId cube : {0U, 1U, 2U}) {
+                    const glm::dvec3 at = place(world, side, cube);
+                    EXPECT_NEAR(at.y, -0.028 + 0.024 * cube, 0.5e-3) << cube;
+                    EXPECT_LT(std::abs(at.x), 0.012) << cube;
+                }
             }
         }
     }
@@ -77,13 +85,15 @@ TEST(TaskT9, BuildsATowerThatStandsInBothCopies)
 
 TEST(TaskT10, HandsTheScrewdriverOverToTheRight)
 {
-    for (const base::Duration delay : {0ms, 80ms}) {
-        World world{playing(Task::t10, delay)};
-        play_to_hands_off(world);
-        for (const std::size_t side : {0U, 1U}) {
-            const glm::dvec3 at = place(world, side, 2);
-            EXPECT_NEAR(at.y, -0.012, 0.5e-3) << delay.count();
-            EXPECT_NEAR(at.x, 0.04, 0.01) << delay.count();
+    for (const std::size_t players : {2U, 4U}) { // two of the four watch
+        for (const base::Duration delay : {0ms, 80ms}) {
+            World world{playing(Task::t10, delay, players)};
+            play_to_hands_off(world);
+            for (std::size_t side = 0; side < players; ++side) {
+                const glm::dvec3 at = place(world, side, 2);
+                EXPECT_NEAR(at.y, -0.012, 0.5e-3) << players << ' ' << delay.count();
+                EXPECT_NEAR(at.x, 0.04, 0.01) << players << ' ' << delay.count();
+            }
         }
     }
 }

@@ -53,6 +53,30 @@ TEST(EveryScript, StaysInItsHandsWorkspaceAndAsksForNoJump)
     }
 }
 
+TEST(TasksForTwoHands, LetFurtherOnesWatchFromWhereTheirDeviceReachesAndGripNothing)
+{
+    for (const Task task : {Task::t9, Task::t10}) {
+        for (const bool is_left : {true, false}) {
+            const Cue cue{.start = start,
+                          .hands_on = 27s,
+                          .seed = base::Seed{1},
+                          .peer_id = static_cast<std::uint16_t>(is_left ? 3 : 4),
+                          .is_left = is_left,
+                          .share = 0.5,
+                          .is_first = false};
+            const Script hand{task, cue, {}, {}};
+            for (double seconds = 0.0; seconds < 27.0; seconds += 0.5) {
+                const Intention intention = at(hand, seconds);
+                EXPECT_FALSE(intention.gripping);
+                EXPECT_EQ(intention.target.x(), is_left ? -0.055 : 0.055);
+                EXPECT_LE(std::abs(intention.target.y()), 0.060);
+                EXPECT_LE(std::abs(intention.target.z()), 0.035);
+                EXPECT_GE(intention.target.y(), 0.045) << "above what the others carry";
+            }
+        }
+    }
+}
+
 TEST(TaskT2, LetsOneHoldAndTheOtherPressAsTheScheduleSays)
 {
     for (const PressInterval& press : press_schedule) {

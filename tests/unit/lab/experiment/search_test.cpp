@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Where a search says that the limit is, for laws whose limit is known; and what the paper's
+// At which levels a search plays all seeds, for laws whose limit is known; and what the paper's
 // numbers are compared by.
 #include "lab/experiment/search.hpp"
 #include "lab/results/paper.hpp"
@@ -17,64 +17,102 @@ SearchRange range(std::int64_t from, std::int64_t to, std::int64_t step, std::in
     return {Impairment::delay, {1000 * from}, {1000 * to}, {1000 * step}, {1000 * resolution}};
 }
 
-Limit found(std::int64_t level) { return {{1000 * level}, true}; }
-
-/// Passes up to `last`, in whole units.
-Passes up_to(std::int64_t last)
+/// Seed i of a search fails above `first + i * apart`, in whole units.
+Failures from(std::int64_t first, std::int64_t apart)
 {
-    return [last](ImpairmentLevel level) -> base::Result<bool> {
-        return level.thousandths <= 1000 * last;
+    return [=](ImpairmentLevel level, std::uint32_t seeds) -> base::Result<std::uint32_t> {
+        std::uint32_t failed = 0;
+        for (std::uint32_t i = 0; i < seeds; ++i)
+            failed += level.thousandths > 1000 * (first + apart * std::int64_t{i}) ? 1U : 0U;
+        return failed;
     };
+}
+
+std::vector<std::int64_t> whole(const std::vector<ImpairmentLevel>& levels)
+{
+    std::vector<std::int64_t> units;
+    for (const ImpairmentLevel level : levels) units.push_back(level.thousandths / 1000);
+    return units;
 }
 
 } // namespace
 
-TEST(Search, FindsEveryLimitOfItsGridExactly)
+TEST(Search, CountsEightLevelsAcrossTheOnsetWhereverItIs)
 {
-    for (std::int64_t last = 0; last < 320; ++last) {
-        EXPECT_EQ(*find_limit(range(0, 320, 40, 5), up_to(last)), found(last / 5 * 5)) << last;
-    }
-    for (std::int64_t last = 50; last < 99; ++last) {
-        EXPECT_EQ(*find_limit(range(50, 99, 10, 1), up_to(last)), found(last)) << last;
+    for (std::int64_t first = 10; first < 300; first += 7) {
+        const auto levels = levels_to_count(range(0, 320, 40, 5), 40, from(first, 0));
+        ASSERT_TRUE(levels);
+        EXPECT_GE(levels->size(), counted_levels) << first;
+        EXPECT_LE(levels->front().thousandths, 1000 * first) << first;
+        EXPECT_GT(levels->back().thousandths, 1000 * first) << first;
+        for (std::size_t i = 1; i < levels->size(); ++i) {
+            const auto gap = (*levels)[i].thousandths - (*levels)[i - 1].thousandths;
+            EXPECT_TRUE(gap > 0 && gap % 5000 == 0) << first;
+        }
     }
 }
 
-TEST(Search, SaysWhenNothingFailedWithinTheRange)
+TEST(Search, GoesOnUntilATenthAndAHalfOfAllSeedsLieWithin)
 {
-    EXPECT_EQ(*find_limit(range(0, 99, 10, 1), up_to(99)), (Limit{{99'000}, false}));
+    // The four seeds of the scan fail above 100 to 103, the others up to 139.
+    const auto failures = from(100, 1);
+    const auto levels = levels_to_count(range(0, 320, 40, 1), 40, failures);
+    ASSERT_TRUE(levels);
+    EXPECT_LE(*failures(levels->front(), 40), 4U);
+    EXPECT_GE(*failures(levels->back(), 40), 20U);
+}
+
+TEST(Search, LeavesItAtTheTopWhenNothingFails)
+{
+    const auto none = levels_to_count(range(0, 99, 10, 1), 40, from(99, 0));
+    ASSERT_TRUE(none);
+    EXPECT_EQ(whole(*none), std::vector<std::int64_t>{99});
+    // Of the others one fails at the top.
+    const Failures rare = [](ImpairmentLevel level, std::uint32_t seeds) {
+        const bool is_top = level.thousandths >= 99'000;
+        return base::Result<std::uint32_t>{seeds > scan_seeds && is_top ? 1U : 0U};
+    };
+    const auto top = levels_to_count(range(0, 99, 10, 1), 40, rare);
+    ASSERT_TRUE(top);
+    EXPECT_GE(top->size(), counted_levels);
+    EXPECT_EQ(whole(*top).back(), 99);
 }
 
 TEST(Search, LooksBelowTheRangeWhenItsFirstLevelFails)
 {
-    for (std::int64_t last = 0; last < 50; ++last) {
-        EXPECT_EQ(*find_limit(range(50, 99, 10, 1), up_to(last)), found(last)) << last;
-    }
-    const Passes never = [](ImpairmentLevel) -> base::Result<bool> { return false; };
-    EXPECT_EQ(*find_limit(range(50, 99, 10, 1), never), found(0));
-    EXPECT_EQ(*find_limit(range(0, 99, 10, 1), never), found(0));
+    const auto levels = levels_to_count(range(50, 99, 10, 1), 40, from(20, 0));
+    ASSERT_TRUE(levels);
+    EXPECT_LE(whole(*levels).front(), 20);
+    EXPECT_GT(whole(*levels).back(), 20);
+    const auto never = levels_to_count(range(50, 99, 10, 1), 40, from(-1, 0));
+    ASSERT_TRUE(never);
+    EXPECT_EQ(whole(*never).front(), 0);
 }
 
-TEST(Search, StopsAtTheFirstFailureWhateverPassesBeyond)
+TEST(Search, IsNotMisledByASingleLevelThatFails)
 {
-    std::vector<std::int64_t> visited;
-    const auto limit =
-        find_limit(range(0, 100, 10, 5), [&](ImpairmentLevel level) -> base::Result<bool> {
-            visited.push_back(level.thousandths / 1000);
-            return level.thousandths != 30'000; // one bad level, as a buzz at one delay would be
-        });
-    EXPECT_EQ(*limit, found(25));
-    EXPECT_EQ(visited, (std::vector<std::int64_t>{0, 10, 20, 30, 25}));
+    // One of four seeds fails at 40 alone, as a buzz at one delay would; all above 160.
+    const Failures failures = [](ImpairmentLevel level, std::uint32_t seeds) {
+        const bool is_high = level.thousandths > 160'000;
+        const std::uint32_t few = level.thousandths == 40'000 ? seeds / 4 : 0;
+        return base::Result<std::uint32_t>{is_high ? seeds : few};
+    };
+    const auto levels = levels_to_count(range(0, 320, 40, 5), 40, failures);
+    ASSERT_TRUE(levels);
+    EXPECT_LT(whole(*levels).front(), 160);
+    EXPECT_GT(whole(*levels).back(), 160);
 }
 
 TEST(Search, PassesAnErrorOn)
 {
-    const auto limit =
-        find_limit(range(0, 100, 10, 5), [](ImpairmentLevel level) -> base::Result<bool> {
-            if (level.thousandths > 40'000) return base::fail("no more");
-            return true;
-        });
-    ASSERT_FALSE(limit);
-    EXPECT_EQ(limit.error().message, "no more");
+    const Failures failures = [](ImpairmentLevel level,
+                                 std::uint32_t) -> base::Result<std::uint32_t> {
+        if (level.thousandths > 40'000) return base::fail("no more");
+        return 0;
+    };
+    const auto levels = levels_to_count(range(0, 100, 10, 5), 40, failures);
+    ASSERT_FALSE(levels);
+    EXPECT_EQ(levels.error().message, "no more");
 }
 
 TEST(Levels, ArePutAsPeopleReadThem)
@@ -116,45 +154,88 @@ TEST(Paper, Table1IsMetWithinItsBandsAndNotBeyond)
     EXPECT_EQ(results::table1_verdict("mine", base, base), results::Claim::none);
 }
 
-TEST(Paper, LimitsAreCalibratedMetOrMissed)
+namespace {
+
+/// A limit with this interval, whose replicates all are its middle.
+metrics::Threshold around(double p50, double half_width = 0.5)
+{
+    metrics::Threshold threshold{
+        .p50 = p50, .low = p50 - half_width, .high = p50 + half_width, .seeds = 40};
+    threshold.replicates.assign(metrics::bootstrap_replicates, p50);
+    return threshold;
+}
+
+metrics::Threshold never_reached(double top)
+{
+    metrics::Threshold threshold{.p50 = top, .is_open = true, .low = top, .seeds = 40};
+    threshold.replicates.assign(metrics::bootstrap_replicates, metrics::beyond);
+    return threshold;
+}
+
+} // namespace
+
+TEST(Paper, ALimitIsMetMissedOrUndecidedByItsInterval)
 {
     using enum Impairment;
-    const results::FoundLimit base_delay{160.0, true};
-    EXPECT_EQ(limit_status("base", delay, base_delay, {}), results::LimitStatus::calibrated);
-    EXPECT_EQ(results::limit_status("base", delay, {150.0, true}, {}),
-              results::LimitStatus::predicted_missed);
-    EXPECT_EQ(results::limit_status("base", delay, {160.0, false}, {}),
-              results::LimitStatus::predicted_missed);
-    EXPECT_EQ(results::limit_status("base", random_loss, {92.0, true}, {}),
-              results::LimitStatus::calibrated);
-    EXPECT_EQ(results::limit_status("base", burst_loss, {45.0, true}, {}),
-              results::LimitStatus::predicted_met);
-    EXPECT_EQ(results::limit_status("base", jitter, {20.0, false}, {}),
-              results::LimitStatus::predicted_met);
-    EXPECT_EQ(results::limit_status("base", jitter, {14.5, true}, {}),
-              results::LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("sep", delay, {165.0, true}, base_delay),
-              results::LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("sep", delay, {320.0, false}, base_delay),
-              results::LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("sep", burst_loss, {40.0, true}, results::FoundLimit{40.0, true}),
-              results::LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("dead-reckoning", delay, {150.0, true}, base_delay),
-              results::LimitStatus::predicted_met);
-    EXPECT_EQ(
-        limit_status("dead-reckoning", delay, {150.0, true}, results::FoundLimit{150.0, true}),
-        results::LimitStatus::predicted_missed);
-    EXPECT_EQ(results::limit_status("dead-reckoning", jitter, {6.0, true}, {}),
-              results::LimitStatus::predicted_met);
-    EXPECT_EQ(results::limit_status("dead-reckoning", jitter, {6.0, false}, {}),
-              results::LimitStatus::predicted_missed);
-    EXPECT_EQ(
-        limit_status("dead-reckoning", random_loss, {80.0, true}, results::FoundLimit{93.0, true}),
-        results::LimitStatus::predicted_met);
-    EXPECT_EQ(
-        limit_status("dead-reckoning", burst_loss, {95.0, false}, results::FoundLimit{40.0, true}),
-        results::LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("mine", delay, base_delay, base_delay), results::LimitStatus::none);
+    using results::LimitStatus;
+    const auto base = around(160.0);
+    EXPECT_EQ(results::limit_status("base", delay, base, &base), LimitStatus::calibrated);
+    EXPECT_EQ(results::limit_status("base", delay, around(140.0), nullptr),
+              LimitStatus::calibrated_missed);
+    EXPECT_EQ(results::limit_status("base", delay, around(152.0), nullptr), LimitStatus::undecided);
+    EXPECT_EQ(results::limit_status("base", delay, never_reached(320.0), nullptr),
+              LimitStatus::calibrated_missed);
+    EXPECT_EQ(results::limit_status("base", burst_loss, around(44.0), nullptr),
+              LimitStatus::selected_met);
+    EXPECT_EQ(results::limit_status("sep", delay, around(167.0), &base),
+              LimitStatus::predicted_met);
+    EXPECT_EQ(results::limit_status("sep", delay, around(180.0), &base),
+              LimitStatus::predicted_missed);
+    EXPECT_EQ(results::limit_status("sep", burst_loss, base, &base),
+              LimitStatus::by_construction_met);
+    EXPECT_EQ(results::limit_status("dead-reckoning", delay, around(140.0), &base),
+              LimitStatus::predicted_met);
+    EXPECT_EQ(results::limit_status("dead-reckoning", delay, around(129.8), &base),
+              LimitStatus::undecided);
+    const auto early = around(135.0);
+    EXPECT_EQ(results::limit_status("dead-reckoning", delay, around(140.0), &early),
+              LimitStatus::predicted_missed)
+        << "more than base's";
+    EXPECT_EQ(results::limit_status("dead-reckoning", jitter, around(4.0), nullptr),
+              LimitStatus::selected_met);
+    const auto burst = around(44.0);
+    EXPECT_EQ(results::limit_status("dead-reckoning", burst_loss, around(73.0), &burst),
+              LimitStatus::predicted_missed)
+        << "73 is not the paper's 50";
+}
+
+TEST(Paper, StatesNoLimitOfJitterButDeadReckoningsAndNoneWithoutBase)
+{
+    using enum Impairment;
+    EXPECT_EQ(results::paper_limit("base", jitter), std::nullopt);
+    EXPECT_EQ(results::paper_limit("sep", jitter), std::nullopt);
+    EXPECT_EQ(results::paper_limit("dead-reckoning", jitter), 5.0);
+    EXPECT_EQ(results::limit_status("base", jitter, never_reached(20.0), nullptr),
+              results::LimitStatus::none);
+    EXPECT_EQ(results::limit_status("dead-reckoning", delay, around(140.0), nullptr),
+              results::LimitStatus::none);
+    const auto base = around(160.0);
+    EXPECT_EQ(results::limit_status("mine", delay, base, &base), results::LimitStatus::none);
+}
+
+TEST(Paper, EveryLimitHasAClass)
+{
+    using enum Impairment;
+    using results::Provenance;
+    EXPECT_EQ(results::limit_provenance("base", delay, "worst"), Provenance::calibrated);
+    EXPECT_EQ(results::limit_provenance("base", delay, "T3"), Provenance::predicted);
+    EXPECT_EQ(results::limit_provenance("base", burst_loss, "worst"), Provenance::selected);
+    EXPECT_EQ(results::limit_provenance("sep", random_loss, "worst"), Provenance::by_construction);
+    EXPECT_EQ(results::limit_provenance("sep", delay, "worst"), Provenance::predicted);
+    EXPECT_EQ(results::limit_provenance("dead-reckoning", jitter, "worst"), Provenance::selected);
+    EXPECT_EQ(results::limit_provenance("dead-reckoning", burst_loss, "worst"),
+              Provenance::predicted);
+    EXPECT_EQ(results::limit_provenance("mine", delay, "worst"), Provenance::none);
 }
 
 } // namespace hapnet::lab::experiment

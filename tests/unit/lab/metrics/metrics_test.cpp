@@ -160,6 +160,49 @@ TEST(Metrics, OfSeveralBodiesAreThoseOfTheOneThatIsFarthestApart)
     EXPECT_NEAR(metrics.turned_apart_rad->max, 2.0 * 0.999, 1e-12);
 }
 
+TEST(Metrics, OfSeveralBodiesSayForEachHowFarItsCopiesAreApart)
+{
+    virtual_time::Trace trace = resting(Task::t9, 1000);
+    trace.further_bodies = 1;
+    trace.further.assign(2, std::vector<virtual_time::Pose>(1000));
+    for (std::size_t i = 0; i < 1000; ++i) {
+        trace.sides[0][i].body.value = {0.003, 0.004, 0.0};
+        trace.further[1][i].orientation =
+            glm::dquat{std::cos(5e-4 * static_cast<double>(i)),
+                       std::sin(5e-4 * static_cast<double>(i)), 0.0, 0.0};
+    }
+    trace.settled = {{1e-5, 2e-5}, {3e-5, 4e-5}};
+    const auto bodies = metrics_of(trace).bodies;
+    ASSERT_EQ(bodies.size(), 2U);
+    EXPECT_NEAR(bodies[0].discrepancy_x_m->mean, 0.003, 1e-15);
+    EXPECT_NEAR(bodies[0].discrepancy_m->mean, 0.005, 1e-15);
+    EXPECT_FALSE(bodies[0].turned_apart_rad);
+    EXPECT_EQ(bodies[0].settled_m, 1e-5);
+    EXPECT_FALSE(bodies[0].settled_rad) << "it never turned";
+    EXPECT_EQ(bodies[1].discrepancy_m->max, 0.0);
+    EXPECT_NEAR(bodies[1].turned_apart_rad->max, 0.999, 1e-12);
+    EXPECT_EQ(bodies[1].settled_rad, 4e-5);
+}
+
+TEST(Metrics, OfATaskWithBodiesThatTurnSayThatTheCopiesAgreeAfterHandsOff)
+{
+    for (const Task task : {Task::t8, Task::t9, Task::t10}) {
+        virtual_time::Setting setting{.task = task, .seed = base::Seed{7}};
+        setting.scene = scene::load_scene(std::string{device::scene_of(task)}, {}).value();
+        emulator::Conditions conditions;
+        conditions.delay = emulator::constant(std::chrono::milliseconds{40});
+        setting.profile.path = {conditions, conditions};
+        const auto trace = play(setting);
+        ASSERT_TRUE(trace) << trace.error().message;
+        const auto bodies = metrics_of(*trace).bodies;
+        EXPECT_EQ(bodies.size(), task == Task::t8 ? 1U : 3U);
+        for (const BodyApart& body : bodies) {
+            EXPECT_LE(body.settled_m.value_or(1.0), 1e-4) << device::name_of(task);
+            EXPECT_LE(body.settled_rad.value_or(0.0), 1e-4) << device::name_of(task);
+        }
+    }
+}
+
 TEST(Metrics, TakeTheTasksToDoWhatTheirScriptsDo)
 {
     for (const Task task : device::all_tasks) {

@@ -122,12 +122,13 @@ TEST(Agreement, IsUnknownWhenTheyNeverRanAtTheSameTime)
     EXPECT_EQ(agreement.overlap, 0.0);
 }
 
-/// Pushes along y with this many newtons.
+/// Pushes along y with this many newtons; its motors give half of that.
 auto pushing(double newtons)
 {
     return [=](record::TickRow& row, base::Duration) {
         row.touching = true;
         row.contact = {{0.0, newtons, 0.0}};
+        row.device = {{0.0, 0.0, 0.5 * newtons}};
     };
 }
 
@@ -138,10 +139,13 @@ TEST(Agreement, ComparesTheStrengthOfForcesNotTheirDirection)
     a.session(1s).ticks(0ms, 4ms, Phase::running, pushing(-1.0));
     b.session(1s).ticks(0ms, 2ms, Phase::running, pushing(1.5));
     b.ticks(2ms, 4ms, Phase::running, pushing(1.0));
-    const auto force = analysis_of(a, b).agreement.force_discrepancy;
-    ASSERT_TRUE(force);
-    EXPECT_EQ(force->mean, 0.25);
-    EXPECT_EQ(force->max, 0.5);
+    const Agreement agreement = analysis_of(a, b).agreement;
+    ASSERT_TRUE(agreement.contact_force_discrepancy);
+    EXPECT_EQ(agreement.contact_force_discrepancy->mean, 0.25);
+    EXPECT_EQ(agreement.contact_force_discrepancy->max, 0.5);
+    ASSERT_TRUE(agreement.force_discrepancy);
+    EXPECT_EQ(agreement.force_discrepancy->mean, 0.125) << "of what the devices were told";
+    EXPECT_EQ(agreement.force_discrepancy->max, 0.25);
 }
 
 TEST(Agreement, OfForcesIsUnknownWhenTheyNeverTouchAtTheSameTime)

@@ -27,6 +27,7 @@ Analysis small_run()
             row.cube = {{x, 0.0, 0.0}};
             row.touching = true;
             row.contact = {{newtons, 0.0, 0.0}};
+            row.device = {{0.5 * newtons, 0.0, 0.0}};
             row.late = 15us;
             row.sent_sequence = static_cast<std::uint32_t>(1 + time / 1ms);
         };
@@ -43,7 +44,8 @@ TEST(Report, HasTheKeysAndUnitsThatProgramsReadInJson)
 {
     EXPECT_EQ(json(to_json(small_run())), json::parse(R"({
         "discrepancy_x_mm": {"mean": 250.0, "min": 250.0, "max": 250.0, "std": 0.0},
-        "force_discrepancy_n": {"mean": 0.5, "max": 0.5},
+        "force_discrepancy_n": {"mean": 0.25, "max": 0.25},
+        "contact_force_discrepancy_n": {"mean": 0.5, "max": 0.5},
         "settled_discrepancy_mm": null,
         "settled_turned_apart_deg": null,
         "bodies": {},
@@ -178,6 +180,15 @@ TEST(CircleReport, KeepsTheKeysOfTwoAndHasAllOfEachPairBeside)
     EXPECT_NEAR(report["peers"]["3"]["tick"]["rate_hz"].get<double>(), 1000.0, 1e-9);
     EXPECT_EQ(report["valid"], true) << report["invalid_because"];
     EXPECT_TRUE(report["bodies"].empty()) << "the records say no scene";
+    // Every key of two, and of each pair all but the loops, which are of peers.
+    const json of_two = to_json(Analysis{});
+    for (const auto& [key, value] : of_two.items()) {
+        EXPECT_TRUE(report.contains(key)) << key;
+        const bool is_of_peers = key == "a" || key == "b";
+        EXPECT_EQ(report["pairs"]["2-3"].contains(key), !is_of_peers) << key;
+    }
+    EXPECT_EQ(report["pairs"].size(), 3U);
+    EXPECT_EQ(report["peers"].size(), 3U);
     for (const char* key : {"a", "b", "a_to_b", "b_to_a", "clock", "overlap", "touching"})
         EXPECT_TRUE(report.contains(key)) << key;
     const std::string text = to_table(*circle);

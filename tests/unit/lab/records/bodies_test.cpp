@@ -97,6 +97,35 @@ TEST(Bodies, HaveTheirNamesAndFreedomFromTheScene)
     EXPECT_TRUE(agreement.bodies[1].turned_apart);
 }
 
+/// Peer `first` owns the body for the first second of both hands on, and peer 2 then.
+Recording owned(int peer_id, std::uint16_t first_owner)
+{
+    Recording recording{peer_id};
+    recording.session(5s).ticks(0s, 2s, Phase::running).ticks(2s, 5s, Phase::hands_off);
+    recording.bodies({0}, [&](record::BodyRow& row, base::Duration time) {
+        row.owner = time < 1s ? first_owner : std::uint16_t{2};
+    });
+    return recording;
+}
+
+TEST(Bodies, AreHandedOverAsOftenAsTheirOwnerChangesOnTheSideThatSawMoreOfIt)
+{
+    auto a = owned(1, 1), b = owned(2, 2);
+    const Analysis analysis = analysis_of(a, b);
+    const BodyAgreement& body = analysis.agreement.bodies[0];
+    EXPECT_EQ(body.handovers, 1U);
+    EXPECT_NEAR(*body.same_owner, 0.5, 1e-3);
+    const nlohmann::json report = to_json(analysis);
+    EXPECT_EQ(report["bodies"]["0"]["handovers"], 1);
+    EXPECT_NEAR(report["bodies"]["0"]["same_owner"].get<double>(), 0.5, 1e-3);
+    for (record::BodyRow& row : a.content().bodies) row.owner = 0;
+    EXPECT_EQ(analysis_of(a, b).agreement.bodies[0].handovers, 0U);
+    for (record::BodyRow& row : b.content().bodies) row.owner = 0; // as in version 4
+    const nlohmann::json unsaid = to_json(analysis_of(a, b));
+    EXPECT_TRUE(unsaid["bodies"]["0"]["handovers"].is_null());
+    EXPECT_TRUE(unsaid["bodies"]["0"]["same_owner"].is_null());
+}
+
 TEST(Bodies, StandInTheAnalysisForProgramsAndForPeople)
 {
     auto a = first(), b = second();
@@ -164,6 +193,26 @@ TEST(Bodies, AreInTheTraceThatMetricsAreTakenOf)
     EXPECT_EQ(trace.further[1][1000].position.z(), 0.010);
     EXPECT_EQ(trace.further[0][1000].position.z(), 0.0);
     EXPECT_EQ(trace.further[1][1000].orientation, turned(20.0 * degree));
+    ASSERT_EQ(trace.settled.size(), 2U);
+    EXPECT_EQ(trace.settled[0].metres, 0.0);
+    EXPECT_NEAR(trace.settled[1].metres, 0.001, 1e-15);
+    EXPECT_NEAR(trace.settled[1].radians, 2.0 * degree, 1e-12);
+}
+
+TEST(Bodies, AreInTheTraceOfMoreThanTwoOnceForEachOfThem)
+{
+    auto a = first(), b = second(), c = with_two_bodies(3, -0.005, 0.0);
+    // Of B with each of the others: the sides come in the order of their ids all the same.
+    const std::vector<Session> sessions{*common_session(b.content(), c.content()),
+                                        *common_session(b.content(), a.content())};
+    const virtual_time::Trace trace = trace_of(sessions);
+    ASSERT_EQ(trace.sides.size(), 3U);
+    ASSERT_EQ(trace.further.size(), 3U);
+    EXPECT_EQ(trace.further[0][1000].position.z(), 0.0);
+    EXPECT_EQ(trace.further[1][1000].position.z(), 0.010);
+    EXPECT_EQ(trace.further[2][1000].position.z(), -0.005);
+    ASSERT_EQ(trace.settled.size(), 2U);
+    EXPECT_NEAR(trace.settled[1].metres, 0.0015, 1e-15) << "of the farthest two";
 }
 
 TEST(Bodies, AreLinesOfACsvAlsoWhereOnlyTheTickHoldsOne)
@@ -172,19 +221,23 @@ TEST(Bodies, AreLinesOfACsvAlsoWhereOnlyTheTickHoldsOne)
               "time_s,tick,body,position_x_mm,position_y_mm,position_z_mm,velocity_x_mm_per_s,"
               "velocity_y_mm_per_s,velocity_z_mm_per_s,orientation_w,orientation_x,orientation_y,"
               "orientation_z,angular_velocity_x_rad_per_s,angular_velocity_y_rad_per_s,"
-              "angular_velocity_z_rad_per_s");
+              "angular_velocity_z_rad_per_s,owner");
     std::vector<std::string> lines;
     const auto take = [&](const std::string& line) { lines.push_back(line); };
     for_each_body_csv_line(second().content(), start, take);
     ASSERT_EQ(lines.size(), 10000U);
     EXPECT_EQ(lines[1], "0.000000000,0,2,0.000000,0.000000,10.000000,0.000000,0.000000,0.000000,"
-                        "0.984808,0.000000,0.173648,0.000000,0.000000,0.000000,0.000000");
+                        "0.984808,0.000000,0.173648,0.000000,0.000000,0.000000,0.000000,");
+    lines.clear();
+    for_each_body_csv_line(owned(1, 1).content(), start, take);
+    EXPECT_TRUE(lines[0].ends_with(",0.000000,1")) << lines[0];
     lines.clear();
     Recording plain{1};
     plain.session(1s).ticks(1ms, 2ms, Phase::running, cube_at(0.25));
     for_each_body_csv_line(plain.content(), start, take);
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_TRUE(lines[0].starts_with("0.001000000,0,0,250.000000,")) << lines[0];
+    EXPECT_TRUE(lines[0].ends_with(",")) << "no owner";
 }
 
 } // namespace

@@ -49,7 +49,8 @@ TEST(LeftOpen, SeesWhatIsNotClosed)
 
 TEST(Page, ScriptsAndStyleSheetAreBalanced)
 {
-    for (const auto source : {plot::style_sheet(), zoom_script(), player_script()}) {
+    for (const auto source :
+         {plot::style_sheet(), figures_script(), zoom_script(), player_script()}) {
         EXPECT_GT(source.size(), 1000U);
         EXPECT_EQ(left_open(source), "");
         EXPECT_EQ(source.find("</"), std::string_view::npos); // would end its element

@@ -27,10 +27,13 @@ inline results::File sample_table1()
 {
     return {"r/table1/table1.csv",
             "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,"
-            "verdict\n"
-            "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated\n"
-            "sep,13.620,0.000,47.200,10.690,13.991,50.120,10.808,met\n"
-            "dead-reckoning,3.402,0.000,66.610,4.190,3.341,58.850,3.840,missed\n"};
+            "verdict,class,max_class\n"
+            "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated,calibrated,"
+            "calibrated\n"
+            "sep,13.620,0.000,47.200,10.690,13.991,50.120,10.808,met,by-construction,"
+            "by-construction\n"
+            "dead-reckoning,3.402,0.000,66.610,4.190,3.341,58.850,3.840,missed,selected,"
+            "predicted\n"};
 }
 
 inline results::File sample_tasks()
@@ -45,34 +48,38 @@ inline results::File sample_tasks()
 
 inline results::File sample_limits()
 {
-    return {"r/fig6a/limits.csv", "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
-                                  "base,delay,T1,320,>,ms,160,predicted-missed\n"
-                                  "base,delay,worst,160,=,ms,160,calibrated\n"
-                                  "dead-reckoning,delay,worst,145,=,ms,150,predicted-met\n"
-                                  "dead-reckoning,jitter,worst,2.5,=,ms,5,predicted-missed\n"};
+    return {"r/fig6a/limits.csv",
+            "algorithm,impairment,task,limit,bound,unit,paper_limit,status,class,p50,p10,ci_low,"
+            "ci_high,seeds\n"
+            "base,delay,T1,320,>,ms,,,predicted,320,,320,,40\n"
+            "base,delay,worst,160,=,ms,160,calibrated,calibrated,160,150,157,163,40\n"
+            "dead-reckoning,delay,worst,145,=,ms,150,predicted-met,predicted,145,140,143,147,40\n"
+            "dead-reckoning,jitter,worst,2.5,=,ms,5,selected-missed,selected,2.5,2,2.4,2.6,40\n"};
 }
 
 inline results::File sample_loss_limits()
 {
-    return {"r/fig6b/limits.csv", "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
-                                  "base,burst-loss,worst,95,>,of_100,40,predicted-missed\n"};
+    return {"r/fig6b/limits.csv",
+            "algorithm,impairment,task,limit,bound,unit,paper_limit,status,class,p50,p10,ci_low,"
+            "ci_high,seeds\n"
+            "base,burst-loss,worst,95,>,of_100,40,selected-missed,selected,95,,95,,40\n"};
 }
 
 inline results::File sample_curves()
 {
     return {"r/fig6a/curves.csv",
-            "algorithm,impairment,task,level,unit,seed,mean_mm,vibration_mm,stiffness_ratio,"
-            "force_vibration_n,tier\n"
-            "base,delay,T1,40,ms,1,3.4,0.10,,0.0100,usable\n"
-            "base,delay,T1,80,ms,1,6.8,1.20,,0.0200,unusable\n"};
+            "algorithm,impairment,task,level,unit,seed,counts,mean_mm,vibration_mm,"
+            "stiffness_ratio,force_vibration_n,tier\n"
+            "base,delay,T1,40,ms,1,true,3.4,0.10,,0.0100,usable\n"
+            "base,delay,T1,80,ms,1,true,6.8,1.20,,0.0200,unusable\n"};
 }
 
 inline results::File sample_conventions()
 {
     return {"r/fig6a/limits_by_convention.csv",
-            "algorithm,impairment,task,filter_order,hand,limit,bound,unit\n"
-            "base,delay,T1,1,nominal,145,=,ms\n"
-            "base,delay,T1,4,nominal,182,>,ms\n"};
+            "algorithm,impairment,task,filter_order,hand,limit,bound,unit,ci_low,ci_high,seeds\n"
+            "base,delay,T1,1,nominal,145,=,ms,140,150,10\n"
+            "base,delay,T1,4,nominal,182,>,ms,182,,10\n"};
 }
 
 inline results::File sample_trajectories()

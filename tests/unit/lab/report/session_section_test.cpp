@@ -44,7 +44,7 @@ TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecord
     EXPECT_TRUE(holds(page, "<section id='replay'"));
     EXPECT_TRUE(holds(page, "<section id='sessions'"));
     EXPECT_TRUE(holds(page, "25.00 mm on average while both hands were on, 25.0 mm at most"));
-    EXPECT_TRUE(holds(page, "<th scope='row'>cube |x_A - x_B|, mm</th><td>25.000</td>"));
+    EXPECT_TRUE(holds(page, "<th scope='row'>the body |x_A - x_B|, mm</th><td>25.000</td>"));
     EXPECT_TRUE(holds(page, "<th scope='row'>ticks per second</th><td>1000.00</td>"));
     EXPECT_TRUE(holds(page, "algorithm &lt;base&gt;"));
     EXPECT_FALSE(holds(page, "<base>"));

@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // The files of an experiment whose sessions follow a known law.
+#include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/text.hpp"
+#include "lab/results/axis_files.hpp"
 #include "lab/results/result_files.hpp"
 #include "lab/results/results.hpp"
 #include "lab/results/rows.hpp"
+#include "lab/results/shipped.hpp"
+#include "peer/core/sync/text.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
@@ -48,6 +53,13 @@ std::map<std::string, std::string> results(const experiment::Experiment& experim
     return files;
 }
 
+std::vector<LimitRow> limit_rows_of(const std::string& text)
+{
+    auto rows = base::read_csv<LimitRow>(text, "limits.csv");
+    EXPECT_TRUE(rows) << rows.error().message;
+    return rows ? *std::move(rows) : std::vector<LimitRow>{};
+}
+
 base::Result<experiment::PlayedSession> play_known(const experiment::SessionSpec& spec)
 {
     return known_session(spec);
@@ -63,16 +75,60 @@ TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
             if (spec.setting.task == device::Task::t3) played.metrics.body_vibration_m[0].reset();
             return base::Result<experiment::PlayedSession>{played};
         });
-    // 0.95 mm / (1.02 * 9.99 um) is 93.2: the third seed decides.
-    EXPECT_EQ(files.at("limits.csv"),
-              "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
-              "base,delay,T1,93,=,ms,160,predicted-missed\n"
-              "base,delay,T3,200,>,ms,160,predicted-missed\n"
-              "base,delay,worst,93,=,ms,160,predicted-missed\n"
-              "dead-reckoning,delay,T1,93,=,ms,150,predicted-missed\n"
-              "dead-reckoning,delay,T3,200,>,ms,150,predicted-missed\n"
-              "dead-reckoning,delay,worst,93,=,ms,150,predicted-missed\n");
+    const std::string& text = files.at("limits.csv");
+    EXPECT_EQ(text.substr(0, text.find('\n')),
+              "algorithm,impairment,task,limit,bound,unit,paper_limit,status,class,p50,p10,ci_low,"
+              "ci_high,seeds");
+    const auto rows = limit_rows_of(text);
+    ASSERT_EQ(rows.size(), 6U);
+    // The seeds fail from 96, 95 and 94 ms on: two of three at 95, one at 94.
+    EXPECT_NEAR(rows[0].limit, 94.5, 0.5);
+    EXPECT_EQ(rows[0].bound, Bound::found);
+    EXPECT_EQ(rows[0].p50, rows[0].limit);
+    EXPECT_LE(*rows[0].ci_low, 94.0);
+    EXPECT_GE(*rows[0].ci_high, 95.0);
+    EXPECT_EQ(rows[0].seeds, 3U);
+    EXPECT_EQ(rows[1].task, "T3");
+    EXPECT_EQ(rows[1].bound, Bound::open);
+    EXPECT_EQ(rows[1].limit, 200.0);
+    EXPECT_EQ(rows[1].ci_high, std::nullopt);
+    EXPECT_EQ(rows[2].task, "worst");
+    EXPECT_EQ(rows[2].limit, rows[0].limit);
+    for (const LimitRow& row : rows) {
+        // These are neither the tasks nor the criteria that stand against the paper.
+        EXPECT_EQ(row.status, LimitStatus::none);
+        EXPECT_EQ(row.provenance, Provenance::none);
+        EXPECT_EQ(row.paper_limit, std::nullopt);
+    }
     EXPECT_FALSE(files.contains("limits_by_convention.csv"));
+    const auto paired = base::read_csv<PairedRow>(files.at("paired.csv"), "paired.csv");
+    ASSERT_TRUE(paired);
+    EXPECT_EQ(paired->front().difference, 0.0) << "the same law for both";
+}
+
+TEST(Results, StandAgainstThePaperOnlyWhenPlayedAsShipped)
+{
+    const base::OpenFile none = [](const std::string& file) { return base::fail(file); };
+    const auto paper = *experiment::load_criteria("paper", none);
+    const auto plays = [&](std::vector<std::string> settings) {
+        const auto one = experiment::load_experiment("fig6a", none, {false, std::move(settings)});
+        EXPECT_TRUE(one) << one.error().message;
+        return one && plays_as_shipped(*one, paper, "fig6a");
+    };
+    EXPECT_TRUE(plays({}));
+    EXPECT_TRUE(plays({"seeds=10", "first_seed=501", "algorithms=[\"base\"]"}));
+    EXPECT_TRUE(plays({"limit.delay.to=250ms"}));
+    for (const char* setting :
+         {"both.delay=5ms", "hands=firm", "tasks=T1", "duration=20s", "keyed=true",
+          "jitter_order=keep", "task_options.pace=1", "scene=paper"}) {
+        EXPECT_FALSE(plays({setting})) << setting;
+    }
+    const auto one = *experiment::load_experiment("fig6a", none, {});
+    EXPECT_FALSE(plays_as_shipped(one, experiment::known_criteria(), "fig6a"));
+    auto mine = one.algorithms.back();
+    EXPECT_TRUE(is_built_in(mine));
+    mine.name = "base";
+    EXPECT_FALSE(is_built_in(mine)) << "dead reckoning under another name";
 }
 
 TEST(Results, OfSeveralNumbersOfPeersStandBesideEachOther)
@@ -96,72 +152,120 @@ resolution = "1ms"
             played.metrics.body_vibration_m[0]->first = 1.0;
         return base::Result<experiment::PlayedSession>{played};
     });
-    // What the paper says holds for two.
-    EXPECT_EQ(files.at("limits.csv"),
-              "algorithm,impairment,task,limit,bound,unit,paper_limit,status,peers\n"
-              "base,delay,T7,50,>,ms,160,predicted-missed,2\n"
-              "base,delay,worst,50,>,ms,160,predicted-missed,2\n"
-              "base,delay,T7,20,=,ms,,,3\n"
-              "base,delay,worst,20,=,ms,,,3\n");
+    const std::string& limits = files.at("limits.csv");
+    EXPECT_TRUE(limits.substr(0, limits.find('\n')).ends_with(",seeds,peers"));
+    const auto rows = limit_rows_of(limits);
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0].bound, Bound::open);
+    EXPECT_EQ(rows[0].peers, 2U);
+    EXPECT_NEAR(rows[3].limit, 20.5, 0.01);
+    EXPECT_EQ(rows[3].peers, 3U);
     const std::string& curves = files.at("curves.csv");
     EXPECT_EQ(curves.substr(0, curves.find('\n')),
-              "algorithm,impairment,task,level,unit,seed,mean_mm,vibration_mm,stiffness_ratio,"
-              "force_vibration_n,tier,peers");
-    const std::vector<File> folder{{"limits.csv", files.at("limits.csv")}, {"curves.csv", curves}};
+              "algorithm,impairment,task,level,unit,seed,counts,mean_mm,vibration_mm,"
+              "stiffness_ratio,force_vibration_n,tier,peers");
+    const std::vector<File> folder{{"limits.csv", limits}, {"curves.csv", curves}};
     const auto read = read_results(folder);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->limits.front().algorithm, "base, 2 peers");
     EXPECT_EQ(read->limits.back().algorithm, "base, 3 peers");
 }
 
-TEST(Results, ACellStopsAtItsFirstFailingSeedInSeedOrder)
+TEST(Results, AllSeedsPlayAtTheLevelsThatCountAndEachSessionHasARow)
 {
-    std::set<std::pair<double, std::uint64_t>> sessions;
-    const auto files =
-        results(experiment_of(delay_limits), [&](const experiment::SessionSpec& spec) {
-            sessions.insert({delay_ms(spec), spec.setting.seed.value()});
-            return base::Result<experiment::PlayedSession>{known_session(spec)};
-        });
-    EXPECT_TRUE(sessions.contains({50.0, 3}));
-    EXPECT_TRUE(sessions.contains({100.0, 1}));
-    EXPECT_FALSE(sessions.contains({100.0, 2}));
-    const std::string& curves = files.at("curves.csv");
-    EXPECT_EQ(curves.substr(0, curves.find('\n')),
-              "algorithm,impairment,task,level,unit,seed,mean_mm,vibration_mm,stiffness_ratio,"
-              "force_vibration_n,tier");
-    EXPECT_NE(curves.find("\nbase,delay,T1,50,ms,3,5.000,0.509,,,good\n"
-                          "base,delay,T1,75,ms,1,7.500,0.749,,,good\n"),
-              std::string::npos)
-        << curves;
-    EXPECT_NE(curves.find("\nbase,delay,T1,100,ms,1,10.000,0.999,,,unusable\n"
-                          "base,delay,T3,0,ms,1,"),
-              std::string::npos);
+    std::map<double, std::set<std::uint64_t>> sessions; // of base in T1
+    const auto experiment = experiment_of(std::string{delay_limits} + "\n[both]\nloss = \"1%\"\n");
+    const auto files = results(experiment, [&](const experiment::SessionSpec& spec) {
+        const bool is_one = spec.setting.task == device::Task::t1 &&
+                            peer::name_of(spec.setting.players[0].algorithm) == "base" &&
+                            !spec.setting.profile.path.up.loss.empty();
+        if (is_one) sessions[delay_ms(spec)].insert(spec.setting.seed.value());
+        return base::Result<experiment::PlayedSession>{known_session(spec)};
+    });
+    std::size_t counted = 0;
+    for (const auto& [level, seeds] : sessions) counted += seeds.size() == 3 ? 1U : 0U;
+    EXPECT_GE(counted, 8U);
+    const auto rows = base::read_csv<SessionRow>(files.at("sessions.csv"), "sessions.csv");
+    ASSERT_TRUE(rows) << rows.error().message;
+    std::size_t of_base = 0;
+    for (const SessionRow& row : *rows) {
+        EXPECT_EQ(row.loss_percent, 1.0);
+        EXPECT_EQ(row.hands, "nominal");
+        EXPECT_EQ(row.scene, "paper");
+        EXPECT_NE(row.network.find("1%"), std::string::npos) << row.network;
+        of_base += row.algorithm == "base" && row.task == "T1" ? 1U : 0U;
+    }
+    std::size_t played = 0;
+    for (const auto& [level, seeds] : sessions) played += seeds.size();
+    EXPECT_EQ(of_base, played);
+    const auto curves = base::read_csv<CurveRow>(files.at("curves.csv"), "curves.csv");
+    ASSERT_TRUE(curves);
+    EXPECT_EQ(curves->size(), rows->size());
 }
+
+namespace {
+
+std::set<std::string> keys_played(std::string_view text)
+{
+    std::set<std::string> keys;
+    results(experiment_of(text), [&](const experiment::SessionSpec& spec) {
+        keys.insert(key_of(spec, "test"));
+        return base::Result<experiment::PlayedSession>{known_session(spec)};
+    });
+    return keys;
+}
+
+} // namespace
 
 TEST(Results, OtherConventionsReuseTheSessionsAndPlayOnlyWhereTheyJudgeOtherwise)
 {
-    const auto experiment = experiment_of(std::string{delay_limits} + R"(
+    const std::string conventions = R"(
 [convention]
 filter_orders = [1, 2, 4]
 hands = ["nominal", ["relaxed", "firm"]]
 tasks = ["T1"]
 seeds = 1
-)");
+)";
+    const auto experiment = experiment_of(std::string{delay_limits} + conventions);
     std::map<std::string, int> sessions;
     const auto files = results(experiment, [&](const experiment::SessionSpec& spec) {
         ++sessions[key_of(spec, "test")];
         return base::Result<experiment::PlayedSession>{known_session(spec)};
     });
-    EXPECT_EQ(files.at("limits_by_convention.csv")
-                  .substr(0, files.at("limits_by_convention.csv").find("dead")),
-              "algorithm,impairment,task,filter_order,hand,limit,bound,unit\n"
-              "base,delay,T1,1,nominal,95,=,ms\n"
-              "base,delay,T1,2,nominal,190,=,ms\n"
-              "base,delay,T1,4,nominal,200,>,ms\n"
-              "base,delay,T1,1,relaxed/firm,95,=,ms\n"
-              "base,delay,T1,2,relaxed/firm,190,=,ms\n"
-              "base,delay,T1,4,relaxed/firm,200,>,ms\n");
-    EXPECT_LT(sessions.size(), 150U); // that many with a store; 9 times as many searches
+    const auto rows = base::read_csv<SensitivityRow>(files.at("limits_by_convention.csv"), "it");
+    ASSERT_TRUE(rows) << rows.error().message;
+    ASSERT_EQ(rows->size(), 12U);
+    const std::array expected{95.5, 190.5, 200.0};
+    for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_NEAR((*rows)[i].limit, expected[i % 3], 0.01) << i;
+        EXPECT_EQ((*rows)[i].is_open(), i % 3 == 2) << i;
+        EXPECT_EQ((*rows)[i].hand, i % 6 < 3 ? "nominal" : "relaxed/firm");
+    }
+    const auto played = [&](std::string_view orders, std::string_view hands, int seeds = 1) {
+        return keys_played(fmt::format("{}\n[convention]\nfilter_orders = {}\nhands = {}\n"
+                                       "tasks = [\"T1\"]\nseeds = {}\n",
+                                       delay_limits, orders, hands, seeds));
+    };
+    const auto main = keys_played(delay_limits);
+    EXPECT_EQ(played("[1]", R"(["nominal"])", 3), main) << "what the experiment itself judges by";
+    const auto both = R"(["nominal", ["relaxed", "firm"]])";
+    const std::size_t alone = played("[1]", both).size() + played("[2]", both).size() +
+                              played("[4]", both).size() - 2 * main.size();
+    EXPECT_LT(sessions.size(), alone) << "orders share sessions";
+    auto none = experiment;
+    std::get<experiment::Limits>(none.kind).sensitivity->seeds = 0;
+    EXPECT_FALSE(results(none, play_known).contains("limits_by_convention.csv"));
+}
+
+TEST(Results, AnAxisJoinsTheTablesOfItsValues)
+{
+    const std::vector<AxisFiles> points{{"1ms", {{"limits.csv", "a,b\n1,2\n"}, {"x.toml", "k"}}},
+                                        {"2ms", {{"limits.csv", "a,c\n3,\"4,5\"\n"}}}};
+    const auto files = joined_by_axis("both.delay", points);
+    ASSERT_EQ(files.size(), 1U);
+    EXPECT_EQ(files[0].path, "limits_by_axis.csv");
+    EXPECT_EQ(files[0].text, "parameter,value,a,b,c\nboth.delay,1ms,1,2,\n"
+                             "both.delay,2ms,3,,\"4,5\"\n");
 }
 
 TEST(Results, Table1HasARowForEachAlgorithmAndTheTasksBesideIt)
@@ -175,14 +279,21 @@ both.delay = "80ms"
                                play_known);
     EXPECT_EQ(files.at("table1.csv"),
               "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,"
-              "verdict\n"
-              "base,8.000,0.000,24.000,0.100,13.789,46.010,10.986,missed\n"
-              "sep,8.000,0.000,24.000,0.100,13.991,50.120,10.808,met\n"
-              "dead-reckoning,8.000,0.000,24.000,0.100,3.341,58.850,3.840,missed\n");
+              "verdict,class,max_class\n"
+              "base,8.000,0.000,24.000,0.100,,,,,,\n"
+              "sep,8.000,0.000,24.000,0.100,,,,,,\n"
+              "dead-reckoning,8.000,0.000,24.000,0.100,,,,,,\n")
+        << "80 ms are not the paper's 160";
     const std::string& tasks = files.at("tasks.csv");
     EXPECT_NE(tasks.find("\nbase,T1,2,8.000,0.100,24.000,0.807,,,,,,,,good,\n"), std::string::npos)
         << tasks;
     EXPECT_EQ(tasks.find(",P1,"), std::string::npos);
+    const std::string& sessions = files.at("sessions.csv");
+    EXPECT_NE(sessions.find("\nbase,P1,nominal,2,paper,30,80,0,0,0,"), std::string::npos)
+        << sessions;
+    std::size_t of_p1 = 0;
+    for (std::size_t at = 0; (at = sessions.find(",P1,", at)) != std::string::npos; ++at) ++of_p1;
+    EXPECT_EQ(of_p1, 3U) << "without lots one seed of P1 is as good as ten";
     EXPECT_EQ(files.at("replay/sep-P1.csv"),
               base::csv_header<ReplayRow>() + "\n0.0000,1,2,3,4,5,6,7,8,9,10,11,12,13,14\n");
 }

@@ -35,8 +35,11 @@ TEST(Results, JoinTheFilesOfSubfoldersWithBaseFirst)
     EXPECT_EQ(results->replays[0].algorithm, "dead-reckoning");
     EXPECT_EQ(results->replays[0].task, "T3");
     EXPECT_EQ(results->replays[0].step_s, 0.01);
-    EXPECT_EQ(results->replays[0].rows[0].rx, 0.0);
-    EXPECT_EQ(results->replays[0].rows[1].rx, -3.0);
+    ASSERT_EQ(results->replays[0].sides.size(), 2U);
+    EXPECT_EQ(results->replays[0].sides[1].bodies[0][0].position.x(), 0.0);
+    EXPECT_EQ(results->replays[0].sides[1].bodies[0][1].position.x(), -0.003);
+    EXPECT_EQ(results->replays[0].sides[0].hand_mm[1].x, -24.0);
+    EXPECT_EQ(results->replays[0].shared, std::vector<std::size_t>{0});
     EXPECT_EQ(results->runs[0].folder, "r/table1");
 }
 
@@ -44,7 +47,7 @@ TEST(Results, NameFileAndLineAndWhatWasExpected)
 {
     const results::File table1 = sample_table1(), limits = sample_limits();
     EXPECT_EQ(complaint({changed(table1, "13.620", "13,620")}),
-              "r/table1/table1.csv:3: expected 9 cells as in the header, found 10");
+              "r/table1/table1.csv:3: expected 11 cells as in the header, found 12");
     EXPECT_EQ(complaint({changed(table1, "13.620", "")}),
               "r/table1/table1.csv:3: mean_mm: expected a number, found ''");
     EXPECT_EQ(complaint({changed(table1, "13.620", "nan")}),

@@ -79,7 +79,7 @@ TEST_F(TalkWithAPeer, RefusesWhatWouldChangeItSayingWhatThereIs)
         const auto error = refused({{"command", command}, {"profile", ""}, {"settings", 1}});
         EXPECT_NE(error.find("cannot be changed"), std::string::npos) << error;
         EXPECT_NE(error.find(command), std::string::npos) << error;
-        EXPECT_NE(error.find("show, stats, watch, wait, stop or estop"), std::string::npos)
+        EXPECT_NE(error.find("show, scene, stats, watch, wait, stop or estop"), std::string::npos)
             << error;
     }
     EXPECT_NE(refused({{"command", "shwo"}}).find("must be one of show"), std::string::npos);

@@ -17,10 +17,23 @@ struct FakePeerControl {
     nlohmann::ordered_json shown{{"program", "hapnet-peer"}, {"state", "running"}};
     int stops = 0;
     int emergency_stops = 0;
+    nlohmann::ordered_json scene{{"name", "paper"}, {"bodies", nlohmann::json::array()}};
+    int frames = 0; // that were made
     control::Subject subject = subject_of({.show = [this] { return shown; },
                                            .statistics = [this] { return statistics; },
                                            .stop = [this] { ++stops; },
-                                           .stop_in_emergency = [this] { ++emergency_stops; }});
+                                           .stop_in_emergency = [this] { ++emergency_stops; },
+                                           .scene = [this] { return scene; },
+                                           .frames = [this] { return frame_source(); }});
+
+    control::FrameSource frame_source()
+    {
+        return [this](std::string& text, std::uint64_t left_out) {
+            text +=
+                nlohmann::ordered_json{{"ok", true}, {"frame", ++frames}, {"left_out", left_out}}
+                    .dump();
+        };
+    }
 };
 
 } // namespace hapnet::peer

@@ -59,7 +59,7 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
     {
         loop::Journal journal;
         net::TextQueue screen{STDERR_FILENO};
-        Monitor monitor{journal, screen, record::Writer{path, nlohmann::json::object()}, 1};
+        Monitor monitor{journal, screen, record::Writer{path, nlohmann::json::object()}, {1}};
         was_whole_at_first = monitor.record_failure() == nullptr;
         const FileSizeLimit limit{16'384};
         ASSERT_TRUE(limit.is_in_force());
@@ -89,7 +89,7 @@ TEST(Monitor, NoLongerWaitsForAPeerThatAnswered)
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, 1};
+    Monitor monitor{journal, screen, std::nullopt, {1}};
     base::TimePoint now{1s};
     const auto said_so_far = [&] {
         while (!screen.is_done()) std::this_thread::yield();
@@ -118,7 +118,7 @@ TEST(Monitor, ShowsTheShortestRoundTripSinceTheLineBeforeToTheMicrosecond)
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, 1};
+    Monitor monitor{journal, screen, std::nullopt, {1}};
     base::TimePoint now{100s};
     const auto hear = [&](base::Duration round_trip) {
         wire::State state;
@@ -159,7 +159,7 @@ TEST(Monitor, NamesThePeersOfACircle)
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, 1, {2, 3, 4}};
+    Monitor monitor{journal, screen, std::nullopt, {1, {2, 3, 4}}};
     base::TimePoint now{1s};
     const auto line_with = [&](const loop::TimedEvent& event) {
         journal.put(record::Row{record::TickRow{}});
@@ -186,12 +186,45 @@ TEST(Monitor, NamesThePeersOfACircle)
               "hapnet-peer 1: peer 4 is heard from another address: sending there\n");
 }
 
+TEST(Monitor, CallsTheSharedBodiesByTheirNames)
+{
+    const auto said_with = [](const Named& named) {
+        testing::internal::CaptureStderr();
+        loop::Journal journal;
+        net::TextQueue screen{STDERR_FILENO};
+        Monitor monitor{journal, screen, std::nullopt, named};
+        base::TimePoint now{1s};
+        monitor.show(now);
+        journal.put(record::Row{record::SessionRow{.start = now, .length = 10s}});
+        record::TickRow tick;
+        tick.due = now;
+        tick.cube = {{0.0125, 0.0, 0.0}};
+        journal.put(record::Row{tick});
+        journal.put(loop::TimedEvent{Event::joined, base::TimePoint{}, 0});
+        monitor.drain();
+        monitor.show(now);
+        monitor.show(now += 5s);
+        monitor.close();
+        monitor.finish();
+        while (!screen.is_done()) std::this_thread::yield();
+        return testing::internal::GetCapturedStderr();
+    };
+    const auto tool = said_with({.peer_id = 1, .body = "hammer"});
+    EXPECT_EQ(count_of("  hammer x  +12.5 mm", tool), 1U) << tool;
+    EXPECT_EQ(count_of("under way, with the hammer as the other has it", tool), 1U) << tool;
+    const auto tools =
+        said_with({.peer_id = 1, .others = {2, 3}, .body = "hammer", .has_several = true});
+    EXPECT_EQ(count_of("  hammer x  +12.5 mm", tools), 1U) << tools;
+    EXPECT_EQ(count_of("under way, with the bodies as the others have it", tools), 1U) << tools;
+    EXPECT_EQ(count_of("cube", tool + tools), 0U);
+}
+
 TEST(Monitor, LetsNoFloodOfEventsFillALog)
 {
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, 1};
+    Monitor monitor{journal, screen, std::nullopt, {1}};
     const base::TimePoint start{1h};
     for (int i = 0; i < 3000; ++i) { // a thousand a second
         journal.put(loop::TimedEvent{Event::restarted, start + i * 1ms});
@@ -215,7 +248,7 @@ TEST(Monitor, WaitsForNobodyWhoDoesNotReadWhatItSays)
     ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
     loop::Journal journal;
     net::TextQueue screen{ends[1]};
-    Monitor monitor{journal, screen, std::nullopt, 1};
+    Monitor monitor{journal, screen, std::nullopt, {1}};
     base::TimePoint now{1h};
     for (int i = 0; i < 10'000; ++i) { // 1 MB: more than a pipe and the queue hold
         journal.put(record::Row{record::TickRow{}});

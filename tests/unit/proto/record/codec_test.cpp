@@ -48,7 +48,7 @@ TEST(RecordCodec, RefusesAnUnknownKindOfRow)
     EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 0");
     bytes[0] = std::byte{5};
     EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 5");
-    bytes[0] = std::byte{4}; // one that version 4 has
+    bytes[0] = std::byte{4}; // one that versions 4 and 5 have
     EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 4");
 }
 
@@ -122,13 +122,14 @@ TEST(RecordCodec, RefusesBytesBehindAMessageThatAreNotZero)
     EXPECT_EQ(decode(bytes).error().message, "padding of a message row is not zero");
 }
 
-TEST(RecordCodec, PutsABodyAtTheOffsetsOfVersion4AndOnlyThere)
+TEST(RecordCodec, PutsABodyAtTheOffsetsOfVersion5AndNotInVersion3)
 {
     const BodyRow row{.tick = 7,
                       .body = 0x0102,
                       .position = {{1.0, 0.0, 0.0}},
                       .orientation = {1.0, 0.0, 0.0, 0.0},
-                      .angular_velocity = {{0.0, 0.0, -2.0}}};
+                      .angular_velocity = {{0.0, 0.0, -2.0}},
+                      .owner = 0x0305};
     const auto layout = Layout{}.with_bodies();
     const RowBytes bytes = encode(row, layout);
     ASSERT_EQ(bytes.size(), body_row_bytes);
@@ -139,8 +140,23 @@ TEST(RecordCodec, PutsABodyAtTheOffsetsOfVersion4AndOnlyThere)
     EXPECT_EQ(at(bytes, 18), 0x3f);  // x of its position
     EXPECT_EQ(at(bytes, 66), 0x3f);  // w of its orientation
     EXPECT_EQ(at(bytes, 114), 0xc0); // z of its angular velocity
+    EXPECT_EQ(at(bytes, 115), 5);    // its owner
+    EXPECT_EQ(at(bytes, 116), 3);
     EXPECT_EQ(decode(bytes, layout).value(), Row{row});
     EXPECT_FALSE(decode(bytes)) << "version 3 has no such row";
+}
+
+TEST(RecordCodec, ReadsTheBodiesOfVersion4AsOwnedByNobodyInParticular)
+{
+    const auto layout = Layout::of_version_4();
+    const BodyRow row{.tick = 7, .body = 2, .angular_velocity = {{0.0, 0.0, -2.0}}};
+    BodyRow owned = row;
+    owned.owner = 3;
+    const RowBytes bytes = encode(owned, layout);
+    ASSERT_EQ(bytes.size(), 115U);
+    EXPECT_EQ(at(bytes, 114), 0xc0);
+    EXPECT_EQ(decode(bytes, layout).value(), Row{row});
+    EXPECT_FALSE(decode(bytes, Layout{}.with_bodies()));
 }
 
 TEST(RecordCodec, ReadsTheRowsOfVersion2AsOfNobodyInParticular)

@@ -198,12 +198,12 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
     auto other = ours;
     other["version"] = 1;
     EXPECT_EQ(parse_header(other.dump()).error().message,
-              "it is of version 1, and this program reads versions 2 to 4: use the hapnet-lab of "
+              "it is of version 1, and this program reads versions 2 to 5: use the hapnet-lab of "
               "the release that wrote it");
-    other["version"] = 5;
-    EXPECT_FALSE(parse_header(other.dump()));
-    other["version"] = 4; // without what version 4 has
-    EXPECT_FALSE(parse_header(other.dump()));
+    for (const int version : {4, 5, 6}) { // 4 and 5 without their rows of bodies, and one to come
+        other["version"] = version;
+        EXPECT_FALSE(parse_header(other.dump())) << version;
+    }
     other = ours;
     other["row_bytes"] = 200;
     EXPECT_EQ(parse_header(other.dump()).error().message,
@@ -247,8 +247,8 @@ TEST(RecordFile, OfSeveralBodiesHasARowForEachOfThemAndTheirLayout)
     EXPECT_EQ(record->ticks.size(), 2U);
     EXPECT_EQ(record->bodies, bodies);
     const auto header = nlohmann::json::parse(header_line(config, Layout{}.with_bodies()));
-    EXPECT_EQ(header["version"], 4);
-    EXPECT_EQ(header["body_row_bytes"], 115);
+    EXPECT_EQ(header["version"], 5);
+    EXPECT_EQ(header["body_row_bytes"], 117);
     EXPECT_EQ(header["schema"]["body"]["fields"][4],
               nlohmann::json::parse(R"({"name":"orientation","type":"f64[4]","offset":59})"));
 }
@@ -263,6 +263,23 @@ TEST(RecordFile, RefusesBodiesWhoseTicksGoBack)
     }
     EXPECT_EQ(read(file.text()).error().message,
               file.text() + ": row 2 is damaged: a body row of tick 1 after one of tick 2");
+}
+
+TEST(RecordFile, OfVersion4IsStillReadAndItsBodiesHaveNoOwner)
+{
+    const TemporaryPath file;
+    const BodyRow body{.tick = 1, .body = 3, .owner = 2};
+    {
+        Writer writer{file.text(), config, Layout::of_version_4()};
+        writer.write(tick(1));
+        writer.write(body);
+    }
+    const auto record = read(file.text());
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_EQ(record->bodies, (std::vector<BodyRow>{{.tick = 1, .body = 3}}));
+    const auto header = nlohmann::json::parse(header_line(config, Layout::of_version_4()));
+    EXPECT_EQ(header["body_row_bytes"], 115);
+    EXPECT_EQ(header["schema"]["body"]["fields"].size(), 6U);
 }
 
 TEST(RecordFile, OfVersion2IsStillRead)

@@ -49,6 +49,12 @@ TEST(Format, OfAHello)
                                " 00 00 80 40");           // 113 friction: 4
 }
 
+TEST(Format, OfASessionsNumber)
+{
+    EXPECT_EQ(session_number(0x11111111, 0x22222222), 0x93eb5bd8U); // as in Python
+    EXPECT_NE(session_number(0x22222222, 0x11111111), 0x93eb5bd8U);
+}
+
 TEST(Format, OfAHelloThatHasHeardNothing)
 {
     Hello hello;

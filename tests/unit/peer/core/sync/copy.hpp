@@ -69,7 +69,8 @@ public:
                         .arrived = at_ms(arrived_ms),
                         .taken = taken,
                         .clock = clock,
-                        .force_max_n = force_max});
+                        .force_max_n = force_max,
+                        .start = start});
     }
 
     Outcome tick(double now_ms, const scene::HandInput& hand = away, double freshness = 1.0)
@@ -82,7 +83,10 @@ public:
                                       .freshness = freshness,
                                       .yields = yields,
                                       .clock = clock,
-                                      .force_max_n = force_max});
+                                      .force_max_n = force_max,
+                                      .lower_ids = lower_ids,
+                                      .start = start,
+                                      .number = number++});
     }
     [[nodiscard]] double x_mm() const { return 1e3 * world.body(0).position.x(); }
     [[nodiscard]] double speed() const { return world.body(0).velocity.x(); }
@@ -91,6 +95,8 @@ public:
     Remote remote;
     scene::World world = paper_world();
     bool yields = true;
+    std::size_t lower_ids = 0;
+    std::int64_t number = 0; // of the next tick
     std::optional<ClockEstimate> clock = ClockEstimate{};
 };
 

@@ -160,6 +160,43 @@ TEST(RemoteProxy, ComesToTheLeadersPoseOnceBothHandsAreOffWithoutTheDelayInTheLo
     EXPECT_NEAR(there.copy.x_mm(), 12.0, 0.01);
 }
 
+/// Where a copy at 3 mm ends that hears the other's at 12 mm, which nobody touches any more. Both
+/// hands have touched, and this copy knows of its own touch alone, or of the other's alone.
+double settled_mm(bool knows_own_touch, std::size_t lower_ids, int ticks)
+{
+    Pushed there;
+    there.copy.lower_ids = lower_ids;
+    if (knows_own_touch) {
+        for (int i = 0; i < 20; ++i) static_cast<void>(there.copy.tick(++there.ms, pushing_hip(0)));
+        static_cast<void>(there.copy.tick(++there.ms, pushing_hip(0.002)));
+    } else {
+        there.play(20, 24.0, 0.0, 0.0);
+    }
+    there.copy.world.place(0, {{0.003, 0.0, 0.0}}, {});
+    for (int i = 0; i < ticks; ++i) {
+        ++there.ms;
+        wire::State state;
+        state.sequence = ++there.sequence;
+        state.sent = at_ms(there.ms - 5.0);
+        wire::BodyState& body = state.bodies.add(wire::BodyState{});
+        body.position = {{0.012, 0.0, 0.0}};
+        there.hear(state, there.copy.remote.update(state, at_ms(there.ms)));
+        there.last = there.copy.tick(there.ms);
+    }
+    return there.copy.x_mm();
+}
+
+TEST(RemoteProxy, LetsTheLowestIdLeadOnceNoHandTouchesWhoeverIsTakenForTheLast)
+{
+    for (const bool knows_own_touch : {true, false}) {
+        EXPECT_NEAR(settled_mm(knows_own_touch, 1, 1000), 12.0, 0.01) << knows_own_touch;
+    }
+    // The lower id's own copy rests. For 500 ms it is that of who touched last.
+    EXPECT_NEAR(settled_mm(true, 0, 1000), 3.0, 0.01);
+    EXPECT_NEAR(settled_mm(true, 1, 450), 3.0, 0.01);
+    EXPECT_NEAR(settled_mm(false, 0, 450), 12.0, 0.01);
+}
+
 TEST(RemoteProxy, LeavesTheBodyToTheOwnHandWhileThatTouches)
 {
     Pushed there;

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace hapnet::emulator {
+
+/// What has left one direction of a path since somebody last looked: how long it was under way in
+/// the emulator, and how late it left. Of fixed size; a datagram costs four additions and two
+/// comparisons.
+struct Pulse {
+    std::uint64_t count = 0;
+    base::Duration delay_min = base::Duration::max();
+    base::Duration delay_max = base::Duration::min();
+    base::Duration late_max = base::Duration::min();
+    double delay_sum_ns = 0.0; // as a number: a sum of days of waiting does not overflow
+    double late_sum_ns = 0.0;
+
+    void on_sent(base::Duration delay, base::Duration late)
+    {
+        ++count;
+        delay_min = std::min(delay_min, delay);
+        delay_max = std::max(delay_max, delay);
+        late_max = std::max(late_max, late);
+        delay_sum_ns += base::to_nanoseconds(delay);
+        late_sum_ns += base::to_nanoseconds(late);
+    }
+
+    void add(const Pulse& later)
+    {
+        count += later.count;
+        delay_min = std::min(delay_min, later.delay_min);
+        delay_max = std::max(delay_max, later.delay_max);
+        late_max = std::max(late_max, later.late_max);
+        delay_sum_ns += later.delay_sum_ns;
+        late_sum_ns += later.late_sum_ns;
+    }
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/spread.hpp"
+#include "lab/virtual_time/trace.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace hapnet::lab::metrics {
+
+/// How far the copies of one shared body are apart at equal times. Metres and radians. Among more
+/// than two copies: of the two that are farthest apart in the mean.
+struct BodyApart {
+    /// |x_A - x_B|.
+    std::optional<Spread> discrepancy_x_m{};
+    /// In space; otherwise the same.
+    std::optional<Spread> discrepancy_m{};
+    /// The angle between the orientations; nullopt: it never turned.
+    std::optional<Spread> turned_apart_rad{};
+    /// The largest of any two copies from 2 s after hands off to the end; nullopt: it was not
+    /// played so far.
+    std::optional<double> settled_m{};
+    std::optional<double> settled_rad{};
+
+    friend bool operator==(const BodyApart&, const BodyApart&) = default;
+};
+
+/// Of each shared body, in the order of their ids. The trace is not empty.
+[[nodiscard]] std::vector<BodyApart> bodies_apart(const virtual_time::Trace& trace);
+
+/// The body that is farthest apart in the mean, by |x_A - x_B| and by the angle.
+[[nodiscard]] std::optional<Spread> widest_discrepancy_x(const std::vector<BodyApart>& bodies);
+[[nodiscard]] std::optional<Spread> widest_turned_apart(const std::vector<BodyApart>& bodies);
+
+} // namespace hapnet::lab::metrics

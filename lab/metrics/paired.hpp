@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/psychometric.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace hapnet::lab::metrics {
+
+/// Two algorithms that met the same hands and the same network, seed by seed.
+struct PairedTest {
+    double median = 0.0; // of a - b
+    Interval interval{}; // its 95 % interval, by resampling the seeds
+    /// Two-sided p of the sign test (Arbuthnott 1710; Conover, "Practical Nonparametric
+    /// Statistics", 3.4): the probability of so uneven a split of the signs if each were as likely.
+    /// Seeds without a difference do not count; 1 when there are no others.
+    double p = 1.0;
+    std::uint32_t seeds = 0;
+    std::uint32_t above = 0; // seeds with a > b
+    std::uint32_t below = 0;
+};
+
+/// The values of a and of b by seed; as many of both, one at least.
+[[nodiscard]] PairedTest paired_test(std::span<const double> a, std::span<const double> b);
+
+/// The mean of the two middle values; at least one.
+[[nodiscard]] double median_of(std::vector<double> values);
+
+/// Of how uneven a split of `above` and `below` is.
+[[nodiscard]] double sign_test(std::uint32_t above, std::uint32_t below);
+
+} // namespace hapnet::lab::metrics

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/metrics/psychometric.hpp"
+
+#include "proto/base/ensure.hpp"
+#include "proto/base/math.hpp"
+#include "proto/base/random.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hapnet::lab::metrics {
+
+namespace {
+
+constexpr std::array lapses{0.0, 0.025, 0.05};
+constexpr int steps_max = 40;
+constexpr double tenth_of_seeds = 0.1;
+constexpr double half_of_seeds = 0.5;
+
+double logistic(double z)
+{
+    constexpr double far = 30.0;
+    return 1.0 / (1.0 + base::exp(-std::clamp(z, -far, far)));
+}
+
+/// Two parameters: location, and the logarithm of the scale.
+struct Parameters {
+    double location = 0.0;
+    double log_scale = 0.0;
+};
+
+/// The posterior of a curve with given lapses. Levels are in units of their distance.
+class Posterior {
+public:
+    Posterior(std::span<const FailCount> counts, double early, double late)
+        : counts_{counts}, early_{early}, gain_{1.0 - early - late}
+    {}
+
+    [[nodiscard]] double at(const Parameters& p) const
+    {
+        double sum = -0.5 * p.log_scale * p.log_scale;
+        const double scale = base::exp(p.log_scale);
+        for (const FailCount& count : counts_) {
+            const double share = clamped(logistic((count.level - p.location) / scale));
+            sum += count.failed * base::log(share) +
+                   (count.of - count.failed) * base::log(1.0 - share);
+        }
+        return sum;
+    }
+
+    /// One step of Fisher scoring: expected curvature, so that it always climbs.
+    [[nodiscard]] Parameters step(const Parameters& p) const
+    {
+        const double scale = base::exp(p.log_scale);
+        double g_a = 0.0, g_t = -p.log_scale; // the gradient
+        double h_aa = 1e-6, h_at = 0.0, h_tt = 1.0;
+        for (const FailCount& count : counts_) {
+            const double z = (count.level - p.location) / scale;
+            const double f = logistic(z);
+            const double share = clamped(f);
+            const double slope = gain_ * f * (1.0 - f);
+            const double d_a = -slope / scale, d_t = -slope * z;
+            const double spread = share * (1.0 - share);
+            const double pull = (count.failed - count.of * share) / spread;
+            g_a += pull * d_a;
+            g_t += pull * d_t;
+            const double weight = count.of / spread;
+            h_aa += weight * d_a * d_a;
+            h_at += weight * d_a * d_t;
+            h_tt += weight * d_t * d_t;
+        }
+        const double determinant = h_aa * h_tt - h_at * h_at;
+        return {(h_tt * g_a - h_at * g_t) / determinant, (h_aa * g_t - h_at * g_a) / determinant};
+    }
+
+private:
+    [[nodiscard]] double clamped(double f) const
+    {
+        constexpr double least = 1e-9;
+        return std::clamp(early_ + gain_ * f, least, 1.0 - least);
+    }
+
+    std::span<const FailCount> counts_;
+    double early_;
+    double gain_;
+};
+
+/// Uphill until it is flat; a step that leads down, or far away, is halved.
+Parameters climbed(const Posterior& posterior, Parameters p, const Interval& within)
+{
+    constexpr double flat = 1e-9;
+    double height = posterior.at(p);
+    for (int i = 0; i < steps_max; ++i) {
+        const Parameters step = posterior.step(p);
+        double share = 1.0;
+        Parameters next = p;
+        double gained = 0.0;
+        for (int halving = 0; halving < 12; ++halving, share /= 2.0) {
+            next = {std::clamp(p.location + share * step.location, within.low, within.high),
+                    std::clamp(p.log_scale + share * step.log_scale, -4.0, 4.0)};
+            gained = posterior.at(next) - height;
+            if (gained >= 0.0) break;
+        }
+        if (gained <= flat) break;
+        p = next;
+        height += gained;
+    }
+    return p;
+}
+
+/// Where half fail if straight lines join the levels: where the climb begins.
+double crossing(std::span<const FailCount> counts)
+{
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const double share = counts[i].failed / counts[i].of;
+        if (share < half_of_seeds) continue;
+        if (i == 0) return counts[0].level;
+        const double before = counts[i - 1].failed / counts[i - 1].of;
+        const double part = (half_of_seeds - before) / std::max(share - before, 1e-9);
+        return counts[i - 1].level + part * (counts[i].level - counts[i - 1].level);
+    }
+    return counts.back().level;
+}
+
+/// A seed's draws: how often each seed stands in a replicate.
+std::vector<std::vector<double>> drawn_weights(std::size_t seeds)
+{
+    const auto stream = base::Seed{1}.stream("bootstrap of seeds");
+    std::vector<std::vector<double>> weights(bootstrap_replicates, std::vector<double>(seeds, 0.0));
+    for (std::uint32_t replicate = 0; replicate < bootstrap_replicates; ++replicate) {
+        for (std::size_t draw = 0; draw < seeds; ++draw) {
+            const auto seed = stream.below(static_cast<std::uint32_t>(seeds), draw, replicate);
+            weights[replicate][static_cast<std::size_t>(seed)] += 1.0;
+        }
+    }
+    return weights;
+}
+
+std::vector<FailCount> counts_of(std::span<const LevelOutcome> outcomes,
+                                 const std::vector<double>& weights)
+{
+    std::vector<FailCount> counts;
+    for (const LevelOutcome& outcome : outcomes) {
+        FailCount& count = counts.emplace_back(FailCount{outcome.level, 0.0, 0.0});
+        for (std::size_t seed = 0; seed < weights.size(); ++seed) {
+            count.of += weights[seed];
+            if (outcome.failed[seed]) count.failed += weights[seed];
+        }
+    }
+    return counts;
+}
+
+/// p50 of one sample: `beyond` when it is not within the levels.
+double half_of(std::span<const FailCount> counts, const Psychometric& curve)
+{
+    const double at = std::max(curve.level_of(half_of_seeds), 0.0);
+    return at > counts.back().level ? beyond : at;
+}
+
+/// With one level there is nothing to fit.
+double half_of(std::span<const FailCount> counts)
+{
+    if (counts.size() > 1) return half_of(counts, fitted(counts));
+    return 2.0 * counts[0].failed < counts[0].of ? beyond : counts[0].level;
+}
+
+/// The gap in which all seeds change at once; nullopt when a level has failures and passes.
+std::optional<Interval> gap_of(std::span<const FailCount> counts)
+{
+    double low = 0.0, high = beyond;
+    for (const FailCount& count : counts) {
+        if (count.failed > 0.0 && count.failed < count.of) return std::nullopt;
+        if (count.failed == 0.0) low = count.level;
+        if (count.failed > 0.0) high = std::min(high, count.level);
+    }
+    if (low > high) return std::nullopt;
+    return Interval{low, high};
+}
+
+} // namespace
+
+double Psychometric::share_at(double level) const
+{
+    return early + (1.0 - early - late) * logistic((level - location) / scale);
+}
+
+double Psychometric::level_of(double share) const
+{
+    const double f = (share - early) / (1.0 - early - late);
+    return location + scale * base::log(f / (1.0 - f));
+}
+
+Psychometric fitted(std::span<const FailCount> counts)
+{
+    base::ensure(counts.size() > 1);
+    const double unit =
+        (counts.back().level - counts.front().level) / static_cast<double>(counts.size() - 1);
+    std::vector<FailCount> scaled(counts.begin(), counts.end());
+    for (FailCount& count : scaled) count.level = (count.level - counts.front().level) / unit;
+    const double width = scaled.back().level;
+    std::optional<Psychometric> best;
+    double highest = 0.0;
+    for (const double early : lapses) {
+        for (const double late : lapses) {
+            const Posterior posterior{scaled, early, late};
+            const auto p = climbed(posterior, {crossing(scaled), 0.0}, {-width, 2.0 * width});
+            const double height = posterior.at(p);
+            if (best && height <= highest + 1e-9) continue; // the least lapses that do
+            highest = height;
+            best = Psychometric{counts.front().level + unit * p.location,
+                                unit * base::exp(p.log_scale), early, late};
+        }
+    }
+    return *best;
+}
+
+Interval interval_of(std::vector<double> values)
+{
+    base::ensure(!values.empty());
+    std::ranges::sort(values);
+    const auto at = [&](double share) {
+        const double rank = std::ceil(share * static_cast<double>(values.size()));
+        return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+    };
+    return {at(0.025), at(0.975)};
+}
+
+Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top)
+{
+    base::ensure(!outcomes.empty() && !outcomes[0].failed.empty());
+    const std::size_t seeds = outcomes[0].failed.size();
+    const auto counts = counts_of(outcomes, std::vector<double>(seeds, 1.0));
+    Threshold threshold{.seeds = static_cast<std::uint32_t>(seeds)};
+    const double found = half_of(counts);
+    threshold.is_open = found == beyond;
+    threshold.p50 = std::min(found, top);
+    if (counts.size() > 1) {
+        const double at = std::max(fitted(counts).level_of(tenth_of_seeds), 0.0);
+        if (at <= counts.back().level) threshold.p10 = at;
+    }
+    for (const auto& weights : drawn_weights(seeds))
+        threshold.replicates.push_back(half_of(counts_of(outcomes, weights)));
+    Interval interval = interval_of(threshold.replicates);
+    if (const auto gap = gap_of(counts)) {
+        interval = {std::min(interval.low, gap->low), std::max(interval.high, gap->high)};
+    }
+    threshold.low = std::min(interval.low, top);
+    if (interval.high != beyond && !threshold.is_open) threshold.high = interval.high;
+    return threshold;
+}
+
+Difference difference_of(const Threshold& a, const Threshold& b)
+{
+    base::ensure(a.replicates.size() == b.replicates.size());
+    const auto apart = [](double x, double y) { return x == y ? 0.0 : x - y; };
+    std::vector<double> replicates;
+    for (std::size_t i = 0; i < a.replicates.size(); ++i)
+        replicates.push_back(apart(a.replicates[i], b.replicates[i]));
+    const double value = apart(a.is_open ? beyond : a.p50, b.is_open ? beyond : b.p50);
+    return {value, interval_of(std::move(replicates))};
+}
+
+} // namespace hapnet::lab::metrics

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/results/session_rows.hpp"
+
+#include "emulator/core/profile/text.hpp"
+
+#include <algorithm>
+#include <map>
+#include <spdlog/fmt/fmt.h>
+#include <tuple>
+#include <utility>
+
+namespace hapnet::lab::results {
+
+namespace {
+
+/// A profile in one line.
+std::string in_one_line(const emulator::Profile& profile)
+{
+    std::string text;
+    for (const char c : emulator::to_text(profile)) {
+        if (c != '\n') {
+            text += c;
+        } else if (!text.empty() && !text.ends_with("; ")) {
+            text += "; ";
+        }
+    }
+    while (text.ends_with(' ') || text.ends_with(';')) text.pop_back();
+    return text;
+}
+
+std::optional<double> constant_ms(const emulator::Variation& delay)
+{
+    const auto* law = std::get_if<emulator::ConstantLaw>(&delay.law);
+    if (law == nullptr) return std::nullopt;
+    return 1e3 * base::to_seconds(law->value);
+}
+
+/// The half width of a uniform jitter whose datagrams overtake one another; 0 without jitter.
+std::optional<double> jitter_ms(const emulator::Conditions& conditions)
+{
+    if (is_nothing(conditions.jitter)) return 0.0;
+    const auto* law = std::get_if<emulator::UniformLaw>(&conditions.jitter.law);
+    const bool is_plain = law != nullptr && conditions.order == emulator::Order::free &&
+                          conditions.jitter == emulator::uniform(law->half_width);
+    return is_plain ? std::optional{1e3 * base::to_seconds(law->half_width)} : std::nullopt;
+}
+
+/// The only law of loss of that kind; nullptr: there is none.
+template <typename Law>
+const Law* loss_of(const emulator::Conditions& conditions)
+{
+    for (const emulator::LossLaw& law : conditions.loss) {
+        if (const auto* one = std::get_if<Law>(&law)) return one;
+    }
+    return nullptr;
+}
+
+bool is_simple_loss(const emulator::Conditions& conditions)
+{
+    const auto is_known = [](const emulator::LossLaw& law) {
+        const auto* burst = std::get_if<emulator::Burst>(&law);
+        return std::holds_alternative<emulator::RandomLoss>(law) ||
+               (burst != nullptr && burst->of == 100);
+    };
+    const auto count = conditions.loss.size();
+    const bool are_alike = count == 2 && conditions.loss[0].index() == conditions.loss[1].index();
+    return count <= 2 && !are_alike && std::ranges::all_of(conditions.loss, is_known);
+}
+
+void note_network(const emulator::Profile& profile, SessionRow& row)
+{
+    row.network = in_one_line(profile);
+    const emulator::Conditions& conditions = profile.path.up;
+    if (conditions != profile.path.down || !profile.paths.empty()) return;
+    row.delay_ms = constant_ms(conditions.delay);
+    row.jitter_ms = jitter_ms(conditions);
+    if (!is_simple_loss(conditions)) return;
+    const auto* random = loss_of<emulator::RandomLoss>(conditions);
+    const auto* burst = loss_of<emulator::Burst>(conditions);
+    row.loss_percent = random == nullptr ? 0.0 : 100.0 * random->share.fraction();
+    row.burst_of_100 = burst == nullptr ? 0.0 : static_cast<double>(burst->lost);
+}
+
+std::optional<double> times(double factor, std::optional<double> value)
+{
+    return value ? std::optional{factor * *value} : std::nullopt;
+}
+
+void note_scores(const metrics::Scores& scores, const metrics::Criteria& criteria, SessionRow& row)
+{
+    constexpr double mm = 1e3;
+    if (scores.discrepancy_m) {
+        row.mean_mm = mm * scores.discrepancy_m->mean;
+        row.std_mm = mm * scores.discrepancy_m->std;
+        row.max_mm = mm * scores.discrepancy_m->max;
+    }
+    if (scores.vibration_m)
+        row.vibration_mm = mm * at_order(*scores.vibration_m, criteria.filter_order);
+    row.stiffness_ratio = scores.stiffness_ratio[metrics::judged_press];
+    if (scores.force_vibration_added_n)
+        row.force_vibration_n = at_order(*scores.force_vibration_added_n, criteria.filter_order);
+    row.force_discrepancy = scores.force_discrepancy;
+    row.contact_lost = scores.contact_lost;
+    if (scores.force_steps) row.force_step_n = scores.force_steps->largest_n;
+    row.drag_n = scores.drag_n;
+    row.energy_mj = times(1e3, scores.energy_taken_j);
+    row.scored_share = scores.scored_share;
+    row.tier = judge(scores, criteria).tier;
+}
+
+/// The rows of an experiment, job after job.
+class SessionRows {
+public:
+    SessionRows(const experiment::Experiment& experiment, const metrics::Criteria& criteria)
+        : experiment_{experiment}, criteria_{criteria}
+    {}
+
+    void add(const experiment::SessionJob& job, const experiment::SessionResult& result)
+    {
+        SessionRow row = started(job.algorithm, job.task, job.party, experiment_.hands);
+        note_network(job.spec.setting.profile, row);
+        row.seed = job.spec.setting.seed.value();
+        note_scores(scores_of(result.metrics, result.perfect), criteria_, row);
+        rows_.push_back(std::move(row));
+    }
+
+    void add(const experiment::SearchJob& job, const experiment::SearchResult& result)
+    {
+        const SessionRow row = started(job.algorithm, job.task, job.party, experiment_.hands);
+        for (const experiment::CurvePoint& point : result.curve) {
+            SessionRow& one = rows_.emplace_back(row);
+            const auto order = std::get<experiment::Limits>(experiment_.kind).jitter_order;
+            const auto path = impaired(experiment_.path, job.range.impairment, point.level, order);
+            note_network(
+                {.name = {}, .seed = {}, .path = path, .timeline = {}, .paths = experiment_.links},
+                one);
+            one.seed = point.seed;
+            note_scores(point.scores, criteria_, one);
+        }
+    }
+
+    std::vector<SessionRow> rows() && { return std::move(rows_); }
+
+private:
+    [[nodiscard]] SessionRow started(std::size_t algorithm, device::Task task,
+                                     const experiment::Party& party,
+                                     const experiment::Hands& hands) const
+    {
+        return {.algorithm = experiment_.algorithms[algorithm].name,
+                .task = std::string{name_of(task)},
+                .hands = name_of(hands),
+                .peers = party.peers,
+                .scene = party.scene ? experiment_.scenes[*party.scene].name
+                                     : std::string{device::scene_of(task)},
+                .duration_s = base::to_seconds(experiment_.duration)};
+    }
+
+    const experiment::Experiment& experiment_;
+    const metrics::Criteria& criteria_;
+    std::vector<SessionRow> rows_;
+};
+
+/// What two algorithms have to share to be compared.
+using SharedCondition =
+    std::tuple<std::string, std::string, std::uint32_t, std::string, std::string>;
+
+SharedCondition condition_of(const SessionRow& row)
+{
+    return {row.task, row.hands, row.peers, row.scene, row.network};
+}
+
+struct PairedMeasure {
+    std::string_view name;
+    std::optional<double> SessionRow::*value;
+};
+constexpr std::array paired_measures{
+    PairedMeasure{"mean_mm", &SessionRow::mean_mm},
+    PairedMeasure{"vibration_mm", &SessionRow::vibration_mm},
+    PairedMeasure{"stiffness_ratio", &SessionRow::stiffness_ratio},
+    PairedMeasure{"force_vibration_n", &SessionRow::force_vibration_n}};
+
+/// The values of both, where both have one.
+struct Pairs {
+    std::vector<double> a;
+    std::vector<double> b;
+};
+
+using BySeed = std::map<std::uint64_t, const SessionRow*>;
+
+Pairs pairs_of(const BySeed& a, const BySeed& b, const PairedMeasure& measure)
+{
+    Pairs pairs;
+    for (const auto& [seed, row] : a) {
+        const auto other = b.find(seed);
+        if (other == b.end()) continue;
+        const auto x = row->*measure.value, y = other->second->*measure.value;
+        if (!x || !y) continue;
+        pairs.a.push_back(*x);
+        pairs.b.push_back(*y);
+    }
+    return pairs;
+}
+
+} // namespace
+
+std::vector<SessionRow> make_session_rows(const experiment::Experiment& experiment,
+                                          const metrics::Criteria& criteria,
+                                          std::span<const experiment::JobResult> results)
+{
+    SessionRows rows{experiment, criteria};
+    const auto jobs = make_jobs(experiment);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (const auto* one = std::get_if<experiment::SessionJob>(&jobs[i])) {
+            rows.add(*one, std::get<experiment::SessionResult>(results[i]));
+        } else if (const auto* search = std::get_if<experiment::SearchJob>(&jobs[i])) {
+            rows.add(*search, std::get<experiment::SearchResult>(results[i]));
+        }
+    }
+    return std::move(rows).rows();
+}
+
+std::vector<PairedRow> make_paired_rows(const std::vector<SessionRow>& sessions)
+{
+    std::map<std::pair<SharedCondition, std::string>, BySeed> played;
+    std::vector<std::pair<SharedCondition, std::string>> order; // as they come
+    for (const SessionRow& row : sessions) {
+        const std::pair key{condition_of(row), row.algorithm};
+        BySeed& seeds = played[key];
+        if (seeds.empty()) order.push_back(key);
+        seeds.emplace(row.seed, &row);
+    }
+    std::vector<PairedRow> rows;
+    for (const auto& key : order) {
+        const std::string& reference = sessions.front().algorithm;
+        const auto against = played.find({key.first, reference});
+        if (key.second == reference || against == played.end()) continue;
+        for (const PairedMeasure& measure : paired_measures) {
+            const auto pairs = pairs_of(played.at(key), against->second, measure);
+            if (pairs.a.size() < 2) continue;
+            const auto test = metrics::paired_test(pairs.a, pairs.b);
+            rows.push_back({.algorithm = key.second,
+                            .reference = reference,
+                            .task = std::get<0>(key.first),
+                            .measure = std::string{measure.name},
+                            .seeds = test.seeds,
+                            .difference = test.median,
+                            .ci_low = test.interval.low,
+                            .ci_high = test.interval.high,
+                            .sign_test_p = test.p});
+        }
+    }
+    return rows;
+}
+
+} // namespace hapnet::lab::results

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/jobs.hpp"
+#include "lab/metrics/paired.hpp"
+#include "lab/results/rows.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::results {
+
+/// Of sessions.csv: a session with all its conditions, and what came of it. Delay, jitter and loss
+/// are empty where the network is not so simple, or not the same both ways; `network` has all of it
+/// as a profile.
+struct SessionRow {
+    std::string algorithm;
+    std::string task;
+    std::string hands;
+    std::uint32_t peers = 2;
+    std::string scene{};
+    double duration_s = 0.0;
+    std::optional<double> delay_ms{};
+    std::optional<double> jitter_ms{};
+    std::optional<double> loss_percent{};
+    std::optional<double> burst_of_100{};
+    std::string network{};
+    std::uint64_t seed = 0;
+    std::optional<double> mean_mm{};
+    std::optional<double> std_mm{};
+    std::optional<double> max_mm{};
+    std::optional<double> vibration_mm{};
+    std::optional<double> stiffness_ratio{};
+    std::optional<double> force_vibration_n{}; // what the network adds
+    std::optional<double> force_discrepancy{};
+    std::optional<double> contact_lost{};
+    std::optional<double> force_step_n{};
+    std::optional<double> drag_n{};
+    std::optional<double> energy_mj{};
+    double scored_share = 0.0;
+    metrics::Tier tier{};
+};
+constexpr auto fields_of(base::Tag<SessionRow>)
+{
+    using Row = SessionRow;
+    constexpr base::Decimals three{3};
+    constexpr base::Decimals four{4};
+    return base::fields(
+        "sessions", base::field("algorithm", &Row::algorithm), base::field("task", &Row::task),
+        base::field("hands", &Row::hands), base::field("peers", &Row::peers),
+        base::field("scene", &Row::scene), base::field("duration_s", &Row::duration_s),
+        base::field("delay_ms", &Row::delay_ms), base::field("jitter_ms", &Row::jitter_ms),
+        base::field("loss_percent", &Row::loss_percent),
+        base::field("burst_of_100", &Row::burst_of_100), base::field("network", &Row::network),
+        base::field("seed", &Row::seed), base::field("mean_mm", &Row::mean_mm, three),
+        base::field("std_mm", &Row::std_mm, three), base::field("max_mm", &Row::max_mm, three),
+        base::field("vibration_mm", &Row::vibration_mm, three),
+        base::field("stiffness_ratio", &Row::stiffness_ratio, four),
+        base::field("force_vibration_n", &Row::force_vibration_n, four),
+        base::field("force_discrepancy", &Row::force_discrepancy, four),
+        base::field("contact_lost", &Row::contact_lost, four),
+        base::field("force_step_n", &Row::force_step_n, four),
+        base::field("drag_n", &Row::drag_n, four), base::field("energy_mj", &Row::energy_mj, three),
+        base::field("scored_share", &Row::scored_share, four), base::field("tier", &Row::tier));
+}
+
+/// Every session of an experiment that is not of the kind Claims, which has rows of its own.
+/// `results` are those of all its jobs.
+[[nodiscard]] std::vector<SessionRow>
+make_session_rows(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
+                  std::span<const experiment::JobResult> results);
+
+/// Of paired.csv: two algorithms that met the same hands and network, seed by seed.
+struct PairedRow {
+    std::string algorithm;
+    std::string reference;
+    std::string task;
+    std::string measure; // with its unit; "p50 of delay, ms" of a limit
+    std::uint32_t seeds = 0;
+    /// algorithm - reference: of limits p50, else the median of the seeds; nullopt: one of the two
+    /// limits was not reached.
+    std::optional<double> difference{};
+    std::optional<double> ci_low{}; // 95 %
+    std::optional<double> ci_high{};
+    std::optional<double> sign_test_p{}; // nullopt for limits
+};
+constexpr auto fields_of(base::Tag<PairedRow>)
+{
+    using Row = PairedRow;
+    constexpr base::Decimals four{4};
+    return base::fields("paired", base::field("algorithm", &Row::algorithm),
+                        base::field("reference", &Row::reference), base::field("task", &Row::task),
+                        base::field("measure", &Row::measure), base::field("seeds", &Row::seeds),
+                        base::field("difference", &Row::difference, four),
+                        base::field("ci_low", &Row::ci_low, four),
+                        base::field("ci_high", &Row::ci_high, four),
+                        base::field("sign_test_p", &Row::sign_test_p));
+}
+
+/// Each algorithm against the first, in each task and condition that both played.
+[[nodiscard]] std::vector<PairedRow> make_paired_rows(const std::vector<SessionRow>& sessions);
+
+} // namespace hapnet::lab::results

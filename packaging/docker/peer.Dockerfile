@@ -1,0 +1,14 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# One peer. A real device has to be passed in; without one its hand is simulated.
+#   scripts/package.sh --out packages
+#   docker build -f packaging/docker/peer.Dockerfile -t hapnet-peer .
+ARG BASE=debian:bookworm-slim
+FROM ${BASE}
+COPY packages/*.deb /packages/
+RUN apt-get update \
+    && apt-get install -y --no-install-recommends /packages/hapnet-emulator_*.deb /packages/hapnet_*.deb \
+    && rm -rf /packages /var/lib/apt/lists/*
+USER nobody
+ENTRYPOINT ["hapnet-peer"]

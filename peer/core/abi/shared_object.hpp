@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/abi/algorithm.h"
+#include "peer/core/sync/situation.hpp"
+#include "proto/base/fields.hpp"
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::peer {
+
+struct SharedObjectOptions {
+    std::string file;       // as the program that loads it opens it
+    std::string parameters; // for the algorithm, which alone knows what they mean
+
+    friend bool operator==(const SharedObjectOptions&, const SharedObjectOptions&) = default;
+};
+
+constexpr auto fields_of(base::Tag<SharedObjectOptions> /*struct*/)
+{
+    return base::fields("shared-object",
+                        base::field("file", &SharedObjectOptions::file,
+                                    "of the shared object, from the folder that the program is "
+                                    "started in"),
+                        base::field("parameters", &SharedObjectOptions::parameters,
+                                    "text for the algorithm, which alone knows its meaning"));
+}
+
+/// What a loaded shared object describes; it stays loaded for as long as anybody has it.
+using Loaded = std::shared_ptr<const hapnet_algorithm>;
+
+/// An algorithm that is no part of the program: a C function of peer/core/abi/algorithm.h does what
+/// the others do themselves. Here is only what stands between the two; peer/shared_object/load.hpp
+/// loads it. A copy has memory of its own.
+class SharedObject {
+public:
+    SharedObject() = default;
+    explicit SharedObject(const SharedObjectOptions& options) : options_{options} {}
+
+    /// The same with what was loaded of the file. The error says what is wrong with that, or with
+    /// the parameters.
+    [[nodiscard]] base::Result<SharedObject> with(Loaded loaded) const;
+
+    void hear(const ReceivedState& received);
+    /// Ensures that it was loaded.
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget(std::size_t other);
+
+    [[nodiscard]] const SharedObjectOptions& options() const { return options_; }
+    [[nodiscard]] bool is_loaded() const { return loaded_ != nullptr; }
+    /// Whether it can play with more than one other; before it is loaded nobody knows better.
+    [[nodiscard]] bool plays_with_many() const { return !loaded_ || loaded_->plays_with_many != 0; }
+
+private:
+    SharedObjectOptions options_;
+    Loaded loaded_;
+    std::vector<std::max_align_t> memory_; // the algorithm's own
+};
+
+} // namespace hapnet::peer

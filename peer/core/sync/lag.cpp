@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/sync/lag.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::peer {
+
+void Lag::hear(const ReceivedState& received)
+{
+    Other& other = others_[received.from];
+    const auto tick = other.heard.tick_of(received);
+    if (!tick) return;
+    // What was overtaken is as good as any: it tells of another tick.
+    if (!other.heard.history.add(*tick, HandSample::of(received.state))) return;
+    const auto& echo = received.state.echo;
+    // An answer to a hello of before the start tells of no tick.
+    if (!received.taken || !echo || echo->of < received.start) return;
+    const auto answered = static_cast<std::int64_t>((echo->of - received.start) / received.tick);
+    other.ages_there.add(*tick - answered);
+}
+
+void Lag::forget(std::size_t of)
+{
+    others_[of].heard.forget();
+    others_[of].ages.forget();
+    others_[of].ages_there.forget();
+}
+
+void Lag::note_ages(const Situation& situation, std::int64_t now)
+{
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        Other& other = others_[i];
+        if (situation.others[i].freshness > 0.0 && !other.heard.history.is_empty())
+            other.ages.add(now - other.heard.history.newest());
+        other.ages.pass(situation.tick, options_.memory);
+        other.ages_there.pass(situation.tick, options_.memory);
+    }
+}
+
+/// The lag goes up at once, and down as slowly as time may run faster.
+void Lag::follow(const Situation& situation)
+{
+    constexpr std::int64_t looks_every = 10; // ticks
+    if (has_begun_ && situation.number % looks_every != 0) return;
+    std::int64_t wanted = 0;
+    for (const Other& other : others_) {
+        wanted = std::max(wanted, other.ages.value(options_.quantile));
+        wanted = std::max(wanted, other.ages_there.value(options_.quantile));
+    }
+    constexpr double most = HandHistory::ticks_max - 24;
+    const double lag_max =
+        std::min(most, base::to_seconds(options_.lag_max) / base::to_seconds(situation.tick));
+    const double goal = std::min(lag_max, static_cast<double>(wanted));
+    lag_ = std::max(goal, lag_ - options_.catch_up * looks_every);
+}
+
+/// Whether everybody is heard whose hand may come into the first ticks.
+bool Lag::is_ready(const Situation& situation) const
+{
+    if (has_begun_ || situation.now - situation.start > waits_for) return true;
+    return std::ranges::none_of(others_,
+                                [](const Other& other) { return other.heard.history.is_empty(); });
+}
+
+/// One tick of the session.
+void Lag::play(scene::World& world, const Situation& situation)
+{
+    ++played_;
+    world.set_hand(own_hand_by_rank(situation), own_.at(played_, situation.tick).input());
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const bool is_there = situation.others[i].freshness > 0.0;
+        const HandSample sample = others_[i].heard.history.at(played_, situation.tick);
+        world.set_hand(hand_by_rank(i, situation),
+                       is_there ? sample.input() : scene::HandInput{.present = false});
+    }
+    world.tick();
+}
+
+Outcome Lag::tick(scene::World& world, const Situation& situation)
+{
+    const std::int64_t now =
+        ticks_.number(situation.number, situation.now - situation.start, situation.tick);
+    own_.add(now, HandSample::of(world.state().hands[own_hand]));
+    note_ages(situation, now);
+    follow(situation);
+    const std::int64_t due = now - static_cast<std::int64_t>(std::ceil(lag_));
+    if (!first_) first_ = now;
+    if (!has_begun_ && is_ready(situation)) {
+        has_begun_ = true;
+        const bool joins_late = *first_ > 0; // and has the body of now
+        played_ = joins_late ? due - 1 : -1;
+    }
+    if (has_begun_) {
+        played_ = std::max(played_, now - HandHistory::ticks_max + 1);
+        for (int i = 0; i < together_max && played_ < due; ++i) play(world, situation);
+    }
+    return outcome_of(world, situation, now);
+}
+
+Outcome Lag::outcome_of(scene::World& world, const Situation& situation, std::int64_t now)
+{
+    Outcome outcome;
+    const Presence remote = presence_of(situation, BaseOptions{});
+    if (has_begun_) outcome.touched = world.touch(own_hand_by_rank(situation));
+    outcome.on_hand = outcome.touched.on_hand;
+    outcome.late = has_begun_ ? (now - played_) * situation.tick : base::Duration{0};
+    says_grip(outcome.touched, own_.at(now, situation.tick));
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const scene::HandTouch& touch = world.touch(hand_by_rank(i, situation));
+        outcome.remote_touching = outcome.remote_touching || touch.touching;
+        outcome.remote_force += touch.on_body;
+    }
+    if (const auto& state = situation.remote.state()) outcome.remote_hip = state->hip;
+    if (outcome.touched.touching || outcome.remote_touching || remote.touching) {
+        at_rest_.interrupt();
+    } else if (const auto rest = at_rest_.pose(world.position(situation.body), remote, situation)) {
+        if (differs(*remote.pose, world.position(situation.body)))
+            world.place(situation.body, rest->position, rest->velocity);
+    }
+    return outcome;
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/age_quantile.hpp"
+#include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/hand_history.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+namespace hapnet::peer {
+
+struct LagOptions {
+    double quantile = 0.99;
+    base::Duration memory{std::chrono::seconds{5}};
+    double catch_up = 0.01;
+    base::Duration lag_max{std::chrono::milliseconds{800}};
+
+    friend bool operator==(const LagOptions&, const LagOptions&) = default;
+};
+constexpr auto fields_of(base::Tag<LagOptions> /*struct*/)
+{
+    using Options = LagOptions;
+    return base::fields(
+        "lag",
+        base::field("quantile", &Options::quantile, base::Number{0.5, 1.0},
+                    "share of the messages' ages that the common lag covers"),
+        base::field("memory", &Options::memory, parameter_time, "over what time ages are kept"),
+        base::field("catch_up", &Options::catch_up, base::Number{0.0, 1.0},
+                    "by which share time runs faster while the lag decreases"),
+        base::field("lag_max", &Options::lag_max, parameter_time,
+                    "the greatest lag; at most 1000 ticks count"));
+}
+
+/// Local lag (Mauve et al. 2004): every copy plays the session so late that the messages of all
+/// hands are there in time, and its own hand acts as late as the others' do. Each tick of the
+/// session is computed once, from the hands of that tick: where no message is missing, all copies
+/// make the same bits of it. The hand feels its contact late, and therefore softly.
+/// docs/design/algorithms.md has the equations.
+class Lag {
+public:
+    Lag() : Lag(LagOptions{}) {}
+    explicit Lag(const LagOptions& options) : options_{options} {}
+
+    /// Takes the memory for so many others.
+    void prepare(std::size_t others) { others_.resize(others); }
+    void hear(const ReceivedState& received);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget(std::size_t of = 0);
+
+    [[nodiscard]] const LagOptions& options() const { return options_; }
+    /// In ticks.
+    [[nodiscard]] double lag() const { return lag_; }
+    /// The tick of the session that this copy has played last; -1: none.
+    [[nodiscard]] std::int64_t played() const { return played_; }
+
+    /// So long the copy waits for somebody who was never heard.
+    static constexpr base::Duration waits_for{std::chrono::seconds{1}};
+    /// So many ticks of the session are played in one, at most.
+    static constexpr int together_max = 2;
+
+private:
+    struct Other {
+        HeardHand heard;
+        AgeQuantile ages;       // of its newest word, here
+        AgeQuantile ages_there; // of this peer's newest word, there
+    };
+
+    void note_ages(const Situation& situation, std::int64_t now);
+    void follow(const Situation& situation);
+    [[nodiscard]] bool is_ready(const Situation& situation) const;
+    void play(scene::World& world, const Situation& situation);
+    [[nodiscard]] Outcome outcome_of(scene::World& world, const Situation& situation,
+                                     std::int64_t now);
+
+    LagOptions options_;
+    std::vector<Other> others_;
+    HandHistory own_;
+    SessionTicks ticks_;
+    double lag_ = 0.0; // ticks
+    std::int64_t played_ = -1;
+    std::optional<std::int64_t> first_; // tick of this peer
+    bool has_begun_ = false;
+    AtRest at_rest_;
+};
+
+} // namespace hapnet::peer

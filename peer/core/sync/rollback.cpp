@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/sync/rollback.hpp"
+
+#include <algorithm>
+
+namespace hapnet::peer {
+
+void Rollback::prepare(std::size_t others, const scene::World& world)
+{
+    const ProxyHandOptions learning{.hand = options_.hand,
+                                    .velocity_filter = options_.velocity_filter,
+                                    .velocity_filter_min = options_.velocity_filter_min,
+                                    .believed_above_m_per_s = options_.believed_above_m_per_s,
+                                    .memory = options_.memory};
+    others_.assign(others, Other{learning});
+    past_ = world;
+    present_ = world;
+}
+
+void Rollback::hear(const ReceivedState& received)
+{
+    Other& other = others_[received.from];
+    const auto tick = other.heard.tick_of(received);
+    if (!tick) return;
+    // What was overtaken fills a gap, unless the past is beyond it.
+    if (*tick > confirmed_ && other.heard.history.add(*tick, HandSample::of(received.state)))
+        has_news_ = true;
+    if (!received.taken) return;
+    static_cast<void>(other.learnt.hear(received));
+    other.touches = received.state.touching;
+}
+
+void Rollback::forget(std::size_t of)
+{
+    others_[of].heard.forget();
+    others_[of].learnt.forget();
+    others_[of].touches = false;
+    others_[of].whole = confirmed_;
+}
+
+/// From the copy as it is, at the beginning and when it was changed from outside.
+void Rollback::begin(const scene::World& world, std::int64_t now)
+{
+    past_->restore(world);
+    present_->restore(world);
+    confirmed_ = now - 1;
+    for (Other& other : others_) other.whole = confirmed_;
+    offset_ = offset_speed_ = glm::dvec3{0.0};
+}
+
+bool Rollback::is_modelled(const Other& other, std::int64_t tick)
+{
+    return !other.heard.history.is_empty() && tick > other.heard.history.newest();
+}
+
+void Rollback::set_past_hands(scene::World& world, const Situation& situation,
+                              std::int64_t tick) const
+{
+    world.set_hand(own_hand_by_rank(situation), own_.at(tick, situation.tick).input());
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const HandHistory& history = others_[i].heard.history;
+        HandSample sample = history.at(tick, situation.tick);
+        // One that has fallen silent, and for which the past has waited long enough.
+        if (tick > history.newest()) sample.present = false;
+        world.set_hand(hand_by_rank(i, situation), sample.input());
+    }
+}
+
+void Rollback::set_present_hands(scene::World& world, const Situation& situation, std::int64_t tick)
+{
+    set_past_hands(world, situation, tick);
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        Other& other = others_[i];
+        if (!is_modelled(other, tick)) continue;
+        const HandSample last = other.heard.history.at(other.heard.history.newest(), {});
+        if (tick == other.heard.history.newest() + 1) other.motion = {last.place, last.velocity};
+        const bool is_there = last.present && other.touches && situation.others[i].freshness > 0.0;
+        const scene::HandInput input{.position = {other.motion.place},
+                                     .velocity = {other.motion.speed},
+                                     .present = is_there,
+                                     .gripping = last.gripping};
+        world.set_hand(hand_by_rank(i, situation), input);
+    }
+}
+
+/// After a tick of the present, against the forces that the modelled hands have met in it.
+void Rollback::move_models(const scene::World& world, const Situation& situation, std::int64_t tick)
+{
+    const double tick_s = base::to_seconds(situation.tick);
+    const double ahead_max_s = base::to_seconds(options_.ahead_max);
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        Other& other = others_[i];
+        if (!is_modelled(other, tick)) continue;
+        const HandDynamics& hand = other.learnt.dynamics();
+        const auto ticks = static_cast<double>(tick - other.heard.history.newest());
+        const double ahead_s = std::min(ticks * tick_s, ahead_max_s);
+        const glm::dvec3 anchor = other.learnt.intention() + (other.learnt.eta() * ahead_s) *
+                                                                 other.learnt.intention_velocity();
+        const glm::dvec3 met = world.touch(hand_by_rank(i, situation)).on_hand.value;
+        for (int step = 0; step < hand_steps_per_tick; ++step) {
+            const glm::dvec3 drive = hand.stiffness_n_per_m * (anchor - other.motion.place);
+            other.motion.step(hand, hand.friction_n, drive + met, tick_s / hand_steps_per_tick);
+        }
+    }
+}
+
+/// Until when the hands of all are known well enough to be the past.
+std::int64_t Rollback::known_until(const Situation& situation, std::int64_t now)
+{
+    std::int64_t until = now;
+    const auto patience = static_cast<std::int64_t>(options_.patience / situation.tick);
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        Other& other = others_[i];
+        const HandHistory& history = other.heard.history;
+        const auto arrived = situation.others[i].remote->arrived();
+        const bool is_awaited = arrived ? situation.now - *arrived <= options_.silence_max
+                                        : situation.now - situation.start <= waits_for;
+        other.whole = std::max(other.whole, confirmed_);
+        while (history.knows(other.whole + 1)) ++other.whole;
+        if (!is_awaited) continue;
+        until = std::min(until, std::max(other.whole, history.newest() - patience));
+    }
+    return std::max(until, now - resimulated_max);
+}
+
+/// Brings the past to where it is known. True: it has moved on.
+bool Rollback::confirm(const Situation& situation, std::int64_t now)
+{
+    const std::int64_t until = known_until(situation, now);
+    const bool moves = confirmed_ < until;
+    while (confirmed_ < until) {
+        set_past_hands(*past_, situation, ++confirmed_);
+        past_->tick();
+    }
+    return moves;
+}
+
+void Rollback::step_present(const Situation& situation, std::int64_t tick)
+{
+    set_present_hands(*present_, situation, tick);
+    present_->tick();
+    move_models(*present_, situation, tick);
+}
+
+/// The present again, from the past on.
+void Rollback::predict(const Situation& situation, std::int64_t now)
+{
+    present_->restore(*past_);
+    for (Other& other : others_) {
+        const HandHistory& history = other.heard.history;
+        if (history.is_empty() || history.newest() > confirmed_) continue;
+        const HandSample last = history.at(history.newest(), {});
+        other.motion = {last.place, last.velocity};
+    }
+    for (std::int64_t tick = confirmed_ + 1; tick <= now; ++tick) step_present(situation, tick);
+}
+
+/// What the own hand feels: its contact with the body as it is shown, the other hands being as far
+/// from it as they are in the present.
+Outcome Rollback::feel(scene::World& world, const Situation& situation, std::int64_t now)
+{
+    const scene::HandInput own = world.state().hands[own_hand];
+    set_present_hands(world, situation, now);
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const std::uint32_t hand = hand_by_rank(i, situation);
+        scene::HandInput input = world.state().hands[hand];
+        input.position.value += offset_;
+        world.set_hand(hand, input);
+    }
+    world.set_hand(own_hand_by_rank(situation), own);
+    world.tick();
+    Outcome outcome;
+    outcome.touched = world.touch(own_hand_by_rank(situation));
+    outcome.on_hand = outcome.touched.on_hand;
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        const scene::HandTouch& touch = world.touch(hand_by_rank(i, situation));
+        outcome.remote_touching = outcome.remote_touching || touch.touching;
+        outcome.remote_force += touch.on_body;
+        if (situation.others[i].remote == &situation.remote)
+            outcome.remote_hip = world.state().hands[hand_by_rank(i, situation)].position;
+    }
+    return outcome;
+}
+
+/// A critically damped spring takes what is shown to the present.
+void Rollback::smooth(const glm::dvec3& jump, double tick_s)
+{
+    offset_ += jump;
+    const double smoothing_s = base::to_seconds(options_.smoothing);
+    if (!(smoothing_s > tick_s)) {
+        offset_ = offset_speed_ = glm::dvec3{0.0};
+        return;
+    }
+    const glm::dvec3 pull =
+        (-2.0 / smoothing_s) * offset_speed_ - (1.0 / (smoothing_s * smoothing_s)) * offset_;
+    offset_speed_ += tick_s * pull;
+    offset_ += tick_s * offset_speed_;
+}
+
+/// Where messages were missing the pasts differ. Once all hands are off the higher id's goes to the
+/// lower id's.
+void Rollback::rest(const Situation& situation, const Outcome& outcome, base::Position shown)
+{
+    const Presence remote = presence_of(situation, BaseOptions{});
+    if (outcome.touched.touching || outcome.remote_touching || remote.touching) {
+        at_rest_.interrupt();
+        return;
+    }
+    const auto pose = at_rest_.pose(shown, remote, situation);
+    if (!pose || !differs(*remote.pose, shown)) return;
+    const base::Displacement way = pose->position - shown;
+    past_->shift(situation.body, way);
+    present_->shift(situation.body, way);
+}
+
+void Rollback::show(scene::World& world, const Situation& situation)
+{
+    world.restore(*present_);
+    world.shift(situation.body, {offset_});
+    shown_ = world.position(situation.body);
+}
+
+Outcome Rollback::tick(scene::World& world, const Situation& situation)
+{
+    const std::int64_t now =
+        ticks_.number(situation.number, situation.now - situation.start, situation.tick);
+    own_.add(now, HandSample::of(world.state().hands[own_hand]));
+    if (!shown_ || !(*shown_ == world.position(situation.body))) begin(world, now);
+
+    Outcome outcome = feel(world, situation, now);
+    says_grip(outcome.touched, own_.at(now, situation.tick));
+    step_present(situation, now);
+    glm::dvec3 jump{0.0};
+    if (confirm(situation, now) || has_news_) {
+        const base::Position before = present_->position(situation.body);
+        predict(situation, now);
+        jump = (before - present_->position(situation.body)).value;
+    }
+    has_news_ = false;
+    smooth(jump, base::to_seconds(situation.tick));
+    rest(situation, outcome, present_->position(situation.body) + base::Displacement{offset_});
+    show(world, situation);
+    return outcome;
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/hand_history.hpp"
+#include "peer/core/sync/proxy_hand.hpp"
+#include "proto/base/ensure.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::peer {
+
+struct RollbackOptions {
+    HandDynamics hand{.friction_n = 0.26}; // where the hello says nothing; an Omni's friction
+    double velocity_filter = 0.15;
+    base::Duration velocity_filter_min{std::chrono::milliseconds{20}};
+    double believed_above_m_per_s = 0.015;
+    base::Duration memory{std::chrono::seconds{2}};
+    base::Duration ahead_max{std::chrono::milliseconds{250}};
+    base::Duration smoothing{std::chrono::milliseconds{50}};
+    base::Duration patience{std::chrono::milliseconds{60}};
+    base::Duration silence_max{std::chrono::milliseconds{300}};
+
+    friend bool operator==(const RollbackOptions&, const RollbackOptions&) = default;
+};
+constexpr auto fields_of(base::Tag<RollbackOptions> /*struct*/)
+{
+    using Options = RollbackOptions;
+    return base::fields(
+        "rollback", base::part(&Options::hand),
+        base::field("velocity_filter", &Options::velocity_filter, base::Number{0.0, 10.0},
+                    "time constant of the intention's velocity, as a share of its age"),
+        base::field("velocity_filter_min", &Options::velocity_filter_min, parameter_time,
+                    "the least time constant of the intention's velocity"),
+        base::field("believed_above", &Options::believed_above_m_per_s,
+                    base::Quantity{base::speed_kind, 0.0, 10.0},
+                    "a hand that is slower is not projected"),
+        base::field("memory", &Options::memory, parameter_time, "over what time eta is learnt"),
+        base::field("ahead_max", &Options::ahead_max, parameter_time,
+                    "the farthest that an intention is projected"),
+        base::field("smoothing", &Options::smoothing, parameter_time,
+                    "time constant with which a corrected prediction takes the old one's place"),
+        base::field("patience", &Options::patience, parameter_time,
+                    "so long the past waits for a message that others have overtaken"),
+        base::field("silence_max", &Options::silence_max, parameter_time,
+                    "so long the past waits for a silent peer"));
+}
+
+/// Two worlds in each copy (rollback and resimulation, as in games): one of the past, moved by the
+/// hands as they were, and one of the present, computed again from there with every message, in
+/// which a hand that touched is a hand that goes on as it means to. Where no
+/// message is missing all pasts are made of the same hands; what parts them is rest(). The present
+/// has no bound on its energy: this is a yardstick for the others. docs/design/algorithms.md has
+/// the equations.
+class Rollback {
+public:
+    Rollback() : Rollback(RollbackOptions{}) {}
+    explicit Rollback(const RollbackOptions& options) : options_{options} {}
+
+    /// Takes the memory for so many others and for two copies of the world.
+    void prepare(std::size_t others, const scene::World& world);
+    void hear(const ReceivedState& received);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget(std::size_t of = 0);
+
+    [[nodiscard]] const RollbackOptions& options() const { return options_; }
+    /// The tick of the session that the past has come to; -1: none.
+    [[nodiscard]] std::int64_t confirmed() const { return confirmed_; }
+    /// Ensures that prepare() was called.
+    [[nodiscard]] const scene::World& past() const
+    {
+        base::ensure(past_.has_value());
+        return *past_;
+    }
+
+    /// So long the past waits for somebody who was never heard.
+    static constexpr base::Duration waits_for{std::chrono::seconds{1}};
+    /// No more ticks than that are computed again.
+    static constexpr std::int64_t resimulated_max = 1000;
+
+private:
+    struct Other {
+        explicit Other(const ProxyHandOptions& options) : learnt{options} {}
+
+        HeardHand heard;
+        ProxyHand learnt;        // what its owner means to do
+        std::int64_t whole = -1; // until then nothing is missing
+        bool touches = false;    // as it said last
+        HandMotion motion{};     // of its model in the present
+    };
+
+    void begin(const scene::World& world, std::int64_t now);
+    void set_past_hands(scene::World& world, const Situation& situation, std::int64_t tick) const;
+    void set_present_hands(scene::World& world, const Situation& situation, std::int64_t tick);
+    void move_models(const scene::World& world, const Situation& situation, std::int64_t tick);
+    [[nodiscard]] static bool is_modelled(const Other& other, std::int64_t tick);
+    [[nodiscard]] std::int64_t known_until(const Situation& situation, std::int64_t now);
+    [[nodiscard]] bool confirm(const Situation& situation, std::int64_t now);
+    void step_present(const Situation& situation, std::int64_t tick);
+    void predict(const Situation& situation, std::int64_t now);
+    [[nodiscard]] Outcome feel(scene::World& world, const Situation& situation, std::int64_t now);
+    void smooth(const glm::dvec3& jump, double tick_s);
+    void rest(const Situation& situation, const Outcome& outcome, base::Position shown);
+    void show(scene::World& world, const Situation& situation);
+
+    RollbackOptions options_;
+    std::vector<Other> others_;
+    HandHistory own_;
+    SessionTicks ticks_;
+    std::optional<scene::World> past_;
+    std::optional<scene::World> present_;
+    std::int64_t confirmed_ = -1;
+    bool has_news_ = false;
+    glm::dvec3 offset_{0.0}; // of the body as it is shown, from the present
+    glm::dvec3 offset_speed_{0.0};
+    std::optional<base::Position> shown_;
+    AtRest at_rest_;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/nearest.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::peer {
+
+/// Numbers the ticks of one peer so that all peers number theirs alike, whatever their clocks say
+/// to a few milliseconds: the first tick of those who were there at the start is number 0. Counting
+/// is exact where clocks are not. Only who joins late, or has missed many ticks, is numbered by the
+/// clock, from then on by counting again.
+class SessionTicks {
+public:
+    /// What is less late than this was there at the start: agreed starts differ by less.
+    static constexpr base::Duration in_time{std::chrono::milliseconds{50}};
+
+    /// Of a peer's ticks this is the `count`-th, from 0; by the clock it is `since_start` from the
+    /// session's start.
+    [[nodiscard]] std::int64_t number(std::int64_t count, base::Duration since_start,
+                                      base::Duration tick)
+    {
+        const double by_clock = base::to_seconds(since_start) / base::to_seconds(tick);
+        const double apart = by_clock - static_cast<double>(count + missing_);
+        if (std::abs(apart) * base::to_seconds(tick) > base::to_seconds(in_time))
+            missing_ += base::nearest(apart);
+        return count + missing_;
+    }
+    void forget() { missing_ = 0; }
+
+private:
+    std::int64_t missing_ = 0; // ticks that it did not play
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+#include "proto/record/rows.hpp"
+#include "proto/telemetry/frame.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::telemetry {
+
+/// The names of what a tick's row has as numbers; `fault` gives "none" without one.
+struct Names {
+    std::string_view (*governor)(std::uint8_t state) = nullptr;
+    std::string_view (*fault)(std::uint8_t fault) = nullptr;
+};
+
+/// Makes few frames of many rows of a peer, such that no extreme between two frames is lost. Feed
+/// it with take() and hear(), drain it with next(). Does no I/O and reads no clock.
+class Decimator {
+public:
+    /// Both functions of `names` are there.
+    Decimator(std::uint16_t peer, const Names& names) : names_{names} { frame_.peer = peer; }
+
+    void take(const record::TickRow& tick);
+    void take(const record::SessionRow& session);
+    void take(const record::BodyRow& body);
+    /// A message of another peer, as it came; one that is no state is passed over.
+    void hear(std::uint16_t from, base::TimePoint received_at, std::span<const std::byte> message);
+
+    /// The frame of all that was fed since the one before; nullopt before the first tick.
+    [[nodiscard]] std::optional<Frame> next(std::uint64_t left_out = 0);
+
+private:
+    /// Of another peer, beyond what its next frame says.
+    struct Other {
+        std::uint32_t session = 0;
+        std::uint32_t highest = 0;           // number in that session; 0: none came
+        std::optional<base::TimePoint> sent; // the newest state, on the sender's clock
+    };
+
+    [[nodiscard]] std::size_t place_of(std::uint16_t id);
+    void begin_anew();
+
+    Names names_;
+    Frame frame_; // that grows
+    bool has_tick_ = false;
+    std::vector<Other> others_; // as frame_.heard
+};
+
+} // namespace hapnet::telemetry

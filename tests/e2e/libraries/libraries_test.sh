@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# The libraries as a stranger gets them: installed into an empty folder, found there by CMake and by
+# pkg-config, and used by the programs of examples/, which do what they say.
+#   libraries_test.sh REPOSITORY BUILD CXX
+set -euo pipefail
+repository=$1 build=$2 cxx=$3
+work=$(mktemp -d)
+peers=()
+cleanup() {
+    ((${#peers[@]} == 0)) || kill "${peers[@]}" 2>/dev/null || true
+    rm -rf "$work"
+}
+trap cleanup EXIT
+
+fail() {
+    echo "libraries_test: $1" >&2
+    exit 1
+}
+
+cmake --install "$build" --component hapnet-dev --prefix "$work/first" >/dev/null
+mv "$work/first" "$work/prefix" # an installed tree may be moved
+prefix=$work/prefix
+
+# Each header finds what it includes, and each folder is there for somebody.
+cd "$prefix/include/hapnet"
+while IFS=: read -r header line; do
+    included=${line#*\"}
+    included=${included%%\"*}
+    [[ -f $included ]] || fail "$header includes $included, which is not installed"
+done < <(grep -rE '^#include "' .)
+cd - >/dev/null
+
+cmake -S "$repository/examples" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" \
+    >"$work/configure.log" 2>&1 || fail "$(cat "$work/configure.log")"
+# What runs beside keeps real time.
+chrt --idle 0 cmake --build "$work/build" --parallel 2 >"$work/build.log" 2>&1 ||
+    fail "$(cat "$work/build.log")"
+run() { "$work/build/example_$1" "${@:2}"; }
+
+scene=$(run scene)
+grep -q "^1000 ms  cube at  *[0-9]" <<<"$scene" || fail "scene: $scene"
+emulator=$(run emulator)
+arrived="58[78][0-9][0-9] arrived, delay 35.0 to 45.0 ms"
+grep -Eq "^up  *60000 sent, $arrived, median (39.9|40.[01]) ms" <<<"$emulator" ||
+    fail "emulator: $emulator"
+grep -q "^down  *60000 sent, 60000 arrived, delay 35.0 to 85.0 ms" <<<"$emulator" ||
+    fail "emulator: $emulator"
+[[ $(run emulator) == "$emulator" ]] || fail "the same seed gave something else"
+session=$(run session)
+grep -q "^base: [0-9]* ticks" <<<"$session" || fail "session: $session"
+
+# The peer of the examples plays with the daemon. Ports of its own: tests have one loopback each.
+timeout 40 "$work/build/example_peer" 127.0.0.1:7101 127.0.0.1:7102 >"$work/peer.log" 2>&1 &
+peers+=($!)
+"$build/bin/hapnet-peer" --id 2 --listen 127.0.0.1:7102 --remote 127.0.0.1:7101 --task T1 \
+    --duration 4s --stats "$work/stats.json" >"$work/daemon.log" 2>&1 ||
+    fail "$(cat "$work/daemon.log")"
+wait "${peers[0]}" || fail "the example's peer: $(cat "$work/peer.log")"
+peers=()
+grep -Eq '^[1-9][0-9]{2,} states heard' "$work/peer.log" || fail "$(cat "$work/peer.log")"
+
+# pkg-config leads to the same.
+if command -v pkg-config >/dev/null; then
+    pc=$(dirname "$(find "$prefix" -name hapnet-lab.pc)")
+    for example in scene:hapnet-scene session:hapnet-lab; do
+        # shellcheck disable=SC2046 # words of a command line
+        chrt --idle 0 "$cxx" $(PKG_CONFIG_PATH=$pc pkg-config --cflags "${example#*:}") \
+            "$repository/examples/${example%:*}/${example%:*}.cpp" -o "$work/by_pkg_config" \
+            $(PKG_CONFIG_PATH=$pc pkg-config --libs "${example#*:}") >"$work/pc.log" 2>&1 ||
+            fail "pkg-config: $(cat "$work/pc.log")"
+        [[ $("$work/by_pkg_config") == "$(run "${example%:*}")" ]] || fail "$example differs"
+    done
+fi
+
+# Another version, and a component that there is not, are refused in words.
+for wrong in "9.9 REQUIRED" "REQUIRED COMPONENTS porto"; do
+    mkdir -p "$work/wrong"
+    printf 'cmake_minimum_required(VERSION 3.25)\nproject(wrong CXX)\nfind_package(hapnet %s)\n' \
+        "$wrong" >"$work/wrong/CMakeLists.txt"
+    ! cmake -S "$work/wrong" -B "$work/wrong/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+        -DCMAKE_CXX_COMPILER="$cxx" >"$work/wrong.log" 2>&1 || fail "found hapnet $wrong"
+    rm -rf "$work/wrong"
+done
+grep -q "there is no porto" "$work/wrong.log" || fail "$(cat "$work/wrong.log")"
+echo "libraries_test: installed, found, built and run"

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// A hapnet-web with its stage, and a Chromium that looks at it.
+
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const root = new URL("../../", import.meta.url).pathname;
+const program = process.env.HAPNET_WEB ?? `${root}build/release/bin/hapnet-web`;
+const chromiumPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const flags = [
+  "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+];
+
+const playwright = () => {
+  try {
+    return createRequire(`${root}web/page/`)("playwright-core");
+  } catch {
+    return null;
+  }
+};
+
+/** Why no browser can be started here; false: one can. */
+export const missing = () => {
+  if (!existsSync(program)) return `${program} is not built`;
+  if (!existsSync(chromiumPath)) return `${chromiumPath} is missing`;
+  return playwright() ? false : "playwright-core is missing: npm ci in web/page";
+};
+
+/** {address, stop} of a hapnet-web that plays its demo. */
+export const startWeb = async () => {
+  const out = mkdtempSync(join(tmpdir(), "hapnet-web-"));
+  const child = spawn(program, ["--stage", "--port", "0", "--out", out]);
+  const ended = new Promise((resolve) => { child.on("exit", resolve); });
+  const address = await new Promise((resolve, reject) => {
+    ended.then((code) => reject(new Error(`hapnet-web ended with ${code}`)));
+    child.stdout.on("data", (text) => {
+      const found = /open (\S+)/.exec(text);
+      if (found) resolve(found[1]);
+    });
+  });
+  const stop = async () => {
+    child.kill("SIGTERM");
+    await ended;
+    rmSync(out, { recursive: true, force: true });
+  };
+  return { address, stop };
+};
+
+export const startBrowser = (more = []) =>
+  playwright().chromium.launch({ executablePath: chromiumPath, args: [...flags, ...more] });
+
+/** A page at that address that counts what the browser complains of, once frames come. */
+export const openPage = async (context, address, before = async () => {}) => {
+  const page = await context.newPage();
+  page.complaints = [];
+  page.on("console", (message) => {
+    if (message.type() === "error") page.complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => page.complaints.push(error.message));
+  await before(page);
+  await page.goto(address);
+  await page.waitForFunction(() => globalThis.hapnet?.model.frame && document.body.dataset.view);
+  return page;
+};

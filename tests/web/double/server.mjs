@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// A double of hapnet-web that speaks docs/formats/live.md: for tests of the page alone, where no
+// program is built. It simulates no physics and no network: see peers.mjs and network.mjs.
+import { createServer } from "node:http";
+import { readFileSync } from "node:fs";
+import { basename, dirname, extname, join } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { Double } from "./double.mjs";
+import { accept } from "./websocket.mjs";
+
+const page = join(dirname(fileURLToPath(import.meta.url)), "../../../web/page");
+const modules = {
+  "three.module.min.js": "three/build/three.module.min.js",
+  "three.core.min.js": "three/build/three.core.min.js",
+  "uPlot.iife.min.js": "uplot/dist/uPlot.iife.min.js",
+  "uPlot.min.css": "uplot/dist/uPlot.min.css",
+  "three-LICENSE.txt": "three/LICENSE",
+  "uplot-LICENSE.txt": "uplot/LICENSE",
+};
+const types = {
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".html": "text/html; charset=utf-8",
+  ".svg": "image/svg+xml",
+  ".txt": "text/plain",
+};
+const policy =
+  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; " +
+  "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+const headers = {
+  "Content-Security-Policy": policy,
+  "X-Content-Type-Options": "nosniff",
+  "Referrer-Policy": "no-referrer",
+  "Cross-Origin-Opener-Policy": "same-origin",
+  "Cross-Origin-Resource-Policy": "same-origin",
+  "Cache-Control": "no-store",
+};
+
+const answer = (response, status, type, body) => {
+  response.writeHead(status, { ...headers, "Content-Type": type });
+  response.end(body);
+};
+
+const asset = (response, name, withModules) => {
+  const file = modules[name] ? join(page, "node_modules", modules[name]) : join(page, name);
+  const known = modules[name]
+    ? withModules
+    : /^(paint\/)?[a-z0-9]+\.(js|css|svg)$/i.test(name) && !name.startsWith("node_modules");
+  try {
+    if (!known) throw new Error("not an asset");
+    answer(response, 200, types[extname(file)] ?? "text/plain", readFileSync(file));
+  } catch {
+    answer(response, 404, "text/plain", `no ${basename(name)}`);
+  }
+};
+
+const readBody = async (request) => {
+  let text = "";
+  for await (const part of request) text += part;
+  return JSON.parse(text);
+};
+
+const api = async (double, token, request, response) => {
+  const json = (status, object) =>
+    answer(response, status, "application/json", JSON.stringify(object));
+  if (request.headers["x-hapnet-token"] !== token) {
+    return json(401, { ok: false, error: "no token, or a wrong one" });
+  }
+  try {
+    const path = new URL(request.url, "http://localhost").pathname;
+    if (path.startsWith("/f/")) return answer(response, 200, "application/octet-stream", "a file");
+    const body = request.method === "POST" ? await readBody(request) : null;
+    return json(200, double.answer(path, body));
+  } catch (error) {
+    return json(error.status ?? 422, { ok: false, error: error.message });
+  }
+};
+
+/** Listens on a free port of loopback; {address, double, close()}. */
+export const startDouble = async (options = {}) => {
+  const token = "0123456789abcdef";
+  const double = new Double(options);
+  const server = createServer((request, response) => {
+    const path = new URL(request.url, "http://localhost").pathname;
+    if (path === "/") {
+      const html = readFileSync(join(page, "index.html"), "utf8");
+      answer(response, 200, types[".html"], html.replace(/@@([^@]+)@@/g, "/a/0/$1"));
+    } else if (path.startsWith("/a/0/")) asset(response, path.slice(5), options.modules !== false);
+    else if (path.startsWith("/api/") || path.startsWith("/f/"))
+      api(double, token, request, response);
+    else answer(response, 404, "text/plain", "no such page");
+  });
+  server.on("upgrade", (request, socket) => {
+    let client = null;
+    const connection = accept(
+      request,
+      socket,
+      (text) => {
+        const message = JSON.parse(text);
+        if (client) client.acked = message.ack ?? client.acked;
+        else if (message.token === token) client = double.join(connection);
+        else connection.close(4401);
+      },
+      () => client && double.leave(client),
+    );
+  });
+  await new Promise((resolve) => {
+    server.listen(options.port ?? 0, "127.0.0.1", resolve);
+  });
+  const address = `http://127.0.0.1:${server.address().port}/#t=${token}`;
+  const close = () => {
+    double.stop();
+    server.closeAllConnections();
+    server.close();
+  };
+  return { address, double, close };
+};
+
+if (import.meta.url === pathToFileURL(process.argv[1]).href) {
+  const peers = Number(process.argv[2] ?? 2);
+  const { address } = await startDouble({
+    port: 8470,
+    peers,
+    turning: process.argv[3] === "turning",
+  });
+  console.log(`open ${address}`);
+}

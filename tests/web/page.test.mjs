@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// The page of a real hapnet-web in a real browser. Judged by its state and its elements, never by
+// pixels or pictures a second.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { missing, openPage, startBrowser, startWeb } from "./browser.mjs";
+
+const skip = missing();
+const patience = { timeout: 90_000 };
+let web = null;
+let browser = null;
+let page = null;
+
+before(async () => {
+  if (skip) return;
+  [web, browser] = await Promise.all([startWeb(), startBrowser()]);
+  page = await openPage(await browser.newContext(), web.address);
+});
+after(async () => {
+  await browser?.close();
+  await web?.stop();
+});
+
+/** Waits until the mean of 2 s of a running session lies between these, mm. */
+const waitForApart = (least, most) => page.waitForFunction(([low, high]) => {
+  const { model } = globalThis.hapnet;
+  const began = model.frame.peers[0]?.session?.at_s ?? 0;
+  const mean = began > 3 ? model.fine.summary("apart_mm:1-2", 2)?.mean : undefined;
+  return mean >= low && mean < high;
+}, [least, most], patience);
+
+const rowsOf = (one) => one.evaluate(() => {
+  const { fine } = globalThis.hapnet.model;
+  return { oldest: fine.oldest, length: fine.length };
+});
+
+test("loads in space, with charts, without a complaint", { skip }, async () => {
+  await page.waitForSelector("#charts .u-wrap canvas");
+  assert.equal(await page.evaluate(() => document.body.dataset.view), "3-D");
+  assert.deepEqual(page.complaints, []);
+});
+
+test("a delay set by keyboard moves the copies apart, reset joins them", { skip }, async () => {
+  await page.click("#reset");
+  await waitForApart(0, 1);
+  const delay = page.locator('.slider[data-setting="delay"] input[type="number"]').first();
+  await delay.focus();
+  await page.keyboard.press("Control+A");
+  await page.keyboard.type("160");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() =>
+    globalThis.hapnet.model.conditions["up.delay"] === "160ms", undefined, patience);
+  await waitForApart(8, 20);
+  await page.click("#reset");
+  await waitForApart(0, 1);
+});
+
+test("the number and the sentence tell one mean", { skip }, async () => {
+  const [number, sentence] = await page.evaluate(() =>
+    ["apart", "sentence"].map((id) => document.getElementById(id).textContent));
+  const said = /(?:is|within) ([0-9.]+) mm/.exec(sentence);
+  assert.ok(said, sentence);
+  assert.ok(Math.abs(Number(said[1]) - Math.max(0.1, Number(number))) < 0.051, sentence + number);
+});
+
+test("a second tab follows, and has the history", { skip }, async () => {
+  const second = await openPage(page.context(), web.address);
+  const [first, other] = [await rowsOf(page), await rowsOf(second)];
+  assert.ok(other.oldest < first.oldest + 5, `${other.oldest} s, ${first.oldest} s`);
+  await page.locator('.slider[data-setting="loss"] input[type="number"]').first().fill("7");
+  await page.keyboard.press("Enter");
+  await second.waitForFunction(() =>
+    document.querySelector('.slider[data-setting="loss"] input[type="number"]').value === "7",
+  undefined, patience);
+  await page.click("#reset");
+  await second.reload();
+  await second.waitForFunction(() => globalThis.hapnet?.model.fine.length > 100);
+  assert.ok((await rowsOf(second)).oldest < other.oldest + 5, "a reload keeps the history");
+  await second.close();
+});
+
+test("without WebGL, and without modules, it draws flat", { skip }, async () => {
+  for (const pattern of [null, /three\.|uPlot\.iife/]) {
+    const flat = await openPage(await browser.newContext(), web.address, async (one) => {
+      if (pattern) await one.route(pattern, (route) => route.abort());
+      else {
+        await one.addInitScript(() => {
+          HTMLCanvasElement.prototype.getContext = new Proxy(
+            HTMLCanvasElement.prototype.getContext,
+            { apply: (get, canvas, [kind]) => (kind === "2d" ? get.call(canvas, kind) : null) },
+          );
+        });
+      }
+    });
+    assert.equal(await flat.evaluate(() => document.body.dataset.view), "flat");
+    await flat.waitForSelector(".view canvas");
+    await flat.waitForSelector(".plot canvas");
+    await flat.context().close();
+  }
+});
+
+test("fits 390 and 1440 pixels; the header takes two lines at 1280", { skip }, async () => {
+  for (const width of [390, 1280, 1440]) {
+    await page.setViewportSize({ width, height: 900 });
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= width, `${wide} px of ${width}`);
+  }
+  await page.setViewportSize({ width: 1280, height: 900 });
+  const high = await page.evaluate(() => document.querySelector(".bar").offsetHeight);
+  assert.ok(high < 95, `${high} px`);
+});
+
+test("every control has a name, and the keys reach them in order", { skip }, async () => {
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll("button, input, select, textarea")]
+      .filter((one) => !one.labels?.length && !one.ariaLabel && !one.textContent.trim())
+      .map((one) => one.outerHTML));
+  assert.deepEqual(nameless, []);
+  assert.equal(await page.evaluate(() =>
+    document.querySelectorAll('[tabindex]:not([tabindex="0"])').length), 0);
+  await page.evaluate(() => { document.activeElement.blur(); scrollTo(0, 0); });
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.className), "skip");
+});
+
+test("what the server does not offer is not there", { skip }, async () => {
+  const [state, shown] = await page.evaluate(() => {
+    const { keep, pace } = globalThis.hapnet.model.state;
+    const seen = (id) => document.getElementById(id).offsetParent !== null;
+    return [[keep.available, pace !== null], [seen("keep"), seen("pace")]];
+  });
+  assert.deepEqual(shown, state);
+});

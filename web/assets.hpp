@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hapnet::web {
+
+/// A file of the page that is compiled in.
+struct Asset {
+    std::string_view name; // "app.js", "paint/arrows.js"
+    std::string_view bytes;
+    std::string_view packed; // by gzip; empty: that would be no smaller
+};
+
+/// All of them; a generated file has them.
+[[nodiscard]] std::span<const Asset> assets();
+
+/// What a browser is to take a file for, by its name's ending.
+[[nodiscard]] std::string_view media_type(std::string_view name);
+
+/// The page as it is served, and where its files are.
+class Page {
+public:
+    Page();
+
+    /// index.html, in which @@FILE@@ stands for the path of FILE.
+    [[nodiscard]] const std::string& index() const { return index_; }
+    /// nullptr: no file is at this path.
+    [[nodiscard]] const Asset* find(std::string_view path) const;
+    /// Of all files together, in hexadecimal digits: it is part of their paths.
+    [[nodiscard]] const std::string& hash() const { return hash_; }
+
+private:
+    std::string hash_;
+    std::string index_;
+};
+
+} // namespace hapnet::web

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// When something happened: on the server's own timeline, and by the calendar.
+struct Moment {
+    double at_s = 0.0;
+    std::int64_t unix_ms = 0;
+};
+
+/// Something that a person should see in the log of the page.
+struct Event {
+    Moment at;
+    std::string kind; // "conditions", "peer", ...: docs/formats/live.md
+    std::string text;
+    std::int64_t generation = 0; // 0: none
+    std::vector<std::string> files{};
+    nlohmann::ordered_json set = nullptr; // the settings that were asked for
+};
+
+/// The last events, numbered from 1.
+class Events {
+public:
+    static constexpr std::size_t kept_max = 100;
+
+    /// The event as the page gets it: {"type":"event","id":..}.
+    const nlohmann::ordered_json& add(const Event& event);
+
+    [[nodiscard]] const std::deque<nlohmann::ordered_json>& kept() const { return kept_; }
+
+private:
+    std::int64_t count_ = 0;
+    std::deque<nlohmann::ordered_json> kept_;
+};
+
+} // namespace hapnet::web

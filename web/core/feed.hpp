@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "web/core/frames.hpp"
+#include "web/core/history.hpp"
+#include "web/core/pairing.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// Figures of a live frame by the names that a trap's condition uses: "apart_mm", "a.late_us.max".
+/// What is not known is not among them.
+using Figures = std::map<std::string, double, std::less<>>;
+
+/// Joins the frames of all peers and of the emulator to live frames: docs/formats/live.md. Does no
+/// I/O and reads no clock: feed it with take_...(), drain it with next().
+class Feed {
+public:
+    struct Source {
+        std::uint16_t id = 0; // of a peer
+        std::string boot_id;  // clocks of one machine are one
+
+        friend bool operator==(const Source&, const Source&) = default;
+    };
+
+    /// The peers, in the order of their ids. Other ones than before: all begins anew.
+    void set_peers(std::vector<Source> peers);
+    [[nodiscard]] const std::vector<Source>& peers() const { return peers_; }
+
+    /// `place` is that in peers().
+    void take_peer(std::size_t place, PeerFrame frame);
+    void take_emulator(EmulatorFrame frame);
+    /// Its frames have ended: live frames have null instead.
+    void lose_peer(std::size_t place);
+    void lose_emulator() { emulator_ = {}; }
+    /// Charts begin anew, as another run does.
+    void forget();
+
+    /// All but the beginning, which is each page's own: `,"at_s":...}`. nullopt: nothing is
+    /// attached. Adds a row to the history.
+    [[nodiscard]] std::optional<std::string> next(double at_s, base::TimePoint now);
+
+    /// Of the newest live frame.
+    [[nodiscard]] const Figures& figures() const { return figures_; }
+    [[nodiscard]] const History& history() const { return history_; }
+    [[nodiscard]] std::optional<std::uint64_t> generation() const;
+    /// Of the emulator, or of the last that was attached.
+    [[nodiscard]] const std::vector<std::string>& paths() const { return known_paths_; }
+
+    /// All names that figures() may have with these peers and paths.
+    [[nodiscard]] std::vector<std::string> names() const;
+
+private:
+    template <typename Frame>
+    struct Newest {
+        std::optional<Frame> frame;
+        bool is_new = false; // since the live frame before
+    };
+    struct Pair {
+        std::size_t a = 0;
+        std::size_t b = 0;
+        std::optional<Apart> apart;
+        double force_apart_n = unknown;
+        double uncertainty_ms = unknown;
+    };
+
+    [[nodiscard]] Pair pair_of(std::size_t a, std::size_t b) const;
+    [[nodiscard]] const PeerFrame::Heard* heard_by(std::size_t place, std::uint16_t from) const;
+    [[nodiscard]] std::vector<Pair> pairs() const;
+    void note_figures(const std::vector<Pair>& pairs);
+    void note_way(const std::string& name, const EmulatorFrame::Way& way);
+    void note_history(double at_s, const std::vector<Pair>& pairs);
+
+    std::vector<Source> peers_;
+    std::vector<Newest<PeerFrame>> newest_; // as peers_
+    std::vector<Track> tracks_;             // as peers_
+    Newest<EmulatorFrame> emulator_;
+    std::vector<std::string> known_paths_; // also while no emulator is attached
+    Figures figures_;
+    History history_;
+};
+
+} // namespace hapnet::web

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::web {
+
+/// What a request says of itself, as far as it decides whether it is let in. nullopt: the header
+/// is not there.
+struct Asked {
+    std::string_view method; // "GET"
+    std::string_view target; // "/api/state", with its query
+    std::optional<std::string_view> host{};
+    std::optional<std::string_view> origin{};
+    std::optional<std::string_view> fetch_site{}; // Sec-Fetch-Site
+    std::optional<std::string_view> content_type{};
+    std::optional<std::string_view> token{}; // X-Hapnet-Token
+    bool is_upgrade = false;                 // to a WebSocket
+};
+
+/// Why a request is not let in.
+struct Refusal {
+    int status = 403;
+    std::string error;        // a sentence for a person
+    std::string_view allow{}; // of 405: the methods that work
+};
+
+/// Decides who may ask for what: docs/use/web.md. The page's address is known to the user's
+/// browser, which any website can make ask; so nothing but host, origin and token counts.
+class Gate {
+public:
+    struct Setup {
+        std::uint16_t port = 0;
+        std::vector<std::string> hosts{}; // besides loopback: "lab.example:8460", as typed
+        std::string token;                // in hexadecimal digits, not empty
+    };
+
+    explicit Gate(Setup setup);
+
+    /// nullopt: it is let in.
+    [[nodiscard]] std::optional<Refusal> refuses(const Asked& asked) const;
+
+    /// Whether this is the token; takes as long for every text of its length.
+    [[nodiscard]] bool is_token(std::string_view text) const;
+
+private:
+    [[nodiscard]] bool is_own(std::string_view authority) const;
+    [[nodiscard]] bool is_own_origin(std::string_view origin) const;
+    [[nodiscard]] std::optional<Refusal> refuses_site(const Asked& asked) const;
+
+    Setup setup_;
+};
+
+/// What a path is: what may be done with it, and whether that needs the token.
+struct Route {
+    std::string_view path;    // one that ends with '/' stands for all below
+    std::string_view methods; // "GET, HEAD"
+    bool is_open = false;     // without a token
+};
+
+/// nullptr: there is no such path. `target` may have a query.
+[[nodiscard]] const Route* route_of(std::string_view target);
+
+/// A target without its query.
+[[nodiscard]] std::string_view path_of(std::string_view target);
+
+/// Whether "127.0.0.1", "[::1]" or "localhost", all without a port, is this machine itself. The
+/// whole of 127.0.0.0/8 is; nothing that merely begins so.
+[[nodiscard]] bool is_loopback_name(std::string_view name);
+
+} // namespace hapnet::web

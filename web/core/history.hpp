@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// The figures of past live frames, so that a page that comes later sees its charts at once: all of
+/// two minutes, and the extremes of every eight of twenty. Of bounded size. NaN: not known.
+class History {
+public:
+    static constexpr std::size_t rows_max = 120UL * 60UL;
+    static constexpr std::size_t every = 8;
+    static constexpr std::size_t coarse_max = 20UL * 60UL * 60UL / every;
+    /// What does not fit is left out: 8 peers are 28 pairs and 28 links.
+    static constexpr std::size_t columns_max = 256;
+
+    /// Other columns than before: it begins anew. The first is the time.
+    void set_columns(std::vector<std::string> columns);
+    void clear();
+
+    /// One value to each column.
+    void add(const std::vector<double>& row);
+
+    [[nodiscard]] std::size_t size() const { return rows_.size(); }
+    [[nodiscard]] std::size_t coarse_size() const { return coarse_.size(); }
+
+    /// {"type":"history",...}, and the answer to GET /api/history; see docs/formats/live.md.
+    [[nodiscard]] std::string fine_json() const;
+    [[nodiscard]] std::string coarse_json() const;
+
+private:
+    struct Extremes {
+        std::vector<float> least;
+        std::vector<float> greatest;
+        double at_s = 0.0; // of the first row
+    };
+
+    std::vector<std::string> columns_;
+    struct Row {
+        double at_s = 0.0;
+        std::vector<float> values; // of the other columns
+    };
+    std::deque<Row> rows_;
+    std::deque<Extremes> coarse_;
+    Extremes growing_;
+    std::size_t grown_ = 0; // rows in it
+};
+
+} // namespace hapnet::web

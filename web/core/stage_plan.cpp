@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "web/core/stage_plan.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+namespace hapnet::web {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t seed_max = (std::int64_t{1} << 53) - 1; // that JavaScript counts exactly
+
+/// Reads the members of a request onto a choice; the first trouble is remembered.
+class ChoiceReader {
+public:
+    explicit ChoiceReader(const Json& json) : json_{json} {}
+
+    void one_of(const char* key, const std::vector<std::string>& all, std::string& into)
+    {
+        const auto found = json_.find(key);
+        if (found == json_.end()) return;
+        if (found->is_string() &&
+            std::ranges::find(all, found->get_ref<const std::string&>()) != all.end()) {
+            into = found->get<std::string>();
+        } else {
+            fail(fmt::format("\"{}\" must be one of {}", key, fmt::join(all, ", ")));
+        }
+    }
+
+    template <typename Number>
+    void number(const char* key, std::int64_t least, std::int64_t most, Number& into)
+    {
+        const auto found = json_.find(key);
+        if (found == json_.end()) return;
+        if (found->is_number_integer() && *found >= least && *found <= most) {
+            into = found->get<Number>();
+        } else {
+            fail(fmt::format("\"{}\" must be a whole number from {} to {}", key, least, most));
+        }
+    }
+
+    void truth(const char* key, bool& into)
+    {
+        const auto found = json_.find(key);
+        if (found == json_.end()) return;
+        if (found->is_boolean()) {
+            into = found->get<bool>();
+        } else {
+            fail(fmt::format("\"{}\" must be true or false", key));
+        }
+    }
+
+    void refuse_others()
+    {
+        constexpr std::array known{"do",    "mode",    "task", "algorithm", "preset",
+                                   "peers", "seconds", "seed", "loop"};
+        for (const auto& [name, value] : json_.items()) {
+            if (std::ranges::find(known, name) == known.end()) {
+                fail(fmt::format("\"{}\" is not known here", name));
+            }
+        }
+    }
+
+    void fail(std::string why)
+    {
+        if (why_.empty()) why_ = std::move(why);
+    }
+
+    [[nodiscard]] const std::string& why() const { return why_; }
+
+private:
+    const Json& json_;
+    std::string why_;
+};
+
+std::string pair_name(int a, int b) { return fmt::format("{}-{}", a, b); }
+
+/// Tasks for more than two hands.
+bool is_for_many(std::string_view task) { return task == "T7" || task == "T8"; }
+
+} // namespace
+
+nlohmann::ordered_json Choices::json() const
+{
+    return {{"modes", modes},
+            {"tasks", tasks},
+            {"algorithms", algorithms},
+            {"presets", presets},
+            {"peers", {peers_min, peers_max}},
+            {"seconds", {seconds_min, seconds_max}}};
+}
+
+Choices all_choices(std::vector<std::string> presets)
+{
+    Choices choices;
+    choices.tasks = {"P1", "T1", "T2", "T3", "T4", "T5", "T6", "T7", "T8", "T9", "T10"};
+    choices.algorithms = {"base", "dead-reckoning", "sep"};
+    choices.presets = std::move(presets);
+    return choices;
+}
+
+nlohmann::ordered_json Choice::json() const
+{
+    return {{"mode", mode},     {"task", task},   {"algorithm", algorithm},
+            {"preset", preset}, {"peers", peers}, {"seconds", seconds},
+            {"seed", seed}};
+}
+
+base::Result<Choice> choice_of(const nlohmann::ordered_json& request, const Choice& before,
+                               const Choices& choices)
+{
+    Choice choice = before;
+    ChoiceReader in{request};
+    in.one_of("mode", choices.modes, choice.mode);
+    in.one_of("task", choices.tasks, choice.task);
+    in.one_of("algorithm", choices.algorithms, choice.algorithm);
+    in.one_of("preset", choices.presets, choice.preset);
+    in.number("peers", choices.peers_min, choices.peers_max, choice.peers);
+    in.number("seconds", choices.seconds_min, choices.seconds_max, choice.seconds);
+    in.number("seed", 1, seed_max, choice.seed);
+    in.truth("loop", choice.loop);
+    in.refuse_others();
+    if (!in.why().empty()) return base::fail(in.why());
+    if (choice.peers > 2 && !is_for_many(choice.task)) {
+        return base::fail(fmt::format("task {} is for two peers; with {} choose T7 or T8",
+                                      choice.task, choice.peers));
+    }
+    return choice;
+}
+
+Start emulator_start(const Choice& choice, const StageFolders& folders)
+{
+    Start start{.words = {folders.programs + "/hapnet-emulator"},
+                .socket = folders.sockets + "/emulator.sock",
+                .log = folders.results + "/emulator.log"};
+    auto& words = start.words;
+    if (choice.peers == 2) {
+        words.insert(words.end(), {"--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0"});
+    } else {
+        for (int a = 1; a <= choice.peers; ++a) {
+            for (int b = a + 1; b <= choice.peers; ++b) {
+                words.emplace_back("--link");
+                words.push_back(pair_name(a, b) + "=127.0.0.1:0,127.0.0.1:0");
+            }
+        }
+    }
+    words.insert(words.end(),
+                 {"--profile", choice.preset, "--seed", std::to_string(choice.seed), "--control",
+                  start.socket, "--stats", folders.results + "/emulator.json"});
+    return start;
+}
+
+base::Result<Places> places_in(std::string_view ready_line, int peers)
+{
+    Places places;
+    std::string_view rest = ready_line;
+    while (!rest.empty()) {
+        const auto end = rest.find(' ');
+        const auto word = rest.substr(0, end);
+        rest = end == std::string_view::npos ? "" : rest.substr(end + 1);
+        const auto sign = word.find('=');
+        if (sign == std::string_view::npos) continue;
+        const auto name = word.substr(0, sign);
+        const auto value = word.substr(sign + 1);
+        const auto comma = value.find(',');
+        if (peers == 2 && name == "a") places.emplace("1-2", value);
+        if (peers == 2 && name == "b") places.emplace("2-1", value);
+        const auto dash = name.find('-');
+        if (comma == std::string_view::npos || dash == std::string_view::npos) continue;
+        places.emplace(name, value.substr(0, comma));
+        places.emplace(fmt::format("{}-{}", name.substr(dash + 1), name.substr(0, dash)),
+                       value.substr(comma + 1));
+    }
+    for (int a = 1; a <= peers; ++a) {
+        for (int b = 1; b <= peers; ++b) {
+            if (a == b || places.contains(pair_name(a, b))) continue;
+            return base::fail(fmt::format("the emulator does not say where peer {} is to send what "
+                                          "is for peer {}",
+                                          a, b));
+        }
+    }
+    return places;
+}
+
+Start peer_start(int id, const Choice& choice, const StageFolders& folders, const Places& places)
+{
+    base::ensure(id >= 1 && id <= choice.peers);
+    const std::string name = fmt::format("peer-{}", id);
+    Start start{.words = {folders.programs + "/hapnet-peer", "--id", std::to_string(id)},
+                .socket = fmt::format("{}/{}.sock", folders.sockets, name),
+                .log = fmt::format("{}/{}.log", folders.results, name)};
+    auto& words = start.words;
+    if (choice.peers == 2) {
+        words.insert(words.end(),
+                     {"--listen", "127.0.0.1:0", "--remote", places.at(pair_name(id, 3 - id))});
+    } else {
+        for (int other = 1; other <= choice.peers; ++other) {
+            if (other == id) continue;
+            words.emplace_back("--peer");
+            words.push_back(fmt::format("{}={}", other, places.at(pair_name(id, other))));
+        }
+    }
+    words.insert(words.end(),
+                 {"--device", "sim", "--task", choice.task, "--algorithm", choice.algorithm,
+                  "--seed", std::to_string(choice.seed), "--duration",
+                  fmt::format("{}s", choice.seconds), "--control", start.socket, "--record",
+                  fmt::format("{}/{}.rec", folders.results, name), "--stats",
+                  fmt::format("{}/{}.json", folders.results, name)});
+    return start;
+}
+
+} // namespace hapnet::web

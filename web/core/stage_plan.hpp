@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hapnet::web {
+
+/// The sets that a page may choose from. Nothing else of what a page says reaches a command line.
+struct Choices {
+    std::vector<std::string> modes{"live"};
+    std::vector<std::string> tasks;
+    std::vector<std::string> algorithms;
+    std::vector<std::string> presets;
+    int peers_min = 2;
+    int peers_max = 8;
+    int seconds_min = 5;
+    int seconds_max = 600;
+
+    [[nodiscard]] nlohmann::ordered_json json() const;
+};
+
+/// The sets of this version.
+[[nodiscard]] Choices all_choices(std::vector<std::string> presets);
+
+/// What the stage is to play.
+struct Choice {
+    std::string mode = "live";
+    std::string task = "P1";
+    std::string algorithm = "base";
+    std::string preset = "paper-delay-160";
+    int peers = 2;
+    int seconds = 30;
+    std::int64_t seed = 1;
+    bool loop = true;
+
+    friend bool operator==(const Choice&, const Choice&) = default;
+    [[nodiscard]] nlohmann::ordered_json json() const;
+};
+
+/// `before`, with what the request says instead. The error names what is wrong and what would be
+/// right. Members that are not known are refused, "do" apart.
+[[nodiscard]] base::Result<Choice> choice_of(const nlohmann::ordered_json& request,
+                                             const Choice& before, const Choices& choices);
+
+/// The folders of a run.
+struct StageFolders {
+    std::string programs; // where hapnet-emulator and hapnet-peer are
+    std::string sockets;  // of mode 0700
+    std::string results;  // of this run
+};
+
+/// The words of a command, the program first; and the control socket that it makes.
+struct Start {
+    std::vector<std::string> words;
+    std::string socket;
+    std::string log; // for what it says
+};
+
+/// The emulator of a choice: one path of two peers, a link for every two of more.
+[[nodiscard]] Start emulator_start(const Choice& choice, const StageFolders& folders);
+
+/// Where peers send to, by "1-2": what peer 1 sends to reach peer 2. Of the line that the emulator
+/// prints when it is ready. The error says that it is not that line.
+using Places = std::map<std::string, std::string, std::less<>>;
+[[nodiscard]] base::Result<Places> places_in(std::string_view ready_line, int peers);
+
+/// A peer, 1 to choice.peers; simulated, always. `places` is of places_in().
+[[nodiscard]] Start peer_start(int id, const Choice& choice, const StageFolders& folders,
+                               const Places& places);
+
+} // namespace hapnet::web

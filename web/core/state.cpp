@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "web/core/state.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace hapnet::web {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The last part of a path: the rest is of no use to a page.
+std::string file_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+/// The member of a reply; null where there is none.
+Json member(const Json& reply, const char* key)
+{
+    const auto found = reply.is_object() ? reply.find(key) : reply.end();
+    return found == reply.end() ? Json(nullptr) : *found;
+}
+
+Json emulator_json(const EmulatorState& emulator)
+{
+    Json json{{"attached", emulator.is_attached}, {"socket", file_of(emulator.socket)}};
+    for (const char* key : {"generation", "conditions", "live", "timeline"}) {
+        json[key] = member(emulator.shown, key);
+    }
+    json["paths"] = emulator.paths;
+    json["error"] = text_or_null(emulator.error);
+    return json;
+}
+
+/// The place of a scene among those that were seen before, where it is added if it is new.
+Json place_of(const Json& scene, Json& scenes)
+{
+    if (!scene.is_object()) return nullptr;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        if (member(scenes[i], "hash") == member(scene, "hash")) return i;
+    }
+    scenes.push_back(scene);
+    return scenes.size() - 1;
+}
+
+Json peer_json(const PeerState& peer, std::size_t place, const std::string& first_boot_id,
+               Json& scenes)
+{
+    Json json{{"id", peer.id()},
+              {"letter", std::string(1, static_cast<char>('A' + static_cast<int>(place % 26)))},
+              {"attached", peer.is_attached},
+              {"socket", file_of(peer.socket)},
+              {"scene", place_of(peer.scene, scenes)}};
+    for (const char* key :
+         {"task", "algorithm", "device", "state", "says", "phase", "session", "seed", "duration_s",
+          "elapsed_s", "tick_rate_hz", "governor", "fault", "boot_id"}) {
+        json[key] = member(peer.shown, key);
+    }
+    const bool is_same = !peer.boot_id().empty() && peer.boot_id() == first_boot_id;
+    json["clock"] = is_same ? "same" : "offset";
+    json["error"] = text_or_null(peer.error);
+    return json;
+}
+
+} // namespace
+
+std::uint16_t PeerState::id() const
+{
+    const Json id = member(shown, "peer_id");
+    return id.is_number_unsigned() && id <= 65535 ? id.get<std::uint16_t>() : std::uint16_t{0};
+}
+
+std::string PeerState::boot_id() const
+{
+    const Json boot_id = member(shown, "boot_id");
+    return boot_id.is_string() ? boot_id.get<std::string>() : "";
+}
+
+nlohmann::ordered_json state_json(double at_s, const EmulatorState& emulator,
+                                  const std::vector<PeerState>& peers,
+                                  const nlohmann::ordered_json& others)
+{
+    Json scenes = Json::array();
+    Json all = Json::array();
+    for (std::size_t i = 0; i < peers.size(); ++i) {
+        all.push_back(peer_json(peers[i], i, peers.front().boot_id(), scenes));
+    }
+    Json json{{"mode", "live"},
+              {"at_s", at_s},
+              {"emulator", emulator_json(emulator)},
+              {"peers", std::move(all)},
+              {"scenes", std::move(scenes)}};
+    json.update(others);
+    return json;
+}
+
+nlohmann::ordered_json help_for(const EmulatorState& emulator, const std::vector<PeerState>& peers,
+                                bool has_stage)
+{
+    const bool has_peer =
+        std::ranges::any_of(peers, [](const PeerState& peer) { return peer.is_attached; });
+    if (emulator.is_attached || has_peer) return nullptr;
+    if (has_stage) return "nothing runs: press start";
+    if (emulator.socket.empty() && peers.empty()) {
+        return "nothing is attached: run hapnet-web --stage, or name the sockets: hapnet-web "
+               "--emulator SOCKET --peer SOCKET --peer SOCKET";
+    }
+    return "nothing answers on the sockets: start hapnet-emulator and hapnet-peer with --control";
+}
+
+} // namespace hapnet::web

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// What is known of an emulator.
+struct EmulatorState {
+    std::string socket; // empty: none is wanted
+    bool is_attached = false;
+    nlohmann::ordered_json shown = nullptr; // its last reply to show
+    std::vector<std::string> paths{};
+    std::string error{};
+};
+
+/// What is known of a peer.
+struct PeerState {
+    std::string socket;
+    bool is_attached = false;
+    nlohmann::ordered_json shown = nullptr; // its last reply to show
+    nlohmann::ordered_json scene = nullptr; // its reply to scene
+    std::string error{};
+
+    /// 0: not known yet.
+    [[nodiscard]] std::uint16_t id() const;
+    [[nodiscard]] std::string boot_id() const;
+};
+
+/// The state that pages get: docs/formats/live.md. `peers` are in the order of the live frames;
+/// the members of `others` follow as they are.
+[[nodiscard]] nlohmann::ordered_json state_json(double at_s, const EmulatorState& emulator,
+                                                const std::vector<PeerState>& peers,
+                                                const nlohmann::ordered_json& others);
+
+/// What a person can do who sees nothing: null while something is attached.
+[[nodiscard]] nlohmann::ordered_json help_for(const EmulatorState& emulator,
+                                              const std::vector<PeerState>& peers, bool has_stage);
+
+} // namespace hapnet::web

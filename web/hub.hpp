@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+#include "web/core/events.hpp"
+#include "web/core/feed.hpp"
+#include "web/core/state.hpp"
+#include "web/core/trap.hpp"
+#include "web/daemon.hpp"
+#include "web/stage.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::web {
+
+/// A page that looks: what is sent to it. The texts are shared by all pages.
+struct Viewer {
+    using Text = std::shared_ptr<const std::string>;
+    std::function<void(Text)> tell;
+    /// A live frame without its beginning, which has the page's own numbers.
+    std::function<void(const std::string& body)> frame;
+};
+
+/// An answer to a request.
+struct Reply {
+    int status = 200;
+    std::string body;
+    std::string type = "application/json";
+    std::string file{};        // served instead of the body
+    std::string attached_as{}; // the name that a browser is to save it under
+};
+using OnReply = std::function<void(Reply)>;
+
+[[nodiscard]] Reply error_reply(int status, std::string_view error);
+
+/// Between daemons, stage and pages: joins frames, passes requests on, tells everybody what has
+/// changed. Knows nothing of HTTP.
+class Hub {
+public:
+    static constexpr base::Duration frame_every{std::chrono::microseconds{16'667}};
+    static constexpr std::size_t viewers_max = 8;
+
+    explicit Hub(boost::asio::io_context& io);
+
+    /// What runs already; an empty path: none.
+    void attach(const std::string& emulator, const std::vector<std::string>& peers);
+    /// The stage that pages may use.
+    void offer(Stage::Setup setup, bool begins);
+
+    /// Call it every frame_every.
+    void tick(base::TimePoint now);
+
+    /// nullopt: too many look already. Tells it what has been so far.
+    [[nodiscard]] std::optional<std::uint64_t> join(Viewer viewer);
+    void leave(std::uint64_t id) { viewers_.erase(id); }
+    [[nodiscard]] bool is_full() const { return viewers_.size() >= viewers_max; }
+
+    /// Of a request that the gate has let in. `path` is without query.
+    void answer(std::string_view path, const std::string& body, const OnReply& on_reply);
+
+private:
+    using Json = nlohmann::ordered_json;
+
+    struct PeerDaemon {
+        std::unique_ptr<Daemon> daemon;
+        PeerState state;
+        std::size_t place = 0; // in the feed
+    };
+
+    [[nodiscard]] double at_s() const;
+    [[nodiscard]] Json state() const;
+    void note(const std::string& kind, const std::string& text);
+    void note(Event event);
+    void tell_all(const Viewer::Text& text);
+    void tell_state(base::TimePoint now);
+    void step_trap(base::TimePoint now);
+
+    void set_daemons(const std::string& emulator, const std::vector<std::string>& peers);
+    void set_emulator(const std::string& path);
+    void add_peer(const std::string& path);
+    void on_emulator_frame(std::string_view line);
+    void on_peer_frame(PeerDaemon& peer, std::string_view line);
+    void ask_emulator_to_show();
+    void ask_peer_to_show(const std::shared_ptr<PeerDaemon>& peer);
+    void ask_for_scene(const std::shared_ptr<PeerDaemon>& peer);
+    void order_peers();
+
+    void answer_emulator(const Json& request, const OnReply& on_reply);
+    void answer_stage(const Json& request, const OnReply& on_reply);
+    void answer_trap(const Json& request, const OnReply& on_reply);
+    void answer_mark(const Json& request, const OnReply& on_reply);
+    void answer_file(std::string_view path, const OnReply& on_reply) const;
+    void answer_metrics(const OnReply& on_reply);
+    [[nodiscard]] Reply files() const;
+    void find_files(int run);
+
+    struct File {
+        std::string name; // "run-1/peer-1.rec"
+        std::string path;
+        std::string kind;
+        int run = 0;
+    };
+
+    boost::asio::io_context& io_;
+    base::TimePoint begun_;
+    Feed feed_;
+    Trap trap_;
+    Events events_;
+    std::unique_ptr<Stage> stage_;
+    std::unique_ptr<Daemon> emulator_;
+    EmulatorState emulator_state_;
+    std::uint64_t own_generation_ = 0; // that a request of a page has made
+    std::uint64_t shown_generation_ = 0;
+    bool is_showing_ = false;
+    std::vector<std::shared_ptr<PeerDaemon>> peers_; // in the order of the feed
+    std::map<std::uint64_t, Viewer> viewers_;
+    std::uint64_t next_viewer_ = 1;
+    bool has_news_ = true; // of the state
+    std::optional<base::TimePoint> next_state_;
+    std::optional<base::TimePoint> next_look_; // at what daemons say of themselves
+    std::vector<File> files_;                  // appended to only
+    std::string metrics_;
+    std::optional<base::TimePoint> metrics_until_;
+};
+
+} // namespace hapnet::web

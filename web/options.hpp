@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/net/program.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// What the command line asks for.
+struct Options {
+    std::string emulator;           // a control socket; empty: none
+    std::vector<std::string> peers; // control sockets
+    bool stage = false;             // may start daemons of its own
+    std::string out;                // of the stage: where results go
+    std::string listen;             // an address without a port; empty: loopback
+    std::uint16_t port = 8460;
+    bool is_port_chosen = false;
+    std::vector<std::string> hosts; // other names under which it is asked
+    std::string token_file;         // empty: a token of its own
+    std::string url_file;           // empty: none
+    bool keeps_stopped = false;     // --stopped: the stage waits for its button
+};
+
+[[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words);
+
+} // namespace hapnet::web

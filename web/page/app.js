@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Puts the page together: the feed fills the model, and each part shows its share of it.
+
+import { get } from "./api.js";
+import { ChartPanel } from "./chartpanel.js";
+import { Conditions } from "./conditions.js";
+import { announce, byId, fillSelect, say } from "./dom.js";
+import { Events } from "./events.js";
+import { openFeed } from "./feed.js";
+import { Lamps } from "./lamps.js";
+import { Model } from "./model.js";
+import { Network } from "./network.js";
+import { Orbit } from "./orbit.js";
+import { Pace } from "./pace.js";
+import { Stage } from "./stage.js";
+import { Timeline } from "./timeline.js";
+import { Trap } from "./trap.js";
+import { farthestOf, sentenceOf, verdictOf } from "./verdict.js";
+import { Wishes } from "./wishes.js";
+import { Worlds } from "./worlds.js";
+
+const describeMs = 250;
+
+/** The painter in space, or the flat one where modules or WebGL are missing. */
+const painterFor = async (container) => {
+  try {
+    return (await import("./scene3d.js")).makePainter(container);
+  } catch {
+    container.querySelector("canvas.space")?.remove();
+    return (await import("./sceneflat.js")).makePainter(container);
+  }
+};
+
+const chartMaker = async () => {
+  try {
+    return (await import("./charts.js")).makeChart;
+  } catch {
+    return (await import("./strips.js")).makeChart;
+  }
+};
+
+const model = new Model();
+const orbit = new Orbit();
+const worlds = new Worlds(byId("worlds"), model, orbit);
+const lamps = new Lamps(byId("wire"), model);
+const pace = new Pace(model);
+const timeline = new Timeline(model, (seconds) => pace.seek(seconds));
+const events = new Events(model);
+let charts = null;
+
+const tell = (text, isError) => {
+  say(byId("effect"), text);
+  byId("effect").classList.toggle("error", isError);
+  if (isError) announce(text);
+};
+const lasts = () => (byId("lasts").checked ? `${Number(byId("lasts-s").value) || 30}s` : null);
+
+/** The letters of the peers that a path joins: "1-2" is that of peers 1 and 2. */
+const ends = (path) => {
+  const found = /^(\d+)-(\d+)$/.exec(path);
+  const letter = (id) => model.peers.find((peer) => peer.id === Number(id))?.letter ?? id;
+  return found
+    ? [letter(found[1]), letter(found[2])]
+    : [model.peers[0]?.letter ?? "A", model.peers[1]?.letter ?? "B"];
+};
+
+const network = new Network({
+  container: byId("sliders"),
+  linked: byId("linked"),
+  order: byId("order"),
+  model,
+  wishes: new Wishes(tell, lasts),
+  ends,
+});
+new Conditions(model, tell);
+new Stage(model);
+new Trap(model);
+
+const showPath = () => {
+  const paths = model.paths.length > 0 ? model.paths : [""];
+  fillSelect(
+    byId("path"),
+    paths.map((path) => [path, ends(path).join(" – ")]),
+  );
+  byId("path-choice").hidden = paths.length < 2;
+  const path = paths.includes(byId("path").value) ? byId("path").value : paths[0];
+  lamps.show(path, ends(path));
+  charts?.show(path, ends(path));
+};
+byId("path").addEventListener("change", showPath);
+byId("linked").addEventListener("change", () => network.refresh());
+
+const rangeButtons = [...document.querySelectorAll("[data-seconds]")];
+rangeButtons.forEach((button) =>
+  button.addEventListener("click", async () => {
+    charts.seconds = Number(button.dataset.seconds);
+    rangeButtons.forEach((one) => one.setAttribute("aria-pressed", String(one === button)));
+    if (charts.seconds > 120)
+      model.addCoarseHistory(await get("/api/history").catch(() => ({ columns: [] })));
+  }),
+);
+
+/** Timing of what is watched: whether its own lateness would spoil what is seen. */
+const timing = () => {
+  const names = [...model.fine.columns.keys()].filter((name) => name.includes("late_us:"));
+  const most = Math.max(...names.map((name) => model.fine.summary(name, 10)?.most ?? 0), 0);
+  if (names.length === 0) return ["", "–"];
+  return most < 1000 ? ["met", "on time"] : ["missed", `${(most / 1000).toFixed(1)} ms late`];
+};
+
+const describe = () => {
+  worlds.describe();
+  lamps.describe();
+  charts?.describe();
+  const first = model.frame?.peers?.find(Boolean);
+  const at = first?.session?.at_s;
+  say(byId("clock"), Number.isFinite(at) ? `t = ${at.toFixed(1)} s` : "t = –");
+  const [kind, words] = timing();
+  byId("timing").className = `pill ${kind}`;
+  say(byId("timing"), words);
+  const verdict = verdictOf(model);
+  byId("verdict").className = `badge tier-${verdict.tier}`;
+  say(byId("verdict"), verdict.says);
+  const back = model.lookingAt === null ? "" : `Looking back. `;
+  const farthest = farthestOf(model);
+  say(byId("sentence"), back + sentenceOf(model, farthest));
+  say(byId("apart"), farthest ? farthest.mean.toFixed(1) : "–");
+};
+
+const showState = (state) => {
+  document.body.dataset.peers = String(model.peers.length);
+  document.body.dataset.matrix = String(model.paths.length > 1);
+  say(byId("mode"), state.mode === "virtual" ? "virtual time" : "live UDP");
+  byId("help").hidden = !state.help;
+  say(byId("help-text"), state.help ?? "");
+  showPath();
+};
+model.addEventListener("state", ({ detail }) => showState(detail));
+
+const connection = ({ open, says }) => {
+  document.body.classList.toggle("offline", !open);
+  byId("connection").hidden = open;
+  say(byId("connection"), says);
+};
+
+let described = 0;
+const turn = (now) => {
+  requestAnimationFrame(turn); // stands still while the tab is hidden
+  worlds.paint();
+  lamps.draw(now);
+  charts?.draw(now);
+  timeline.draw(now);
+  if (now - described < describeMs) return;
+  described = now;
+  describe();
+};
+
+const start = async () => {
+  openFeed({
+    hello: (message) => {
+      events.clear();
+      model.hello(message);
+      say(byId("version"), message.version ?? "");
+    },
+    history: (message) => model.addHistory(message),
+    frame: (message) => model.addFrame(message),
+    state: (message) => model.setState(message.state),
+    event: (message) => model.addEvent(message),
+    reset: () => model.clear(),
+    connection,
+  });
+  const [painter, makeChart] = await Promise.all([painterFor(byId("worlds")), chartMaker()]);
+  worlds.painter = painter;
+  document.body.dataset.view = painter.kind;
+  charts = new ChartPanel(byId("charts"), byId("chart-table"), model, makeChart);
+  if (model.state) showPath();
+  requestAnimationFrame(turn);
+};
+start();
+globalThis.hapnet = { model, orbit }; // for the tests, and for the curious at the console

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Where everything is in one live frame: a Map of sides for the painters, in mm and N.
+
+import { noTurn, subtract } from "./paint/vector.js";
+import { millimetres } from "./scene.js";
+
+const poseOf = (body) => ({
+  at: millimetres(body.position),
+  turn: body.orientation ?? noTurn,
+});
+
+const bodiesOf = (peer, shared) => {
+  const bodies = new Map();
+  if (peer.cube && shared !== null)
+    bodies.set(shared, { at: millimetres(peer.cube), turn: noTurn });
+  for (const body of peer.bodies ?? []) bodies.set(body.body, poseOf(body));
+  return bodies;
+};
+
+/** At equal times, how far the first shared body of each other peer is from this one's. */
+const offsetsOf = (id, pairs) => {
+  const offsets = new Map();
+  for (const pair of pairs) {
+    if (!pair.cube_a || !pair.cube_b) continue;
+    const way = millimetres(subtract(pair.cube_b, pair.cube_a));
+    if (pair.a === id) offsets.set(pair.b, way);
+    if (pair.b === id)
+      offsets.set(
+        pair.a,
+        way.map((value) => -value),
+      );
+  }
+  return offsets;
+};
+
+/** `peers` are those of the state, `shared` the number of the first shared body. */
+export const momentOf = (frame, peers, shared) => {
+  const sides = new Map();
+  (frame.peers ?? []).forEach((peer, place) => {
+    const id = peers[place]?.id ?? peer?.peer;
+    if (!peer || id === undefined) return;
+    sides.set(id, {
+      id,
+      place,
+      hip: peer.hip ? millimetres(peer.hip) : null,
+      force: peer.hand_force ?? null,
+      speed: peer.cube_v ? Math.hypot(...peer.cube_v) : 0,
+      bodies: bodiesOf(peer, shared),
+      offsets: offsetsOf(id, frame.pairs ?? []),
+    });
+  });
+  return { at: frame.at_s, sides };
+};

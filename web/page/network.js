@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// The network under one's fingers: sliders for one path, or a matrix of them for the links of
+// several peers. Both ways together, or each on its own.
+
+import { fillSelect, make, say } from "./dom.js";
+import { conditionsOf } from "./rows.js";
+import { orders, settings } from "./settings.js";
+import { Slider } from "./slider.js";
+
+/** Rows of sliders: the key in front of a setting, what it holds for, and how people call it. */
+const targetsOf = (paths, linked, ends) => {
+  const ways = (path, [a, b]) => {
+    const prefix = path === "" ? "" : `${path}.`;
+    if (linked) {
+      return [{ keys: [`${prefix}up.`, `${prefix}down.`], path, way: "up", label: `${a} ⇄ ${b}` }];
+    }
+    return [
+      { keys: [`${prefix}up.`], path, way: "up", label: `${a} → ${b}` },
+      { keys: [`${prefix}down.`], path, way: "down", label: `${b} → ${a}` },
+    ];
+  };
+  const targets = paths.flatMap((path) => ways(path, ends(path)));
+  if (paths.length < 2) return targets;
+  const all = paths.flatMap((path) => [`${path}.up.`, `${path}.down.`]);
+  return [{ keys: all, path: paths[0], way: "up", label: "all links" }, ...targets];
+};
+
+export class Network {
+  #rows = [];
+  #signature = "";
+
+  /** `ends(path)` gives the letters of the two peers that a path joins. */
+  constructor({ container, linked, order, model, wishes, ends }) {
+    Object.assign(this, { container, linked, order, model, wishes, ends });
+    linked.addEventListener("change", () => this.refresh());
+    fillSelect(
+      order,
+      orders.map((one) => [one, one]),
+    );
+    order.addEventListener("change", () => {
+      const wish = {};
+      for (const { keys } of this.#targets())
+        for (const key of keys) wish[`${key}order`] = order.value;
+      wishes.ask(wish);
+    });
+    model.addEventListener("state", () => this.refresh());
+  }
+
+  #targets() {
+    const paths = this.model.paths.length > 0 ? this.model.paths : [""];
+    return targetsOf(paths, this.linked.checked, this.ends);
+  }
+
+  #slider(target, setting) {
+    const slider = new Slider(setting, `${setting.label}, ${target.label}`, (number) => {
+      const text = setting.write(number);
+      const wish = Object.fromEntries(target.keys.map((key) => [`${key}${setting.key}`, text]));
+      this.wishes.ask(wish, () => {
+        slider.answered();
+        this.#show();
+      });
+    });
+    return slider;
+  }
+
+  /** One path: a block for each setting. Several: a table with a row for each target. */
+  #build(targets) {
+    this.#rows = targets.map((target) => ({
+      target,
+      sliders: settings.map((setting) => this.#slider(target, setting)),
+    }));
+    if (this.model.paths.length > 1) {
+      const head = make(
+        "tr",
+        {},
+        make("td"),
+        ...settings.map((setting) =>
+          make("th", { scope: "col" }, `${setting.label}, ${setting.unit}`),
+        ),
+      );
+      const rows = this.#rows.map(({ target, sliders }) =>
+        make(
+          "tr",
+          {},
+          make("th", { scope: "row" }, target.label),
+          ...sliders.map((slider) => make("td", {}, slider.root)),
+        ),
+      );
+      this.container.replaceChildren(
+        make(
+          "table",
+          { class: "matrix" },
+          make("caption", { class: "quiet" }, "A row for each link, a column for each setting"),
+          make("thead", {}, head),
+          make("tbody", {}, ...rows),
+        ),
+      );
+      return;
+    }
+    this.container.replaceChildren(
+      ...settings.map((setting, column) =>
+        make(
+          "fieldset",
+          {},
+          make("legend", {}, setting.label),
+          ...this.#rows.map(({ target, sliders }) =>
+            make(
+              "div",
+              { class: "way" },
+              this.#rows.length > 1
+                ? make("span", { class: "quiet-label", "aria-hidden": "true" }, target.label)
+                : null,
+              sliders[column].root,
+            ),
+          ),
+        ),
+      ),
+    );
+  }
+
+  refresh() {
+    const targets = this.#targets();
+    const signature = targets.map((target) => target.keys.join() + target.label).join();
+    if (signature !== this.#signature) {
+      this.#signature = signature;
+      this.#build(targets);
+    }
+    this.#show();
+  }
+
+  #show() {
+    for (const { target, sliders } of this.#rows) {
+      const held = conditionsOf(this.model.conditions, target.path, target.way);
+      sliders.forEach((slider) => slider.show(held[slider.setting.key]));
+    }
+    const first = this.#rows[0]?.target;
+    if (!first) return;
+    const order = conditionsOf(this.model.conditions, first.path, first.way).order ?? "keep";
+    if (document.activeElement !== this.order) this.order.value = order;
+    const attached = this.model.state?.emulator?.attached ?? false;
+    for (const input of this.container.querySelectorAll("input")) input.disabled = !attached;
+    this.order.disabled = !attached;
+    const live = this.model.state?.emulator?.live ?? [];
+    const ending = live.filter((one) => one.remaining_s !== null);
+    say(
+      document.getElementById("lasting"),
+      ending
+        .map(
+          (one) =>
+            `${Object.entries(one.settings ?? {})
+              .map((pair) => pair.join(" "))
+              .join(", ")} ` + `for ${Math.ceil(one.remaining_s)} s more`,
+        )
+        .join("; "),
+    );
+  }
+}

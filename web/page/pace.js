@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Virtual time: play, pause, step, how fast, and saving what was done as an experiment.
+
+import { post } from "./api.js";
+import { announce, byId, say } from "./dom.js";
+
+export class Pace {
+  constructor(model) {
+    this.model = model;
+    byId("play").addEventListener("click", () =>
+      this.#ask({ do: this.pace?.state === "playing" ? "pause" : "play" }));
+    byId("step").addEventListener("click", () => this.#ask({ do: "step", by_s: 0.1 }));
+    byId("save").addEventListener("click", () => this.#ask({ do: "save" }));
+    byId("factor").addEventListener("change", ({ target }) =>
+      this.#ask({ do: "factor", factor: target.value === "max" ? "max" : Number(target.value) }));
+    model.addEventListener("state", () => this.#show());
+  }
+
+  get pace() { return this.model.state?.pace; }
+
+  async #ask(request) {
+    try {
+      const reply = await post("/api/pace", request);
+      if (request.do === "save") {
+        const said = reply.file ? `Saved ${reply.file}.` : "Saved as an experiment.";
+        say(byId("pace-says"), said);
+        announce(said);
+      }
+    } catch (error) {
+      say(byId("pace-says"), error.message);
+    }
+  }
+
+  seek(seconds) { return this.#ask({ do: "seek", to_s: seconds }); }
+
+  #show() {
+    const { pace } = this;
+    byId("pace").hidden = !pace;
+    if (!pace) return;
+    say(byId("play"), pace.state === "playing" ? "Pause" : "Play");
+    byId("play").disabled = pace.state === "ended";
+    if (document.activeElement !== byId("factor")) byId("factor").value = String(pace.factor);
+  }
+}

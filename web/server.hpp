@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "web/assets.hpp"
+#include "web/core/gate.hpp"
+#include "web/hub.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// The HTTP server: moves bytes between browsers, the gate and the hub. Every limit is here.
+class Server {
+public:
+    struct Limits {
+        std::uint32_t header_bytes = 8 * 1024;
+        std::uint64_t body_bytes = 64UL * 1024UL;
+        std::size_t connections = 32;
+        int posts_per_second = 40;
+    };
+
+    /// Outlive it.
+    struct Parts {
+        boost::asio::io_context& io;
+        Hub& hub;
+        const Gate& gate;
+        const Page& page;
+    };
+
+    explicit Server(const Parts& parts);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// Accepts those who come to a listening socket.
+    void accept_from(boost::asio::ip::tcp::acceptor acceptor);
+
+    /// Shared with its connections, which may outlive it for a moment.
+    struct State;
+
+private:
+    std::shared_ptr<State> state_;
+};
+
+} // namespace hapnet::web

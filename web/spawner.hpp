@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <string>
+#include <sys/types.h>
+#include <thread>
+#include <vector>
+
+namespace hapnet::web {
+
+/// A command to start.
+struct Command {
+    std::vector<std::string> words; // the program first, with its path
+    std::string log;                // takes stderr, and stdout unless it is wanted
+    bool wants_output = false;
+};
+
+/// A process that was started.
+struct Child {
+    pid_t pid = -1;
+    int ended = -1;  // a descriptor that is readable when it has ended
+    int output = -1; // its stdout, if that was wanted
+};
+
+/// Starts processes from a thread of its own, which keeps the priority that the program was started
+/// with: children inherit that of the thread that starts them, and the server's is low. They get
+/// SIGTERM when this program ends, however it ends.
+class Spawner {
+public:
+    Spawner();
+    ~Spawner();
+    Spawner(const Spawner&) = delete;
+    Spawner& operator=(const Spawner&) = delete;
+
+    /// Throws std::system_error.
+    [[nodiscard]] Child start(const Command& command);
+
+private:
+    void serve();
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::packaged_task<Child()>> tasks_;
+    bool is_over_ = false;
+    std::thread thread_; // last: it uses the others
+};
+
+} // namespace hapnet::web

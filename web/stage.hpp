@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+#include "web/core/stage_plan.hpp"
+#include "web/spawner.hpp"
+
+#include <array>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// Starts an emulator and simulated peers, and stops them: what a page may ask for. The emulator
+/// stays between the sessions of a loop, so that what was set on it holds; peers are new for each.
+class Stage {
+public:
+    struct Handlers {
+        std::function<void()> on_change; // of what json() says
+        std::function<void(const std::string&)> on_event;
+        /// The sockets of what was started; none: all has ended.
+        std::function<void(const std::string& emulator, const std::vector<std::string>& peers)>
+            on_daemons;
+        std::function<void(int run)> on_run_end; // its files are written
+    };
+    struct Setup {
+        std::string programs; // the folder of the programs
+        std::string out;      // results: run-1, run-2, ... are made in it
+        Choices choices;
+    };
+
+    /// Throws std::system_error when the folder of the sockets cannot be made.
+    Stage(boost::asio::io_context& io, Setup setup, Handlers handlers);
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    /// The error says why not. A stage that plays is refused; restart() stops it first.
+    [[nodiscard]] base::Result<void> start(const Choice& choice);
+    void restart(const Choice& choice);
+    void stop();
+    /// Also the loop alone.
+    void set_loop(bool loops);
+
+    /// Call it now and then.
+    void tick(base::TimePoint now);
+
+    [[nodiscard]] bool is_idle() const { return children_.empty(); }
+    [[nodiscard]] const Choice& choice() const { return choice_; }
+    [[nodiscard]] const Choices& choices() const { return setup_.choices; }
+    [[nodiscard]] const std::string& out() const { return setup_.out; }
+    [[nodiscard]] int run() const { return run_; }
+    [[nodiscard]] nlohmann::ordered_json json() const;
+
+private:
+    enum class State : std::uint8_t { stopped, starting, running, stopping, failed };
+    struct Running {
+        std::string name;
+        std::string log;
+        Child child;
+        bool is_emulator = false;
+        boost::asio::posix::stream_descriptor ended;
+        std::optional<boost::asio::posix::stream_descriptor> output;
+        std::string said;
+        std::array<char, 4096> buffer{};
+    };
+
+    void begin_emulator();
+    void begin_peers();
+    void add(const Start& start, const std::string& name, bool is_emulator);
+    void await_end(const std::shared_ptr<Running>& running);
+    void await_output(const std::shared_ptr<Running>& running);
+    void on_output(Running& running);
+    void on_end(const std::shared_ptr<Running>& running);
+    void on_all_peers_ended();
+    void on_empty();
+    void end_children(bool with_emulator);
+    void fail(const std::string& why);
+    void change(State state, std::string says);
+    [[nodiscard]] bool has_peers() const;
+    [[nodiscard]] StageFolders folders() const;
+
+    boost::asio::io_context& io_;
+    Setup setup_;
+    Handlers handlers_;
+    Spawner spawner_;
+    std::string sockets_; // a folder of its own
+    Choice choice_;
+    std::optional<Choice> next_; // to begin with when all has ended
+    State state_ = State::stopped;
+    std::string says_ = "press start";
+    int run_ = 0;
+    Places places_;
+    std::vector<std::shared_ptr<Running>> children_;
+    std::vector<std::string> peer_sockets_;
+    std::optional<base::TimePoint> kill_at_;
+    std::optional<base::TimePoint> begin_at_; // the next session of the loop
+};
+
+} // namespace hapnet::web

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace hapnet::web {
+
+/// A connection to a control socket: lines in and out. Connects again and again while nobody
+/// answers there.
+class Wire {
+public:
+    struct Handlers {
+        std::function<void()> on_open;
+        std::function<void(std::string_view line)> on_line;
+        std::function<void(const std::string& why)> on_lost; // also when it could not connect
+    };
+
+    /// A longer line does not come from a daemon of ours.
+    static constexpr std::size_t line_bytes_max = std::size_t{1} << 20;
+    static constexpr std::size_t unsent_bytes_max = std::size_t{1} << 20;
+
+    Wire(boost::asio::io_context& io, std::string path, Handlers handlers);
+    ~Wire();
+    Wire(const Wire&) = delete;
+    Wire& operator=(const Wire&) = delete;
+
+    /// Nothing is sent while nobody is connected.
+    void send(const std::string& line);
+    /// Breaks the connection; it begins again.
+    void lose(const std::string& why);
+
+    [[nodiscard]] bool is_open() const { return is_open_; }
+
+private:
+    struct Alive {}; // handlers that come after the destructor see that it has gone
+
+    void connect();
+    void connect_after(std::chrono::milliseconds time);
+    void receive();
+    void take_lines();
+    void write();
+
+    std::string path_;
+    Handlers handlers_;
+    boost::asio::io_context& io_;
+    boost::asio::local::stream_protocol::socket socket_;
+    boost::asio::steady_timer timer_;
+    std::shared_ptr<Alive> alive_ = std::make_shared<Alive>();
+    bool is_open_ = false;
+    unsigned generation_ = 0; // of the connection: late handlers of an older one do nothing
+    std::array<char, std::size_t{64} << 10> buffer_{};
+    std::string input_;
+    std::string unsent_;
+    std::string sending_;
+};
+
+} // namespace hapnet::web
