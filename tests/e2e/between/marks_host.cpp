@@ -4,6 +4,8 @@
 // and tells them back:
 //   marks_host tell PORT
 //   marks_host send HOST:PORT CLASS COUNT    prints how many arrived with each ECN codepoint
+// The sender first knocks with empty datagrams that are not ECN-capable, until one is answered: the
+// receiver may begin later.
 #include "proto/net/clock.hpp"
 #include "proto/net/udp_socket.hpp"
 #include "proto/net/wait.hpp"
@@ -30,15 +32,29 @@ using namespace std::chrono_literals;
         net::wait_readable(std::array{socket.descriptor()}, std::nullopt);
         for (const net::Received& one : socket.receive()) {
             const std::array answer{std::byte{one.marks.traffic_class}};
-            std::ignore = socket.send(one.from, answer);
+            const std::span told{answer};
+            std::ignore = socket.send(one.from, one.bytes.empty() ? told.first(0) : told);
         }
     }
+}
+
+/// Whether the receiver answered within 20 s.
+bool knock(net::UdpSocket& socket, const net::Endpoint& target)
+{
+    const auto end = net::monotonic_now() + 20s;
+    while (net::monotonic_now() < end) {
+        std::ignore = socket.send(target, {});
+        net::wait_readable(std::array{socket.descriptor()}, net::monotonic_now() + 50ms);
+        if (!socket.receive().empty()) return true;
+    }
+    return false;
 }
 
 int send(const std::string& where, int traffic_class, int count)
 {
     const auto target = net::resolve(*net::parse_host_port(where));
     net::UdpSocket socket{net::resolve({"0.0.0.0", 0})};
+    if (!knock(socket, target)) return 1;
     const auto set =
         setsockopt(socket.descriptor(), IPPROTO_IP, IP_TOS, &traffic_class, sizeof traffic_class);
     if (set != 0) return 1;
@@ -55,6 +71,7 @@ int send(const std::string& where, int traffic_class, int count)
         }
         net::wait_readable(std::array{socket.descriptor()}, next);
         for (const net::Received& one : socket.receive()) {
+            if (one.bytes.empty()) continue; // a late answer to a knock
             ++arrived.at(std::to_integer<std::size_t>(one.bytes.front()) & 3U);
             ++answers;
         }
