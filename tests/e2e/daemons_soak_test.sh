@@ -6,16 +6,8 @@
 # which is killed and comes back; interrupted, it leaves no program behind and keeps what there is.
 # Usage: daemons_soak_test.sh SCRIPT FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
-
-script=$(realpath "$1")
-programs=$(realpath "$2")
-out=$(mktemp -d)
-trap 'rm -rf "$out"' EXIT
-
-fail() {
-    echo "FAILED: $1" >&2
-    exit 1
-}
+# shellcheck source=tests/e2e/script_lib.sh
+. "$(dirname "${BASH_SOURCE[0]}")/script_lib.sh"
 
 "$script" daemons --quick --programs "$programs" --out "$out/soak" 2>&1 | tee "$out/said"
 grep -q 'every datagram is in one counter: yes' "$out/soak/table.txt" || fail "the emulator's row"

@@ -5,16 +5,8 @@
 # scripts/demo.sh refuses what it does not know, and lets two and three hands turn a cube, for a
 # short time here. Usage: demo_test.sh SCRIPT FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
-
-script=$(realpath "$1")
-programs=$(realpath "$2")
-out=$(mktemp -d)
-trap 'rm -rf "$out"' EXIT
-
-fail() {
-    echo "FAILED: $1" >&2
-    exit 1
-}
+# shellcheck source=tests/e2e/script_lib.sh
+. "$(dirname "${BASH_SOURCE[0]}")/script_lib.sh"
 
 refuses() {
     local code=0

@@ -5,16 +5,8 @@
 # scripts/real-time.sh plays real sessions, short ones here, and writes what it says; interrupted,
 # it leaves no program behind. Usage: real_time_test.sh SCRIPT FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
-
-script=$(realpath "$1")
-programs=$(realpath "$2")
-out=$(mktemp -d)
-trap 'rm -rf "$out"' EXIT
-
-fail() {
-    echo "FAILED: $1" >&2
-    exit 1
-}
+# shellcheck source=tests/e2e/script_lib.sh
+. "$(dirname "${BASH_SOURCE[0]}")/script_lib.sh"
 
 "$script" --quick --duration 3 --programs "$programs" --out "$out" 2>&1 | tee "$out/said"
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/runner/freed_memory.hpp"
-#include "tests/bench/common/host.hpp"
-#include "tests/bench/common/options.hpp"
+#include "tests/bench/common/rows_bench.hpp"
 #include "tests/bench/lab/run_time_error.hpp"
 #include "tests/bench/lab/speed.hpp"
 
@@ -22,10 +21,7 @@ constexpr std::string_view usage =
 base::Result<int> measure(const Options& options)
 {
     Files files{options};
-    const Host machine = host();
-    pin(1);
-    if (!set_fifo(1))
-        net::say(program, "SCHED_FIFO is not allowed here: whatever else runs counts");
+    const Host machine = alone(program);
     lab::runner::keep_freed_memory(); // as hapnet-lab does
 
     std::vector<Row> rows = measure_speed(options.quick ? 5 : 21);

@@ -1,0 +1,19 @@
+# shellcheck shell=bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# What the tests of our scripts have in common. To be sourced with the script and the folder of the
+# programs. Sets script, programs, and out, an empty folder that goes when the test ends.
+set -euo pipefail
+
+# shellcheck disable=SC2034 # used by those that source this
+script=$(realpath "$1")
+# shellcheck disable=SC2034
+programs=$(realpath "$2")
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+fail() {
+    echo "FAILED: $1" >&2
+    exit 1
+}
