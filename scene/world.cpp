@@ -21,7 +21,7 @@ constexpr std::uint8_t is_pushed_mark = 1;
 constexpr std::uint8_t is_twisted_mark = 2;
 
 /// Why a vector cannot be taken.
-std::optional<Refusal> objection(const glm::dvec3& v, double most)
+inline std::optional<Refusal> objection(const glm::dvec3& v, double most)
 {
     if (is_within(v, most)) return std::nullopt;
     return base::is_finite(v) ? Refusal::out_of_range : Refusal::not_finite;

@@ -49,9 +49,9 @@ Datagram DelayLine::pop_sorted()
     return datagram;
 }
 
-std::optional<Datagram> DelayLine::pop(base::TimePoint now)
+std::optional<Datagram> DelayLine::pop_earliest(base::TimePoint now)
 {
-    const auto due = next_due();
+    const auto due = earliest_due();
     if (!base::is_due(due, now)) return std::nullopt;
     if (!times_.empty() && times_.front() == *due) return pop_sorted();
     // Of equal times those in turn were pushed first: what came after one in the heap is due after
@@ -63,13 +63,8 @@ std::optional<Datagram> DelayLine::pop(base::TimePoint now)
     return datagram;
 }
 
-std::optional<base::TimePoint> DelayLine::next_due() const
+std::optional<base::TimePoint> DelayLine::earliest_due() const
 {
-    const bool are_in_turn = heap_.empty() && times_.empty(); // as a constant delay leaves them
-    if (are_in_turn) {
-        if (in_turn_.empty()) return std::nullopt;
-        return in_turn_.front().due;
-    }
     std::optional<base::TimePoint> due;
     if (!in_turn_.empty()) due = in_turn_.front().due;
     if (!heap_.empty()) due = base::earlier(due, heap_.front().datagram.due);

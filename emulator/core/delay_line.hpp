@@ -29,10 +29,20 @@ public:
     void push_sorted(const Datagram& datagram);
 
     /// The earliest datagram that is due at `now`.
-    [[nodiscard]] std::optional<Datagram> pop(base::TimePoint now);
+    [[nodiscard]] std::optional<Datagram> pop(base::TimePoint now)
+    {
+        if (!are_in_turn()) return pop_earliest(now);
+        if (in_turn_.empty() || in_turn_.front().due > now) return std::nullopt;
+        return in_turn_.pop();
+    }
 
     /// When the earliest datagram is due; nullopt when the line is empty.
-    [[nodiscard]] std::optional<base::TimePoint> next_due() const;
+    [[nodiscard]] std::optional<base::TimePoint> next_due() const
+    {
+        if (!are_in_turn()) return earliest_due();
+        if (in_turn_.empty()) return std::nullopt;
+        return in_turn_.front().due;
+    }
 
     [[nodiscard]] std::size_t size() const
     {
@@ -45,6 +55,10 @@ private:
         std::uint64_t rank = 0; // of its push
     };
     static bool leaves_after(const HeapEntry& a, const HeapEntry& b);
+    /// As a constant delay leaves them.
+    [[nodiscard]] bool are_in_turn() const { return heap_.empty() && times_.empty(); }
+    [[nodiscard]] std::optional<base::TimePoint> earliest_due() const;
+    [[nodiscard]] std::optional<Datagram> pop_earliest(base::TimePoint now);
     [[nodiscard]] Datagram pop_sorted();
 
     std::size_t datagrams_max_;

@@ -79,12 +79,10 @@ Director::Director(Profile profile, base::TimePoint start)
       next_change_{find_next_change()}
 {}
 
-bool Director::advance(base::TimePoint now)
+/// Does what has become due since.
+bool Director::change_after(base::TimePoint before)
 {
-    const auto before = position();
-    now_ = std::max(now, now_);
-    if (!base::is_due(next_change_, now_)) return false;
-    const bool has_step = let_later_steps_win(before);
+    const bool has_step = let_later_steps_win(before - begin_);
     const auto ended = std::erase_if(
         overrides_, [&](const Override& one) { return base::is_due(one.until, now_); });
     last_reason_ = has_step ? Reason::step : ended > 0 ? Reason::hand : Reason::ramp;

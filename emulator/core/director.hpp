@@ -8,6 +8,7 @@
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -74,7 +75,12 @@ public:
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
     /// Whether the conditions have changed by `now`. Cheap when next_change() has not come.
-    bool advance(base::TimePoint now);
+    bool advance(base::TimePoint now)
+    {
+        const base::TimePoint before = now_;
+        now_ = std::max(now, now_);
+        return base::is_due(next_change_, now_) && change_after(before);
+    }
 
     /// Does what is asked, at once; changes nothing when it is refused. Apply and Reset are never
     /// refused.
@@ -104,6 +110,7 @@ public:
 private:
     [[nodiscard]] base::Result<std::vector<Override>> overrides_with(const Set& set) const;
     void follow(const Profile& profile, base::TimePoint begin);
+    bool change_after(base::TimePoint before);
     bool let_later_steps_win(base::Duration before);
     bool update();
     [[nodiscard]] std::optional<base::TimePoint> find_next_change() const;

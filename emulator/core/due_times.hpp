@@ -56,7 +56,7 @@ public:
     void refresh(const auto& due_of)
     {
         for (const std::size_t number : marked_) {
-            is_marked_[number] = false;
+            is_marked_[number] = 0;
             if (is_taken_[number]) set(number, due_of(number).value_or(never));
         }
         marked_.clear();
@@ -77,8 +77,8 @@ private:
 
     void mark(std::size_t number)
     {
-        if (is_marked_[number]) return;
-        is_marked_[number] = true;
+        if (is_marked_[number] != 0) return;
+        is_marked_[number] = 1;
         marked_.push_back(number);
     }
 
@@ -87,7 +87,7 @@ private:
     void grow()
     {
         is_taken_.push_back(false);
-        is_marked_.push_back(false);
+        is_marked_.push_back(0);
         marked_.reserve(is_taken_.size()); // nothing is allocated while datagrams pass
         const std::size_t wanted = std::bit_ceil(is_taken_.size());
         if (wanted == leaves()) return;
@@ -120,7 +120,7 @@ private:
 
     std::vector<base::TimePoint> tree_{never, never}; // the root is [1], the leaves the last half
     std::vector<bool> is_taken_;
-    std::vector<bool> is_marked_;
+    std::vector<char> is_marked_; // read and written for each datagram: bytes, not bits
     std::vector<std::size_t> marked_;
 };
 

@@ -62,9 +62,10 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
                       .arrival = last_arrival_,
                       .due = last_arrival_,
                       .bytes = bytes};
-    Fate fate = fate_of(packet);
-    if (!has_destination) fate = without_destination(fate);
-    Admission admission{packet.number, fate, fate.drop, {}};
+    Admission admission{packet.number, fate_of(packet), {}, {}};
+    if (!has_destination) admission.fate = without_destination(admission.fate);
+    const Fate& fate = admission.fate;
+    admission.drop = fate.drop;
     ++statistics_.received;
     statistics_.bytes_in += packet.bytes;
     if (headers.marks.is_congested()) ++statistics_.ce_in;
@@ -112,7 +113,8 @@ bool Link::passes_untouched(const Fate& fate) const
            line_.size() == 0 && displaced_.empty();
 }
 
-bool Link::hold(Datagram datagram, std::uint32_t flow, const Fate& fate)
+/// Its bytes are ours afterwards, if there was room for it.
+bool Link::hold(Datagram& datagram, std::uint32_t flow, const Fate& fate)
 {
     const auto stored = store(datagram);
     if (!stored) return false;
@@ -155,8 +157,9 @@ void Link::release(const Datagram& datagram)
     held_bytes_ -= slab_->release(datagram.slot);
 }
 
-/// Finds the time at which a datagram is to leave that was ready for its delay when it was due.
-void Link::schedule(Datagram datagram, const Fate& fate)
+/// Finds the time at which a datagram is to leave that was ready for its delay when it was due, and
+/// makes that its due time.
+void Link::schedule(Datagram& datagram, const Fate& fate)
 {
     datagram.due += fate.delay;
     if (conditions_.order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
@@ -172,7 +175,7 @@ void Link::schedule(Datagram datagram, const Fate& fate)
         put(datagram);
     }
     if (fate.copy_after) schedule_copy(datagram, *fate.copy_after);
-    release_displaced(datagram.number, datagram.due);
+    if (!displaced_.empty()) release_displaced(datagram.number, datagram.due);
 }
 
 void Link::schedule_copy(Datagram copy, base::Duration after)

@@ -95,10 +95,10 @@ private:
     void refuse_or_pass(Datagram& datagram, std::uint32_t flow, Admission& admission);
     void on_passed(const Queued& passed);
     [[nodiscard]] bool passes_untouched(const Fate& fate) const;
-    [[nodiscard]] bool hold(Datagram datagram, std::uint32_t flow, const Fate& fate);
+    [[nodiscard]] bool hold(Datagram& datagram, std::uint32_t flow, const Fate& fate);
     [[nodiscard]] std::optional<std::span<std::byte>> store(Datagram& datagram);
     void release(const Datagram& datagram);
-    void schedule(Datagram datagram, const Fate& fate);
+    void schedule(Datagram& datagram, const Fate& fate);
     void schedule_copy(Datagram copy, base::Duration after);
     void put(const Datagram& datagram);
     void release_displaced(std::uint64_t scheduled, base::TimePoint due);

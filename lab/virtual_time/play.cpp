@@ -95,7 +95,7 @@ void Play::note(std::size_t side)
         track.samples.reserve(static_cast<std::size_t>(ticks) + 1);
     }
     track.samples.push_back(player.sample());
-    player.add_further_bodies(track.further);
+    if (player.peer().shared().size() > 1) player.add_further_bodies(track.further);
 }
 
 bool Play::has_any_session() const

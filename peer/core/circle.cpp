@@ -107,8 +107,7 @@ void Circle::say_hello(base::TimePoint now)
 {
     for (Member& member : members_) {
         if (!member.handshake().is_hello_due(now)) continue;
-        if (const auto hello = member.handshake().hello(now, heard(now)))
-            member.post(wire::encode(*hello));
+        if (const auto hello = member.handshake().hello(now, heard(now))) member.post(*hello);
     }
 }
 

@@ -60,6 +60,11 @@ public:
     /// From a sample that no queue explains, or a jump, until enough samples agree: nothing should
     /// be predicted from the estimate.
     [[nodiscard]] bool is_in_doubt() const { return agreeing_left_ > 0; }
+    /// The estimate to predict from: nullopt before the first sample, and while in doubt.
+    [[nodiscard]] std::optional<ClockEstimate> trusted() const
+    {
+        return is_in_doubt() ? std::nullopt : estimate();
+    }
 
     void reset() { *this = ClockSync{}; }
 

@@ -103,10 +103,7 @@ public:
 
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
     /// The other side's clock, to predict from: nullopt before the first echo, and while in doubt.
-    [[nodiscard]] std::optional<ClockEstimate> clock() const
-    {
-        return clock_.is_in_doubt() ? std::nullopt : clock_.estimate();
-    }
+    [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.trusted(); }
     /// How it was found.
     [[nodiscard]] const ClockSync& clock_sync() const { return clock_; }
     /// Whether the other side has been heard in this run of it.

@@ -105,8 +105,12 @@ public:
     /// Whether its next state has the body although nothing moves: the first, and every 64th.
     [[nodiscard]] bool is_body_due() const { return current_.sequence % body_every == 1; }
 
-    void post(const wire::Datagram& datagram) { outbox_.put(datagram); }
-    [[nodiscard]] std::optional<wire::Datagram> poll() { return outbox_.take(); }
+    void post(const auto& message)
+    {
+        outbox_.put([&message] { return wire::encode(message); });
+    }
+    /// The next datagram to be sent to it, valid until something is posted; nullptr: none.
+    [[nodiscard]] const wire::Datagram* poll() { return outbox_.take(); }
 
 private:
     void begin_session(base::TimePoint now);

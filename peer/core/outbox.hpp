@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
-#include <optional>
+#include <new>
 #include <tuple>
+#include <type_traits>
 
 namespace hapnet::peer {
 
@@ -16,18 +18,26 @@ class Outbox {
 public:
     void put(const Value& value)
     {
+        put([&value] { return value; });
+    }
+    /// The same for what make() returns, which is made in its place.
+    template <std::invocable Make>
+    void put(Make make)
+    {
+        static_assert(std::is_trivially_destructible_v<Value>);
         if (size_ == capacity) std::ignore = take();
-        values_[(first_ + size_) % capacity] = value;
+        ::new (static_cast<void*>(&values_[(first_ + size_) % capacity])) Value(make());
         ++size_;
     }
 
-    [[nodiscard]] std::optional<Value> take()
+    /// The oldest, which stays where it is until the next put(); nullptr: there is none.
+    [[nodiscard]] const Value* take()
     {
-        if (size_ == 0) return std::nullopt;
-        const Value& oldest = values_[first_]; // stays as it is until put() needs its place
+        if (size_ == 0) return nullptr;
+        const Value& oldest = values_[first_];
         first_ = (first_ + 1) % capacity;
         --size_;
-        return oldest;
+        return &oldest;
     }
 
 private:

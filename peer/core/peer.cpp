@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <utility>
 
 namespace hapnet::peer {
@@ -157,7 +158,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
     const Member::Greeting greeting = other.on_hello(hello, arrived);
     if (greeting.refused) {
         if (greeting.had_session) {
-            other.post(wire::encode(wire::Bye{0, *greeting.refused})); // ours goes on without it
+            other.post(wire::Bye{0, *greeting.refused}); // ours goes on without it
         } else {
             consider_refusal({*greeting.refused, hello.nonce}, arrived);
         }
@@ -212,7 +213,7 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
     const ReceivedState received{.state = state,
                                  .arrived = arrived,
                                  .taken = heard.taken,
-                                 .clock = other.handshake().clock(),
+                                 .clock = RemoteClock{other.handshake().clock_sync()},
                                  .tick = settings_.tick,
                                  .force_max_n = force_max_n_,
                                  .from = from,
@@ -312,11 +313,11 @@ void Peer::note(Phase phase, base::TimePoint now)
     }
 }
 
-Tick Peer::tick(base::TimePoint now, const Hand& hand)
+const Tick& Peer::tick(base::TimePoint now, const Hand& hand)
 {
     const Phase phase = phase_at(now);
     const bool in_session = phase == Phase::running || phase == Phase::hands_off;
-    Tick tick;
+    Tick& tick = *std::construct_at(&tick_); // anew, in its place
     tick.phase = in_session && is_alone() ? Phase::alone : phase;
     for (std::size_t i = 0; i < others_.size(); ++i) {
         const Member& other = others()[i];
@@ -337,6 +338,7 @@ Tick Peer::tick(base::TimePoint now, const Hand& hand)
 /// The one with the lowest id of those that are heard; where none is, of those that were.
 std::size_t Peer::chief() const
 {
+    if (circle_.is_pair()) return 0;
     const auto is_heard = [](const Other& other) { return other.freshness > 0.0; };
     const auto was_heard = [](const Other& other) { return other.remote->body() != nullptr; };
     auto found = std::ranges::find_if(others_, is_heard);
@@ -396,7 +398,7 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .freshness = others_[lowest].freshness,
                               .yields = others()[lowest].id() < settings_.introduction.id,
                               .tick = settings_.tick,
-                              .clock = clock(lowest),
+                              .clock = RemoteClock{others()[lowest].handshake().clock_sync()},
                               .force_max_n = force_max_n_,
                               .lower_ids = circle_.rank(),
                               .hands = &settings_.scene.hands,
@@ -577,9 +579,9 @@ void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
         if (due != std::exchange(said, due)) {
             state.bodies.clear();
             for (std::size_t i = 0; i < shared_.size(); ++i)
-                if ((due >> i & 1U) != 0) state.bodies.add(body_state(i));
+                if ((due >> i & 1U) != 0) state.bodies.add([&] { return body_state(i); });
         }
-        other.post(wire::encode(state));
+        other.post(state);
         ++counters_.sent;
     }
     const Member& first = others().front();
@@ -593,7 +595,7 @@ void Peer::say_bye(base::TimePoint now)
     --byes_left_;
     for (Member& other : circle_.members()) {
         if (other.handshake().has_met() || refusal_)
-            other.post(wire::encode(wire::Bye{other.numbering().number, leaving_because_}));
+            other.post(wire::Bye{other.numbering().number, leaving_because_});
     }
 }
 

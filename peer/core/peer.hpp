@@ -129,14 +129,19 @@ public:
     /// `from`: which of the others sent it, in the order of the roster.
     void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived,
                      std::size_t from = 0);
-    [[nodiscard]] Tick tick(base::TimePoint now, const Hand& hand);
+    /// The result stays until the next call.
+    const Tick& tick(base::TimePoint now, const Hand& hand);
+    /// That of the last call.
+    [[nodiscard]] const Tick& last() const { return tick_; }
 
-    /// The next datagram for one of the others.
-    [[nodiscard]] std::optional<wire::Datagram> poll(std::size_t to = 0)
+    /// The next datagram for one of the others, valid until on_datagram() or tick(); nullptr: there
+    /// is none.
+    [[nodiscard]] const wire::Datagram* poll(std::size_t to = 0)
     {
         return circle_.members()[to].poll();
     }
-    [[nodiscard]] std::optional<Notice> notice() { return notices_.take(); }
+    /// Likewise what a person should be told.
+    [[nodiscard]] const Notice* notice() { return notices_.take(); }
 
     /// Ends the session: byes follow, then finished() holds.
     void leave(wire::ByeReason reason);
@@ -247,6 +252,7 @@ private:
     Outbox<Notice, 32> notices_;
     Counters counters_;
     std::int64_t ticks_played_ = 0; // in the session
+    Tick tick_;                     // the last
 
     Phase phase_ = Phase::waiting;
     bool body_known_ = true; // false: joined late, the others' bodies not all seen yet

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/geometric.hpp>
 
 namespace hapnet::peer {
 
@@ -37,29 +36,24 @@ device::Cue Side::take_cue()
             peer_.is_left(), peer_.share_of_side(), peer_.rank() < 2};
 }
 
-double Side::work_since(const device::Sample& before) const
-{
-    if (!is_in_hand(before) || !is_in_hand(sample_)) return 0.0;
-    return -glm::dot(told_.value, (sample_.hip - before.hip).value) / mount_scale_;
-}
-
 record::TickRow Side::row(std::uint64_t number, const TickTime& time) const
 {
+    const Tick& now = tick();
     record::TickRow row;
     row.tick = number;
     row.due = time.due;
     row.late = time.late;
     row.missed_before = time.missed_before;
-    row.sent_sequence = tick_.sequence;
-    row.phase = tick_.phase;
-    row.touching = tick_.touched.touching;
-    row.remote_touching = tick_.remote_touching;
-    row.remote_fresh = tick_.freshness > 0.0;
+    row.sent_sequence = now.sequence;
+    row.phase = now.phase;
+    row.touching = now.touched.touching;
+    row.remote_touching = now.remote_touching;
+    row.remote_fresh = now.freshness > 0.0;
     row.cube = peer_.position();
     row.cube_velocity = peer_.velocity();
-    row.contact = tick_.force;
+    row.contact = now.force;
     row.device = told_;
-    row.remote = tick_.remote_force;
+    row.remote = now.remote_force;
     for_each_kept_field([&]<typename Kept, typename Value>(Kept record::TickRow::*of_row,
                                                            Value device::Sample::*of_sample) {
         row.*of_row = static_cast<Kept>(sample_.*of_sample);

@@ -10,6 +10,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <span>
 
@@ -54,27 +55,29 @@ public:
     template <RigLike Rig>
     const Tick& step(base::TimePoint now, Rig& rig)
     {
-        const device::Sample before = sample_;
+        const bool was_in_hand = is_in_hand(sample_);
+        const base::Position before = sample_.hip;
         sample_ = rig.read(now);
-        work_j_ += work_since(before);
-        tick_ = peer_.tick(now, {sample_.hip, sample_.velocity, sample_.gripping,
-                                 is_in_hand(sample_), work_j_, told_});
-        told_ = rig.apply(tick_.force, tick_.permitted, now);
+        const bool in_hand = is_in_hand(sample_);
+        if (was_in_hand && in_hand) work_j_ += work_since(before);
+        const Tick& tick = peer_.tick(
+            now, {sample_.hip, sample_.velocity, sample_.gripping, in_hand, work_j_, told_});
+        told_ = rig.apply(tick.force, tick.permitted, now);
         governor_state_ = rig.governor_state();
         if (is_cue_due()) rig.on_cue(take_cue());
-        return tick_;
+        return tick;
     }
 
-    /// The next datagram for one of the others.
-    [[nodiscard]] std::optional<wire::Datagram> poll(std::size_t to = 0) { return peer_.poll(to); }
-    [[nodiscard]] std::optional<Notice> notice() { return peer_.notice(); }
+    /// See Peer.
+    [[nodiscard]] const wire::Datagram* poll(std::size_t to = 0) { return peer_.poll(to); }
+    [[nodiscard]] const Notice* notice() { return peer_.notice(); }
 
     [[nodiscard]] Peer& peer() { return peer_; }
     [[nodiscard]] const Peer& peer() const { return peer_; }
 
     // Of the last step.
     [[nodiscard]] const device::Sample& sample() const { return sample_; }
-    [[nodiscard]] const Tick& tick() const { return tick_; }
+    [[nodiscard]] const Tick& tick() const { return peer_.last(); }
     /// The force that the device was told, at the hand, after the governor.
     [[nodiscard]] base::Force told() const { return told_; }
     /// All of it for a record; its number and time are the loop's to know.
@@ -89,15 +92,17 @@ private:
         return session && cued_ != session->start;
     }
     [[nodiscard]] device::Cue take_cue();
-    /// What the hand did against the force that it was told last, J.
-    [[nodiscard]] double work_since(const device::Sample& before) const;
+    /// What the hand did against the force that it was told last, J, coming from `before`.
+    [[nodiscard]] double work_since(base::Position before) const
+    {
+        return -glm::dot(told_.value, (sample_.hip - before).value) / mount_scale_;
+    }
 
     Peer peer_;
     std::uint16_t id_;
     double mount_scale_;
     double work_j_ = 0.0; // of the hand on its device since the start
     device::Sample sample_;
-    Tick tick_;
     base::Force told_;
     device::GovernorState governor_state_ = device::GovernorState::off;
     std::optional<base::TimePoint> cued_; // the start that the device was told

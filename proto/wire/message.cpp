@@ -68,27 +68,42 @@ inline base::TimePoint take_time(ByteReader& in, bool& canonical)
     return base::TimePoint{base::Duration{nanoseconds}};
 }
 
-using Words = std::array<std::uint32_t, 3>; // of three singles
+using Words = std::array<std::uint32_t, 3>; // three singles, or sums
+
+/// All at once: one question whether there is room, and not three.
+inline void put_words(ByteWriter& out, const Words& words)
+{
+    const Words ordered{base::in_little_endian(words[0]), base::in_little_endian(words[1]),
+                        base::in_little_endian(words[2])};
+    out.raw(std::as_bytes(std::span{ordered}));
+}
+
+/// Zeros where there are too few bytes.
+inline Words take_words(ByteReader& in)
+{
+    Words words{};
+    const auto bytes = in.raw(sizeof(Words));
+    if (bytes.empty()) return words;
+    std::memcpy(words.data(), bytes.data(), sizeof(Words));
+    return {base::in_little_endian(words[0]), base::in_little_endian(words[1]),
+            base::in_little_endian(words[2])};
+}
 
 inline void put_vector(ByteWriter& out, const glm::dvec3& v)
 {
     constexpr double most = std::numeric_limits<float>::max();
     base::ensure(std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most);
     const auto word = [](double component) {
-        return base::in_little_endian(std::bit_cast<std::uint32_t>(static_cast<float>(component)));
+        return std::bit_cast<std::uint32_t>(static_cast<float>(component));
     };
-    const Words words{word(v.x), word(v.y), word(v.z)};
-    out.raw(std::as_bytes(std::span{words}));
+    put_words(out, {word(v.x), word(v.y), word(v.z)});
 }
 
 inline glm::dvec3 take_vector(ByteReader& in)
 {
-    const auto bytes = in.raw(sizeof(Words));
-    if (bytes.empty()) return glm::dvec3{0.0};
-    Words words{};
-    std::memcpy(words.data(), bytes.data(), sizeof(Words));
+    const Words words = take_words(in);
     const auto component = [](std::uint32_t word) {
-        return static_cast<double>(std::bit_cast<float>(base::in_little_endian(word)));
+        return static_cast<double>(std::bit_cast<float>(word));
     };
     return {component(words[0]), component(words[1]), component(words[2])};
 }
@@ -204,13 +219,6 @@ Fault take(ByteReader& in, Hello& hello)
 constexpr std::uint16_t flag_turning = 0x8000;
 static_assert((BodyState::id_max & flag_turning) == 0);
 
-inline void put_sums(ByteWriter& out, const Sums& sums)
-{
-    for (const std::uint32_t sum : sums) out.u32(sum);
-}
-
-inline Sums take_sums(ByteReader& in) { return {in.u32(), in.u32(), in.u32()}; }
-
 inline void put(ByteWriter& out, const BodyState& body)
 {
     base::ensure(body.body <= BodyState::id_max);
@@ -218,23 +226,23 @@ inline void put(ByteWriter& out, const BodyState& body)
     out.u16(static_cast<std::uint16_t>(body.body | turning));
     put_vector(out, body.position.value);
     put_vector(out, body.velocity.value);
-    put_sums(out, body.caused_displacement_um);
-    put_sums(out, body.caused_impulse_uns);
+    put_words(out, body.caused_displacement_um);
+    put_words(out, body.caused_impulse_uns);
     if (!body.turning) return;
     out.u64(body.turning->orientation.code());
     put_vector(out, body.turning->angular_velocity);
-    put_sums(out, body.turning->caused_rotation_urad);
-    put_sums(out, body.turning->caused_angular_impulse_unms);
+    put_words(out, body.turning->caused_rotation_urad);
+    put_words(out, body.turning->caused_angular_impulse_unms);
 }
 
-inline BodyState take_body(ByteReader& in, bool& canonical)
+/// `id`: as it stands before the rest.
+inline BodyState take_body(ByteReader& in, std::uint16_t id, bool& canonical)
 {
-    const std::uint16_t id = in.u16();
     BodyState body{.body = static_cast<std::uint16_t>(id & ~flag_turning),
                    .position = {take_vector(in)},
                    .velocity = {take_vector(in)},
-                   .caused_displacement_um = take_sums(in),
-                   .caused_impulse_uns = take_sums(in),
+                   .caused_displacement_um = take_words(in),
+                   .caused_impulse_uns = take_words(in),
                    .turning = {}};
     if ((id & flag_turning) == 0) return body;
     Turning& turning = body.turning.emplace();
@@ -242,8 +250,8 @@ inline BodyState take_body(ByteReader& in, bool& canonical)
     canonical = canonical && orientation.has_value();
     turning.orientation = orientation.value_or(Orientation{});
     turning.angular_velocity = take_vector(in);
-    turning.caused_rotation_urad = take_sums(in);
-    turning.caused_angular_impulse_unms = take_sums(in);
+    turning.caused_rotation_urad = take_words(in);
+    turning.caused_angular_impulse_unms = take_words(in);
     return body;
 }
 
@@ -253,11 +261,10 @@ constexpr std::int16_t steps_max = 0x7fff;
 
 inline void put_steps(ByteWriter& out, const glm::dvec3& v, double step)
 {
+    base::ensure(base::is_finite(v));
     for (const double component : {v.x, v.y, v.z}) {
-        base::ensure(std::isfinite(component));
         const double limit = steps_max;
-        const auto steps =
-            static_cast<std::int16_t>(base::nearest(std::clamp(component / step, -limit, limit)));
+        const auto steps = base::nearest_in_range(std::clamp(component / step, -limit, limit));
         out.u16(static_cast<std::uint16_t>(steps));
     }
 }
@@ -312,6 +319,7 @@ inline bool is_finite(const State& state)
 
 // What all states have after their type, and what a body adds.
 constexpr std::size_t head_bytes = 82, body_bytes = 50;
+constexpr std::size_t turning_bytes = 44; // and one that can turn
 
 Fault take(ByteReader& in, State& state)
 {
@@ -335,11 +343,14 @@ Fault take(ByteReader& in, State& state)
     while (!in.complete()) {
         const bool fits = in.holds(body_bytes) && state.bodies.size() < bodies_max;
         if (!fits) return "state: wrong length";
-        const BodyState body = take_body(in, canonical);
-        const bool ascends = state.bodies.empty() || (state.bodies.end() - 1)->body < body.body;
-        if (!in.ok()) return "state: wrong length";
+        const std::uint16_t id = in.u16();
+        const bool turns = (id & flag_turning) != 0;
+        if (turns && !in.holds(body_bytes - sizeof id + turning_bytes))
+            return "state: wrong length";
+        const bool ascends =
+            state.bodies.empty() || (state.bodies.end() - 1)->body < (id & ~flag_turning);
         if (!ascends) return "state: not canonical";
-        state.bodies.add(body);
+        state.bodies.add([&] { return take_body(in, id, canonical); });
     }
     canonical = canonical && ((flags & flag_body) != 0) == !state.bodies.empty();
     if (!is_finite(state)) return "state: not finite";

@@ -8,11 +8,13 @@
 #include "proto/base/time.hpp"
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -160,8 +162,17 @@ public:
     /// Ensures that there is room, and that the id is greater than those before it.
     BodyState& add(const BodyState& body)
     {
-        base::ensure(count_ < all_.size() && (count_ == 0 || all_[count_ - 1].body < body.body));
-        return *std::construct_at(&all_[count_++], body);
+        return add([&body] { return body; });
+    }
+    /// The same for what make() returns, which is made in its place.
+    template <std::invocable Make>
+    BodyState& add(Make make)
+    {
+        base::ensure(count_ < all_.size());
+        BodyState& added = *::new (static_cast<void*>(&all_[count_])) BodyState(make());
+        base::ensure(count_ == 0 || all_[count_ - 1].body < added.body);
+        ++count_;
+        return added;
     }
     void clear() { count_ = 0; }
 

@@ -51,7 +51,7 @@ DelayProcess::DelayProcess(const Variation& variation, const base::RandomStream&
       stream_{stream}
 {}
 
-base::Duration DelayProcess::on_packet(const Packet& packet)
+base::Duration DelayProcess::draw(const Packet& packet)
 {
     return std::visit(
         [&](auto& sampler) {

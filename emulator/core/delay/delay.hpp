@@ -101,7 +101,11 @@ public:
 
     /// The delay of the next datagram; that of a jitter may be negative. Every datagram of the
     /// direction is shown here once, in the order of their numbers. Does not allocate.
-    [[nodiscard]] base::Duration on_packet(const Packet& packet);
+    [[nodiscard]] base::Duration on_packet(const Packet& packet)
+    {
+        const auto* constant = std::get_if<ConstantLaw::Sampler>(&sampler_); // the most frequent
+        return constant != nullptr ? constant->at(packet) : draw(packet);
+    }
 
     /// Holds from the next datagram on. A correlated process goes on from where it is, whatever
     /// the law becomes. Cheap, and does not allocate: a ramp changes the law every millisecond.
@@ -114,6 +118,7 @@ private:
         base::Duration at;
     };
 
+    [[nodiscard]] base::Duration draw(const Packet& packet);
     [[nodiscard]] double uniform(const Packet& packet);
 
     DelaySampler sampler_;

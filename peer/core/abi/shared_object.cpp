@@ -147,7 +147,7 @@ void SharedObject::hear(const ReceivedState& received)
     hapnet_received told{};
     put_state(received.state, received.arrived, told.state);
     put_body(received.state.bodies.first(), told.state);
-    told.clock = clock_of(received.clock);
+    told.clock = clock_of(received.clock.estimate());
     told.tick_ns = received.tick.count();
     told.force_max_n = received.force_max_n;
     told.from = static_cast<std::uint32_t>(received.from);
@@ -171,7 +171,7 @@ Outcome SharedObject::tick(scene::World& world, const Situation& situation)
     told.now_ns = count_of(situation.now);
     told.tick_ns = situation.tick.count();
     told.others = others.data();
-    told.clock = clock_of(situation.clock);
+    told.clock = clock_of(situation.clock.estimate());
     told.force_max_n = situation.force_max_n;
     told.yields = flag(situation.yields);
 

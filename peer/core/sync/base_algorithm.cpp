@@ -74,8 +74,8 @@ bool BaseAlgorithm::remote_leads(const Situation& situation, const Presence& rem
     const double remote_n = base::norm(remote.force);
     const bool is_stronger =
         remote_n > own_force_n_ || (remote_n == own_force_n_ && situation.yields);
-    const base::Duration round_trip =
-        situation.clock ? 2 * situation.clock->uncertainty : base::Duration{0};
+    const auto clock = situation.clock.estimate();
+    const base::Duration round_trip = clock ? 2 * clock->uncertainty : base::Duration{0};
     const base::Duration kept = std::max(options_.hysteresis, round_trip);
     if (!lead_ || (lead_->is_remote != is_stronger && situation.now - lead_->since >= kept)) {
         lead_ = Lead{is_stronger, situation.now};

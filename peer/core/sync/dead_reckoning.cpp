@@ -48,7 +48,7 @@ void DeadReckoning::hear(const ReceivedState& received)
     base_.hear(received);
     const auto age = one_way_delay(received);
     if (age) delay_.add(*age);
-    is_clock_known_ = received.clock.has_value();
+    is_clock_known_ = received.clock.estimate().has_value();
     if (!received.taken) return;
     const wire::BodyState* const body = received.state.bodies.first();
     if (body == nullptr && !newest_) return;

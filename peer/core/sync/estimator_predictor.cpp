@@ -80,9 +80,9 @@ EstimatorPredictor::Ahead EstimatorPredictor::ahead(const Situation& situation) 
 {
     if (!has_heard_) return {};
     // How old the last sample is; from its arrival when the other side's clock is unknown.
-    const base::Duration age = situation.clock
-                                   ? (situation.now - hip_.at()) + situation.clock->offset
-                                   : situation.now - arrived_;
+    const auto clock = situation.clock.estimate();
+    const base::Duration age =
+        clock ? (situation.now - hip_.at()) + clock->offset : situation.now - arrived_;
     const base::Duration usual = delay_.median();
     const base::Duration late = age - (usual + options_.fade_after);
     double share = 1.0;

@@ -10,8 +10,9 @@ namespace hapnet::peer {
 
 std::optional<base::Duration> one_way_delay(const ReceivedState& received)
 {
-    if (!received.clock) return std::nullopt;
-    const base::Duration delay = (received.arrived - received.state.sent) + received.clock->offset;
+    const auto clock = received.clock.estimate();
+    if (!clock) return std::nullopt;
+    const base::Duration delay = (received.arrived - received.state.sent) + clock->offset;
     if (std::chrono::abs(delay) > believable_delay) return std::nullopt;
     return delay;
 }

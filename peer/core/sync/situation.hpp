@@ -16,6 +16,26 @@ namespace hapnet::peer {
 /// there by its force.
 inline constexpr std::uint32_t own_hand = 0;
 
+/// The other side's clock as far as it is known. It is worked out when it is asked for, which most
+/// algorithms never do.
+class RemoteClock {
+public:
+    RemoteClock() = default; // not known
+    /// Follows ClockSync::trusted().
+    explicit RemoteClock(const ClockSync& sync) : sync_{&sync} {}
+    /// One that was worked out before.
+    explicit RemoteClock(const std::optional<ClockEstimate>& estimate) : estimate_{estimate} {}
+
+    [[nodiscard]] std::optional<ClockEstimate> estimate() const
+    {
+        return sync_ != nullptr ? sync_->trusted() : estimate_;
+    }
+
+private:
+    const ClockSync* sync_ = nullptr;
+    std::optional<ClockEstimate> estimate_;
+};
+
 /// A state of the other side as it arrives, to be told to an algorithm once and at once: several
 /// may arrive between two ticks.
 struct ReceivedState {
@@ -24,7 +44,7 @@ struct ReceivedState {
     /// False: it is older than one that was taken, or its duplicate. It tells of the network's
     /// delay and of nothing else.
     bool taken = true;
-    std::optional<ClockEstimate> clock{}; // the other side's, as far as it is known
+    RemoteClock clock{};
     base::Duration tick{std::chrono::milliseconds{1}};
     double force_max_n = scene::force_max_n; // that a contact of this scene can exert
     std::size_t from = 0;                    // which of the others sent it, in their order
@@ -48,7 +68,7 @@ struct Situation {
     double freshness = 0.0;        // of its state
     bool yields = false; // at rest, this peer takes the other's pose: one with a lower id is heard
     base::Duration tick{std::chrono::milliseconds{1}}; // from here on as in ReceivedState
-    std::optional<ClockEstimate> clock{};
+    RemoteClock clock{};
     double force_max_n = scene::force_max_n;
     std::size_t lower_ids = 0;                     // so many of the others
     const scene::HandDescription* hands = nullptr; // of the scene; nullptr: without friction

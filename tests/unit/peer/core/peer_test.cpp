@@ -201,7 +201,7 @@ TEST(PeerSession, UnderWayIsNotEndedByAStrangeHelloVersionOrRefusal)
     strange.introduction.scene_hash = 1;
     Peer stranger{strange};
     std::ignore = stranger.tick(pair.now, {});
-    pair.peers[0]->on_datagram(stranger.poll().value().bytes(), pair.now);
+    pair.peers[0]->on_datagram(stranger.poll()->bytes(), pair.now);
     pair.peers[0]->on_datagram(wire::encode(wire::Bye{0, wire::ByeReason::other_task}).bytes(),
                                pair.now);
     const std::array<std::byte, 3> newer{std::byte{'H'}, std::byte{'N'}, std::byte{2}};
@@ -250,7 +250,7 @@ TEST(PeerSession, CountsOnWhenALateHelloOfAnEarlierRunMadeItChangeOverAndBack)
     const std::uint32_t sequence = pair.ticks[0].sequence;
     Peer earlier{settings_of(1, 50)};
     std::ignore = earlier.tick(pair.now, {});
-    pair.peers[0]->on_datagram(earlier.poll().value().bytes(), pair.now);
+    pair.peers[0]->on_datagram(earlier.poll()->bytes(), pair.now);
     pair.run_for(500ms);
     EXPECT_EQ(pair.peers[0]->session()->number, pair.peers[1]->session()->number);
     EXPECT_GT(pair.ticks[0].sequence, sequence);

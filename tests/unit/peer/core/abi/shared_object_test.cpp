@@ -160,7 +160,7 @@ TEST(SharedObject, TellsWhatArrivesAndWhoIsForgotten)
     algorithm.hear({.state = play.state,
                     .arrived = base::TimePoint{995ms},
                     .taken = false,
-                    .clock = ClockEstimate{.offset = 5ns, .uncertainty = 1ns},
+                    .clock = RemoteClock{ClockEstimate{.offset = 5ns, .uncertainty = 1ns}},
                     .from = 4});
     algorithm.forget(6);
     const Outcome outcome = algorithm.tick(play.world, play.situation());

@@ -68,7 +68,7 @@ public:
         algorithm.hear({.state = state,
                         .arrived = at_ms(arrived_ms),
                         .taken = taken,
-                        .clock = clock,
+                        .clock = RemoteClock{clock},
                         .force_max_n = force_max,
                         .start = start});
     }
@@ -82,7 +82,7 @@ public:
                                       .remote = remote,
                                       .freshness = freshness,
                                       .yields = yields,
-                                      .clock = clock,
+                                      .clock = RemoteClock{clock},
                                       .force_max_n = force_max,
                                       .lower_ids = lower_ids,
                                       .start = start,

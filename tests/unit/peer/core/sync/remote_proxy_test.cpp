@@ -45,7 +45,7 @@ struct Pushed {
         copy.algorithm.hear({.state = state,
                              .arrived = at_ms(ms),
                              .taken = taken,
-                             .clock = copy.clock,
+                             .clock = RemoteClock{copy.clock},
                              .force_max_n = force_max});
     }
 
