@@ -146,6 +146,8 @@ function(hapnet_component out thing)
     set(${out} hapnet PARENT_SCOPE)
     if(thing IN_LIST of_emulator)
         set(${out} hapnet-emulator PARENT_SCOPE)
+    elseif(thing STREQUAL "hapnet-web")
+        set(${out} hapnet-web PARENT_SCOPE)
     endif()
 endfunction()
 

@@ -8,8 +8,8 @@ set -euo pipefail
 usage="usage: scripts/package.sh --out DIR [--only emulator]
 Installs what is missing, builds the programs, and leaves in DIR the packages hapnet-emulator (with
 hapnet-ctl and no library of devices) and hapnet (hapnet-peer, hapnet-lab), each with manual pages,
-completions for bash, zsh and fish, and a unit of systemd; hapnet-dev (libraries for C++) and
-python3-hapnet; and a tarball of the programs that runs from any folder and needs no package.
+completions for bash, zsh and fish, and a unit of systemd; hapnet-web, whose page draws with
+modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; and a tarball of the programs that runs from any folder and needs no package.
 --only emulator makes the first alone, and a tarball with its programs.
 Install them with: apt-get install ./DIR/hapnet-emulator_*.deb
 Exits 0 when they are there, 1 when something failed, 2 for an unknown argument, 3 when something
@@ -45,13 +45,14 @@ libdir=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 make() {
     cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
         -DHAPNET_PRECOMPILED=ON -DHAPNET_TESTS=OFF -DHAPNET_PACKAGES=ON -DHAPNET_ONLY="$only" \
+        -DHAPNET_WEB="$([[ -n $only ]] && echo OFF || echo ON)" \
         -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR="$libdir" "$@"
     cmake --build "$build" --parallel "$(nproc)"
 }
 make -DHAPNET_STATIC=OFF
 rm -rf "$build/packages"
 cpack --config "$build/CPackConfig.cmake" -B "$build/packages"
-rm -f "$out"/{hapnet,hapnet-emulator,hapnet-dev,python3-hapnet}_*.deb "$out"/hapnet-*.tar.gz
+rm -f "$out"/{hapnet,hapnet-emulator,hapnet-web,hapnet-dev,python3-hapnet}_*.deb "$out"/hapnet-*.tar.gz
 cp "$build"/packages/*.deb "$out"
 
 # The same objects, linked with archives.
@@ -59,8 +60,9 @@ make -DHAPNET_STATIC=ON
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:[^=]*=//p' "$build/CMakeCache.txt")
 name=hapnet${only:+-$only}-$version-linux-$(uname -m)
 rm -rf "$build/tarball"
-for component in hapnet-emulator ${only:-hapnet}; do
-    [[ $component != emulator ]] || continue
+components=(hapnet-emulator)
+[[ -n $only ]] || components+=(hapnet hapnet-web)
+for component in "${components[@]}"; do
     cmake --install "$build" --component "$component" --prefix "$build/tarball/$name" --strip
 done
 cp README.md LICENSE CHANGELOG.md "$build/tarball/$name"

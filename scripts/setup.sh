@@ -28,7 +28,10 @@ for argument in "$@"; do
     case $argument in
     --test) packages+=("${test_packages[@]}") ;;
     --programs) packages+=("${program_packages[@]}") ;;
-    --package) packages+=("${package_packages[@]}") ;;
+    --package)
+        packages+=("${package_packages[@]}")
+        command -v npm >/dev/null || packages+=(npm) # which need not be Debian's
+        ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) echo "setup: unknown argument '$argument'"$'\n'"$usage" >&2 && exit 2 ;;
     esac

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "lab/cli/compare_command.hpp"
 #include "lab/cli/demo_command.hpp"
 #include "lab/cli/files.hpp"
 #include "lab/cli/options.hpp"
@@ -170,6 +171,22 @@ base::Result<int> run(const RunCommand& command)
 {
     runner::keep_freed_memory();
     return run_experiment(command);
+}
+
+base::Result<int> run(const PlanCommand& command) { return plan_experiment(command); }
+
+base::Result<int> run(const MergeCommand& command)
+{
+    runner::keep_freed_memory();
+    return merge(command);
+}
+
+base::Result<int> run(const CompareCommand& command)
+{
+    return compare_folders(command).map([](const std::string& text) {
+        print(text);
+        return 0;
+    });
 }
 
 base::Result<int> execute(const Command& command)

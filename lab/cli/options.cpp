@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/options.hpp"
 
+#include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/fields.hpp"
 #include "lab/experiment/text.hpp"
+#include "peer/core/sync/algorithm.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
@@ -28,6 +30,10 @@ constexpr const char* footer =
     R"(Examples:
   hapnet-lab run table1 --out results/table1
   hapnet-lab run fig6a --quick --out results/fig6a
+  hapnet-lab plan qos --seeds 100 --out sweep
+  hapnet-lab run sweep --shard 0/16
+  hapnet-lab merge sweep
+  hapnet-lab compare results/a results/b
   hapnet-lab report results
   hapnet-lab report a.rec b.rec
   hapnet-lab analyse a.rec b.rec --json
@@ -196,23 +202,23 @@ void add_explain(cli::Command& command, ExplainCommand& explain, bool& no_sleepi
     command.flag("--json", "Print one JSON object instead of lines", explain.json);
 }
 
-void add_run(cli::Command& command, RunCommand& run, bool& is_list)
+void add_jobs(cli::Command& command, std::optional<unsigned>& jobs)
 {
     constexpr std::uint64_t jobs_max = 1024;
-    command.describe("Runs an experiment in virtual time and writes its results as CSV. Run again "
-                     "after Ctrl-C, or with more seeds, it plays only the missing sessions.");
-    command.add_footer("Examples:\n"
-                       "  hapnet-lab run table1 --out results/table1\n"
-                       "  hapnet-lab run fig6b --seeds 40 --jobs 2 --out results/fig6b\n"
-                       "  hapnet-lab run mine.toml --set both.delay=100ms --out results/mine");
+    command.option("--jobs", "N",
+                   "Number of threads; the results do not depend on it (default: all processors)",
+                   cli::into(jobs, base::Count{1, jobs_max}));
+}
+
+/// Which experiment, and what is changed of it.
+void add_experiment(cli::Command& command, RunCommand& run, const std::string& what)
+{
     command
         .positional("EXPERIMENT",
-                    fmt::format("A file (docs/use/experiments.md), or one of {}",
+                    fmt::format("{}, or one of {}", what,
                                 names_of(experiment::built_in_experiments())),
                     cli::into(run.experiment))
         .required("table1 --out results/table1");
-    command.option("--out", "DIR", "The folder for the results", cli::into(run.out))
-        .required("results/mine");
     command
         .option("--set", "KEY=VALUE",
                 "Another value for a key of the experiment, such as both.delay=100ms; may be given "
@@ -221,26 +227,87 @@ void add_run(cli::Command& command, RunCommand& run, bool& is_list)
         .repeated();
     command.option("--seeds", "N", "Number of seeds (default: the experiment's)",
                    cli::into(run.seeds, base::Count{1, experiment::seeds_max}));
-    command.option("--jobs", "N",
-                   "Number of threads; the results do not depend on it (default: all processors)",
-                   cli::into(run.jobs, base::Count{1, jobs_max}));
     command.option(
         "--criteria", "FILE",
         "Thresholds that a usable session keeps: a file (docs/design/metrics.md), or paper "
         "(default), calibrated on the paper",
         cli::into(run.criteria));
     command.flag("--quick", "Use the values under [quick] of the experiment: rougher", run.quick);
-    command.flag("--list", "Print the names of the built-in experiments and exit", is_list)
-        .instead();
 }
 
-std::string list_of_experiments()
+void add_run(cli::Command& command, RunCommand& run)
 {
-    std::string list;
-    for (const experiment::BuiltInExperiment& one : experiment::built_in_experiments()) {
-        list += std::string{one.name} + "\n";
-    }
-    return list;
+    command.describe("Runs an experiment in virtual time and writes its results as CSV. Run again "
+                     "after Ctrl-C, or with more seeds, it plays only the missing sessions.");
+    command.add_footer("Examples:\n"
+                       "  hapnet-lab run table1 --out results/table1\n"
+                       "  hapnet-lab run fig6b --seeds 40 --jobs 2 --out results/fig6b\n"
+                       "  hapnet-lab run mine.toml --set both.delay=100ms --out results/mine");
+    add_experiment(command, run,
+                   "A file (docs/use/experiments.md), a plan (the folder that hapnet-lab plan "
+                   "wrote)");
+    command.option("--out", "DIR", "The folder for the results (default: of a plan its own)",
+                   cli::into(run.out));
+    command.option("--shard", "I/N",
+                   "Of a plan only the sessions of shard I, from 0 to N-1; they go to DIR/shards, "
+                   "where hapnet-lab merge finds them",
+                   cli::into(run.shard, experiment::parse_shard));
+    add_jobs(command, run.jobs);
+}
+
+void add_plan(cli::Command& command, PlanCommand& plan)
+{
+    command.describe("Writes down an experiment with all files that it needs, to be run in shards, "
+                     "on as many machines as there are, and merged.");
+    command.add_footer("Examples:\n"
+                       "  hapnet-lab plan qos --seeds 100 --out sweep\n"
+                       "  hapnet-lab run sweep --shard 0/16\n"
+                       "  hapnet-lab merge sweep");
+    command.add_exit_codes(exit_codes_without_run);
+    add_experiment(command, plan.run, "A file (docs/use/experiments.md)");
+    command.option("--out", "DIR", "The folder for plan.json", cli::into(plan.run.out))
+        .required("sweep");
+}
+
+void add_merge(cli::Command& command, MergeCommand& merge)
+{
+    command.describe("Writes the results of a plan from the sessions of its shards: the same bytes "
+                     "as one run would, and a digest of them. Exit code 1: sessions are missing.");
+    command.positional("DIR", "The folder that hapnet-lab plan wrote", cli::onto(merge.folders))
+        .required("sweep");
+    command
+        .positional("MORE", "Other folders with shards, from machines with other disks",
+                    cli::onto(merge.folders))
+        .repeated();
+    add_jobs(command, merge.jobs);
+}
+
+void add_compare(cli::Command& command, CompareCommand& compare)
+{
+    command.describe(
+        "Compares two folders of results session by session: the sessions that both have, by the "
+        "same algorithm, in the same task, scene, network and with the same seed. Of what each is "
+        "measured by: the median of B - A with its 95 % interval, and the p of a sign test.");
+    command.add_exit_codes(exit_codes_without_run);
+    command.positional("DIR_A", "A folder with sessions.csv", cli::into(compare.folder_a))
+        .required("results/before results/after");
+    command.positional("DIR_B", "Another", cli::into(compare.folder_b))
+        .required("results/before results/after");
+    command.flag("--json", "Print one JSON object instead of a table", compare.json);
+    command.flag("--csv", "Print the table as CSV", compare.csv);
+}
+
+/// What can be named on a command line and in an experiment, a line each.
+std::string list_of_names()
+{
+    const auto line = [](std::string_view what, const std::string& names) {
+        return fmt::format("{:<12} {}\n", what, names);
+    };
+    return line("experiments", names_of(experiment::built_in_experiments())) +
+           line("criteria", names_of(experiment::built_in_criteria())) +
+           line("scenes", names_of(scene::built_in_scenes())) +
+           line("algorithms", fmt::format("{}", fmt::join(peer::algorithm_names, ", "))) +
+           line("tasks", fmt::format("{}", fmt::join(base::names_of_enum<device::Task>, ", ")));
 }
 
 } // namespace
@@ -253,10 +320,19 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     program.add_exit_codes(exit_codes);
     program.require_command();
 
+    const auto& list_command = program.command("list", "Prints the names of what is built in");
     RunCommand run;
-    bool is_list = false;
     auto& run_command = program.command("run", "Runs an experiment in virtual time");
-    add_run(run_command, run, is_list);
+    add_run(run_command, run);
+    PlanCommand plan;
+    auto& plan_command = program.command("plan", "Writes down an experiment to be run in shards");
+    add_plan(plan_command, plan);
+    MergeCommand merge;
+    auto& merge_command = program.command("merge", "Writes the results of a plan's shards");
+    add_merge(merge_command, merge);
+    CompareCommand compare;
+    auto& compare_command = program.command("compare", "Compares two folders of results");
+    add_compare(compare_command, compare);
     ReportCommand report;
     auto& report_command =
         program.command("report", "Writes a page with the results of a folder or session");
@@ -284,8 +360,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     add_real_time(real_time_command, real_time);
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
-    if (is_list) return net::Answer{list_of_experiments()};
-    if (replay.json && replay.csv) {
+    if (list_command.is_chosen()) return net::Answer{list_of_names()};
+    if ((replay.json && replay.csv) || (compare.json && compare.csv)) {
         return base::fail("--json and --csv exclude each other: give one of them");
     }
     if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
@@ -293,7 +369,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
                           "or give one record");
     }
     explain.sleeping = !no_sleeping;
-    run.command = fmt::format("{}", fmt::join(words, " "));
+    run.command = merge.command = fmt::format("{}", fmt::join(words, " "));
     if (analyse_command.is_chosen()) return Command{analyse};
     if (demo_command.is_chosen()) return Command{demo};
     if (real_time_command.is_chosen()) return Command{real_time};
@@ -301,6 +377,9 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     if (report_command.is_chosen()) return Command{report};
     if (explain_command.is_chosen()) return Command{explain};
     if (run_command.is_chosen()) return Command{std::move(run)};
+    if (plan_command.is_chosen()) return Command{std::move(plan)};
+    if (merge_command.is_chosen()) return Command{std::move(merge)};
+    if (compare_command.is_chosen()) return Command{std::move(compare)};
     return Command{exported};
 }
 

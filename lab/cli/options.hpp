@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/experiment/shard.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/program.hpp"
 
@@ -71,20 +72,43 @@ struct ReportCommand {
     std::vector<std::string> more{}; // of more than two peers
 };
 
-/// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`
+/// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`,
+/// `hapnet-lab run PLAN [--shard I/N] [--out DIR]`
 struct RunCommand {
-    std::string experiment; // a file, or the name of a built-in one
+    std::string experiment; // a file, the name of a built-in one, or a plan
     std::vector<std::string> settings;
     std::string criteria = "paper"; // a file, or the name of built-in ones
     std::optional<std::uint32_t> seeds;
     std::optional<unsigned> jobs; // nullopt: as many as there are processors
     bool quick = false;
-    std::string out;
-    std::string command; // what was typed
+    std::optional<experiment::Shard> shard; // of a plan; nullopt: all of it
+    std::string out;                        // empty: of a plan its folder
+    std::string command;                    // what was typed
+};
+
+/// `hapnet-lab plan EXPERIMENT [--set key=value ...] [--seeds N] [--quick] --out DIR`
+struct PlanCommand {
+    RunCommand run; // what is to be run
+};
+
+/// `hapnet-lab merge DIR [MORE ...] [--jobs N]`
+struct MergeCommand {
+    std::vector<std::string> folders; // that of the plan, and others with shards
+    std::optional<unsigned> jobs;     // as of RunCommand
+    std::string command;              // what was typed
+};
+
+/// `hapnet-lab compare DIR_A DIR_B [--json | --csv]`
+struct CompareCommand {
+    std::string folder_a;
+    std::string folder_b;
+    bool json = false;
+    bool csv = false;
 };
 
 using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
-                             RealTimeCommand, ReplayCommand, ReportCommand, RunCommand>;
+                             RealTimeCommand, ReplayCommand, ReportCommand, RunCommand, PlanCommand,
+                             MergeCommand, CompareCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

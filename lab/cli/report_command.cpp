@@ -23,14 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The result files in one folder and in its replay/.
+/// The result files in one folder and in its replay/. Single sessions are shown beside Table 1
+/// alone; other experiments can have a million of them.
 void collect(const fs::path& folder, std::vector<std::string>& paths)
 {
     for (const fs::path& place : {folder, folder / "replay"}) {
         if (!fs::is_directory(place)) continue;
         for (const auto& entry : fs::directory_iterator{place}) {
             const auto path = entry.path().generic_string();
-            if (entry.is_regular_file() && results::is_result_file(path)) paths.push_back(path);
+            const bool is_shown =
+                entry.path().filename() != "sessions.csv" || fs::exists(folder / "table1.csv");
+            if (entry.is_regular_file() && results::is_result_file(path) && is_shown)
+                paths.push_back(path);
         }
     }
 }

@@ -2,30 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/run_command.hpp"
 
+#include "lab/cli/experiment_run.hpp"
 #include "lab/cli/files.hpp"
-#include "lab/cli/host.hpp"
+#include "lab/cli/plan.hpp"
 #include "lab/experiment/criteria_text.hpp"
+#include "lab/experiment/parts.hpp"
 #include "lab/experiment/text.hpp"
-#include "lab/records/kept_play.hpp"
-#include "lab/records/text_table.hpp"
-#include "lab/results/axis_files.hpp"
-#include "lab/results/manifest.hpp"
-#include "lab/results/result_files.hpp"
-#include "lab/runner/progress.hpp"
-#include "lab/runner/runner.hpp"
 #include "peer/shared_object/load.hpp"
 #include "proto/base/version.hpp"
-#include "proto/net/clock.hpp"
-#include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
-#include "proto/record/writer.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <spdlog/fmt/fmt.h>
-#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -34,8 +23,6 @@
 namespace hapnet::lab {
 
 namespace {
-
-constexpr std::string_view program_name = "hapnet-lab";
 
 std::uint64_t hash_of_file(const std::string& path)
 {
@@ -48,7 +35,7 @@ std::uint64_t hash_of_file(const std::string& path)
 std::string program_identity(const experiment::Experiment& experiment)
 {
     std::string identity =
-        fmt::format("{} {:016x}", base::version_line(program_name), hash_of_file("/proc/self/exe"));
+        fmt::format("{} {:016x}", base::version_line("hapnet-lab"), hash_of_file("/proc/self/exe"));
     for (const experiment::NamedAlgorithm& named : experiment.algorithms) {
         const auto* const own = std::get_if<peer::SharedObject>(&named.algorithm);
         if (own != nullptr) identity += fmt::format(" {:016x}", hash_of_file(own->options().file));
@@ -73,196 +60,116 @@ base::Result<void> load_own_algorithms(experiment::Experiment& experiment)
     return {};
 }
 
-/// What an experiment is to find out: as it is stated, and at each value of its axis.
-struct LoadedExperiment {
-    experiment::Experiment whole;
-    std::vector<experiment::AxisPoint> points;
-};
-
-base::Result<LoadedExperiment> load(const RunCommand& command)
+/// What a plan says; `open` gives the texts of the files that it names.
+base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open)
 {
-    const auto overrides = overrides_of(command);
-    auto whole = load_experiment(command.experiment, net::text_of_file, overrides);
+    auto whole = load_experiment(plan.experiment, open, plan.overrides);
     if (!whole) return tl::unexpected{whole.error()};
-    auto points = load_axis_points(command.experiment, net::text_of_file, overrides);
+    auto points = load_axis_points(plan.experiment, open, plan.overrides);
     if (!points) return tl::unexpected{points.error()};
+    const auto criteria = experiment::load_criteria(plan.criteria, open);
+    if (!criteria) return tl::unexpected{criteria.error()};
     auto loaded = load_own_algorithms(*whole);
-    for (auto point = points->begin(); loaded && point != points->end(); ++point)
+    LoadedExperiment experiment{*std::move(whole), {}, *criteria, {}, 0};
+    for (auto point = points->begin(); loaded && point != points->end(); ++point) {
         loaded = load_own_algorithms(point->experiment);
+        for (experiment::Experiment& part : parts_of(point->experiment)) {
+            experiment.jobs += make_jobs(part).size();
+            experiment.parts.push_back({point->value, std::move(part)});
+        }
+    }
     if (!loaded) return tl::unexpected{loaded.error()};
-    return LoadedExperiment{*std::move(whole), *std::move(points)};
+    experiment.program = program_identity(experiment.whole);
+    return experiment;
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text)
+/// The experiment of a plan that this very program has made.
+base::Result<LoadedExperiment> load_plan(const std::string& path)
 {
-    create_folder(path.parent_path().string());
-    net::ResultFile{path.string()}.commit(text);
+    const auto plan = read_plan(path);
+    if (!plan) return tl::unexpected{plan.error()};
+    auto experiment = load(*plan, opener_of(*plan));
+    if (experiment && experiment->program != plan->program) {
+        return base::fail(fmt::format("{} was made by {}, and this is {}: plan again, or use the "
+                                      "same build",
+                                      path, plan->program, experiment->program));
+    }
+    return experiment;
 }
 
-/// A manifest without sessions beside it was written by something else.
-base::Result<void> refuse_foreign(const std::filesystem::path& out)
+std::string folder_of(const std::string& plan)
 {
-    const bool has_sessions = std::filesystem::exists(out / "sessions.jsonl");
-    if (has_sessions || !std::filesystem::exists(out / "manifest.json")) return {};
-    return base::fail(fmt::format("--out: {} holds the results of something else: choose another "
-                                  "folder, or remove it",
-                                  out.string()));
+    const auto folder = std::filesystem::path{plan}.parent_path();
+    return folder.empty() ? "." : folder.string();
 }
 
-/// The run of one experiment into one folder.
-class ExperimentRun {
-public:
-    ExperimentRun(const RunCommand& command, LoadedExperiment loaded,
-                  const metrics::Criteria& criteria)
-        : command_{command},
-          experiment_{std::move(loaded.whole)},
-          points_{std::move(loaded.points)},
-          criteria_{criteria},
-          out_{command.out},
-          start_{net::monotonic_now()},
-          start_s_{net::wall_clock_seconds()}
-    {}
+unsigned thread_count(const std::optional<unsigned>& jobs)
+{
+    return jobs.value_or(std::max(std::thread::hardware_concurrency(), 1U));
+}
 
-    base::Result<int> run()
-    {
-        net::StopSignal stop;
-        auto foreign = refuse_foreign(out_);
-        if (!foreign) return tl::unexpected{std::move(foreign).error()};
-        create_folder(out_.string());
-        const runner::FolderIdentity identity{std::string{name_of(experiment_.kind)},
-                                              experiment_.title};
-        const auto store = runner::SessionStore::open((out_ / "sessions.jsonl").string(), identity,
-                                                      program_identity(experiment_));
-        if (!store) return base::fail("--out: " + store.error().message);
-        if ((*store)->damaged_lines() > 0) {
-            net::say(program_name,
-                     fmt::format("{} lines of {} are damaged and left out",
-                                 (*store)->damaged_lines(), (out_ / "sessions.jsonl").string()));
-        }
-        return run_with(**store, stop);
-    }
+Plan plan_of(const RunCommand& command)
+{
+    Plan plan;
+    plan.experiment = command.experiment;
+    plan.overrides = overrides_of(command);
+    plan.criteria = command.criteria;
+    return plan;
+}
 
-private:
-    base::Result<int> run_with(runner::SessionStore& store, net::StopSignal& stop)
-    {
-        std::vector<results::AxisFiles> found;
-        for (const experiment::AxisPoint& point : points_) {
-            const auto files = files_of(point, store, stop);
-            if (!files) return stopped(store);
-            found.push_back({point.value, *files});
-        }
-        const auto counts = store.counts();
-        write_results(experiment_.axis ? joined_by_axis(experiment_.axis->key, found)
-                                       : std::move(found.front().files));
-        write_manifest(counts, {});
-        fmt::print("{}: {} sessions played, {} reused; results in {}\n", experiment_.title,
-                   counts.played, counts.reused, out_.string());
-        return 0;
-    }
-
-    /// nullopt: it was stopped.
-    std::optional<std::vector<results::File>> files_of(const experiment::AxisPoint& point,
-                                                       runner::SessionStore& store,
-                                                       net::StopSignal& stop) const
-    {
-        runner::ProgressLine line{start_};
-        const runner::Runner runner{store, runner::play_in_virtual_time, thread_count(),
-                                    [&](const runner::RunProgress& progress) {
-                                        line.show(progress, net::monotonic_now());
-                                    }};
-        const auto results = run_all(point.experiment, criteria_, runner, stop);
-        line.finish();
-        if (!results) throw std::runtime_error{results.error().message};
-        if (!*results) return std::nullopt;
-        if (point.experiment.record) write_records(point);
-        auto files = results::make_result_files(point.experiment, criteria_, **results);
-        if (!files) throw std::runtime_error{files.error().message};
-        return *std::move(files);
-    }
-
-    /// records/[VALUE/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed.
-    void write_records(const experiment::AxisPoint& point) const
-    {
-        for (const experiment::Job& job : make_jobs(point.experiment)) {
-            const auto* one = std::get_if<experiment::SessionJob>(&job);
-            const bool is_first =
-                one != nullptr && one->spec.setting.seed.value() == point.experiment.first_seed;
-            if (!is_first) continue;
-            const auto kept = records::play_and_keep(one->spec.setting);
-            if (!kept) throw std::runtime_error{kept.error().message};
-            const auto name = fmt::format("{}-{}", point.experiment.algorithms[one->algorithm].name,
-                                          name_of(one->task));
-            const auto folder = out_ / "records" / point.value / name;
-            create_folder(folder.string());
-            for (std::size_t seat = 0; seat < kept->size(); ++seat) {
-                const records::KeptRecord& of_player = (*kept)[seat];
-                const auto path = folder / fmt::format("peer-{}.rec", seat + 1);
-                record::Writer writer{path.string(), of_player.config, of_player.layout};
-                for (const record::Row& row : of_player.rows) writer.write(row);
-                writer.flush();
-            }
-        }
-    }
-
-    int stopped(const runner::SessionStore& store) const
-    {
-        const auto counts = store.counts();
-        write_manifest(counts, {"stopped before its end"});
-        net::say(program_name,
-                 fmt::format("stopped; {} sessions are kept in {}: the same command goes on from "
-                             "there",
-                             counts.played + counts.reused, out_.string()));
-        return net::exit_failed;
-    }
-
-    void write_results(const std::vector<results::File>& files) const
-    {
-        for (const results::File& file : files) {
-            write_text(out_ / file.path, file.text);
-            if (file.path == "table1.csv" || file.path.starts_with("limits.") ||
-                file.path == "limits_by_axis.csv") {
-                fmt::print("{}\n", records::aligned(file.text));
-            } else if (file.path == "criteria.toml") {
-                fmt::print("{}\n", file.text);
-            }
-        }
-    }
-
-    [[nodiscard]] unsigned thread_count() const
-    {
-        return command_.jobs.value_or(std::max(std::thread::hardware_concurrency(), 1U));
-    }
-
-    void write_manifest(const runner::SessionStore::Counts& counts,
-                        std::vector<std::string> invalid) const
-    {
-        const results::Circumstances circumstances{command_.command, results::utc_text(start_s_),
-                                                   base::to_seconds(net::monotonic_now() - start_),
-                                                   host(), base::version_line(program_name)};
-        const results::RunOutcome outcome{print_criteria(criteria_), counts.played, counts.reused,
-                                          std::move(invalid)};
-        write_text(out_ / "manifest.json",
-                   make_manifest(experiment_, circumstances, outcome).dump(2) + '\n');
-    }
-
-    const RunCommand& command_;
-    experiment::Experiment experiment_;
-    std::vector<experiment::AxisPoint> points_;
-    metrics::Criteria criteria_;
-    std::filesystem::path out_;
-    base::TimePoint start_;
-    double start_s_;
-};
+base::Result<int> run_plan(const RunCommand& command, const std::string& path)
+{
+    if (!command.settings.empty() || command.seeds || command.quick)
+        return base::fail("a plan says it all: --set, --seeds and --quick go with hapnet-lab plan");
+    const auto experiment = load_plan(path);
+    if (!experiment) return tl::unexpected{experiment.error()};
+    const RunPlace place{command.out.empty() ? folder_of(path) : command.out,
+                         thread_count(command.jobs), command.command};
+    return command.shard ? run_shard(*experiment, *command.shard, place)
+                         : run_whole(*experiment, place);
+}
 
 } // namespace
 
 base::Result<int> run_experiment(const RunCommand& command)
 {
-    auto experiment = load(command);
+    if (const auto plan = plan_at(command.experiment); !plan.empty())
+        return run_plan(command, plan);
+    if (command.shard) return base::fail("--shard needs a plan: hapnet-lab plan writes one");
+    if (command.out.empty()) return base::fail("--out is required: --out results/mine");
+    const auto experiment = load(plan_of(command), net::text_of_file);
     if (!experiment) return tl::unexpected{experiment.error()};
-    const auto criteria = experiment::load_criteria(command.criteria, net::text_of_file);
-    if (!criteria) return tl::unexpected{criteria.error()};
-    return ExperimentRun{command, *std::move(experiment), *criteria}.run();
+    return run_whole(*experiment, {command.out, thread_count(command.jobs), command.command});
+}
+
+base::Result<int> plan_experiment(const PlanCommand& planned)
+{
+    const RunCommand& command = planned.run;
+    Plan plan = plan_of(command);
+    const auto experiment = load(plan, opener_into(plan));
+    if (!experiment) return tl::unexpected{experiment.error()};
+    plan.program = experiment->program;
+    create_folder(command.out);
+    const auto path = (std::filesystem::path{command.out} / plan_name).string();
+    write_plan(plan, path);
+    fmt::print("{}: {} jobs in {} parts; {}\n", experiment->whole.title, experiment->jobs,
+               experiment->parts.size(), path);
+    return 0;
+}
+
+base::Result<int> merge(const MergeCommand& command)
+{
+    const auto plan = plan_at(command.folders.front());
+    if (plan.empty()) {
+        return base::fail(fmt::format("{} has no {}: merge the folder that hapnet-lab plan wrote",
+                                      command.folders.front(), plan_name));
+    }
+    const auto experiment = load_plan(plan);
+    if (!experiment) return tl::unexpected{experiment.error()};
+    auto folders = command.folders;
+    folders.front() = folder_of(plan);
+    return merge_shards(*experiment, folders,
+                        {folders.front(), thread_count(command.jobs), command.command});
 }
 
 } // namespace hapnet::lab

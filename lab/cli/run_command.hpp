@@ -7,9 +7,16 @@
 
 namespace hapnet::lab {
 
-/// Carries out an experiment and writes its folder of results. The exit code: 0 done, 1 stopped
-/// before its end. The error: bad input. Throws std::system_error when the folder cannot be
-/// written.
+// The exit code: 0 done, 1 stopped before its end, or sessions are missing. The error: bad input.
+// Throws std::system_error when the folder cannot be written.
+
+/// Carries out an experiment and writes its folder of results; or the shard of a plan.
 [[nodiscard]] base::Result<int> run_experiment(const RunCommand& command);
+
+/// Writes plan.json into a folder.
+[[nodiscard]] base::Result<int> plan_experiment(const PlanCommand& command);
+
+/// Writes the results of a plan from what its shards have played.
+[[nodiscard]] base::Result<int> merge(const MergeCommand& command);
 
 } // namespace hapnet::lab

@@ -70,6 +70,7 @@ Json make_manifest(const experiment::Experiment& experiment, const Circumstances
                      {"sessions", {{"played", outcome.played}, {"reused", outcome.reused}}},
                      {"simulated_s", simulated_s},
                      {"speed_ratio", speed_ratio}});
+    if (!outcome.digest.empty()) manifest["digest"] = outcome.digest;
     return manifest;
 }
 

@@ -17,7 +17,7 @@ struct Circumstances {
     std::string start;   // ISO 8601, UTC
     double wall_time_s = 0.0;
     nlohmann::ordered_json host{};
-    std::string program{}; // "hapnet-lab 0.1.0 (commit abc, GCC 12.2.0)"; empty: several programs
+    std::string program{}; // "hapnet-lab 1.2.3 (commit abc, GCC 12.2.0)"; empty: several programs
 };
 
 /// ISO 8601, UTC, whole seconds.
@@ -32,6 +32,7 @@ struct RunOutcome {
     std::size_t played = 0; // sessions
     std::size_t reused = 0;
     std::vector<std::string> invalid_because{};
+    std::string digest{}; // of all results; empty: there are none
 };
 
 /// manifest.json of an experiment's folder of results.

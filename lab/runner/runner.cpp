@@ -28,15 +28,11 @@ constexpr base::Duration look_interval = 20ms;
 /// The threads of a run and what they share.
 class WorkerPool {
 public:
-    WorkerPool(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
+    WorkerPool(std::span<const Assignment> jobs, const metrics::Criteria& criteria,
                const Runner& runner)
-        : experiment_{experiment},
-          criteria_{criteria},
-          runner_{runner},
-          jobs_{make_jobs(experiment)},
-          results_(jobs_.size())
+        : criteria_{criteria}, runner_{runner}, jobs_{jobs}, results_(jobs_.size())
     {
-        const std::size_t count = std::clamp<std::size_t>(runner.threads, 1, jobs_.size());
+        const auto count = std::min<std::size_t>(std::max(runner.threads, 1U), jobs_.size());
         working_ = count;
         for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
     }
@@ -89,7 +85,8 @@ private:
                 return runner_.play(one, stop_);
             });
         };
-        auto result = run_job(jobs_[index], experiment_, criteria_, play);
+        const auto& [experiment, job] = jobs_[index];
+        auto result = run_job(job, *experiment, criteria_, play);
         if (result) {
             results_[index] = *std::move(result);
             ++jobs_done_;
@@ -106,10 +103,9 @@ private:
         }
     }
 
-    const experiment::Experiment& experiment_;
     const metrics::Criteria& criteria_;
     const Runner& runner_;
-    std::vector<experiment::Job> jobs_;
+    std::span<const Assignment> jobs_;
     std::vector<std::optional<experiment::JobResult>>
         results_; // each written by the thread of its job
     std::atomic<bool> stop_ = false;
@@ -135,10 +131,10 @@ base::Result<experiment::PlayedSession> play_in_virtual_time(const experiment::S
 }
 
 base::Result<std::optional<std::vector<experiment::JobResult>>>
-run_all(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
-        const Runner& runner, net::StopSignal& stop)
+run_all(std::span<const Assignment> jobs, const metrics::Criteria& criteria, const Runner& runner,
+        net::StopSignal& stop)
 {
-    WorkerPool crew{experiment, criteria, runner};
+    WorkerPool crew{jobs, criteria, runner};
     while (!crew.is_over()) {
         net::wait_readable(std::array{stop.descriptor()}, net::monotonic_now() + look_interval);
         if (stop.requested()) {

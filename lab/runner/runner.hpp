@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace hapnet::lab::runner {
@@ -19,6 +20,12 @@ using StoppablePlay = std::function<base::Result<experiment::PlayedSession>(
 /// Plays a session on this thread, in virtual time.
 [[nodiscard]] base::Result<experiment::PlayedSession>
 play_in_virtual_time(const experiment::SessionSpec& spec, const std::atomic<bool>& stop);
+
+/// A job and the experiment that it is of.
+struct Assignment {
+    const experiment::Experiment* experiment = nullptr;
+    experiment::Job job{};
+};
 
 /// How far a run has come.
 struct RunProgress {
@@ -40,7 +47,7 @@ struct Runner {
 /// was requested before the end; the sessions played until then are in the store. Throws what a
 /// thread has thrown.
 [[nodiscard]] base::Result<std::optional<std::vector<experiment::JobResult>>>
-run_all(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
-        const Runner& runner, net::StopSignal& stop);
+run_all(std::span<const Assignment> jobs, const metrics::Criteria& criteria, const Runner& runner,
+        net::StopSignal& stop);
 
 } // namespace hapnet::lab::runner

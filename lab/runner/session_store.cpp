@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
+#include <stdexcept>
 #include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
@@ -49,17 +51,38 @@ Json line_of(const std::string& key, const experiment::PlayedSession& played)
     return line;
 }
 
-std::string whole_text(int descriptor, const std::string& path)
+/// Calls `use` with each line of a file, without its end, and where it begins. Says how long the
+/// file is, and whether its last line has an end.
+struct LinesRead {
+    std::uint64_t length = 0;
+    bool is_whole = true;
+};
+LinesRead for_each_line(const auto& file, const auto& use)
 {
-    std::string text;
-    std::string block(1 << 16, '\0');
+    constexpr std::size_t block = 1 << 20;
+    LinesRead read;
+    std::string text; // of which no line has been found yet
     while (true) {
-        const auto count = ::read(descriptor, block.data(), block.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) refuse_file("read", path);
-        if (count == 0) return text;
-        text.append(block, 0, static_cast<std::size_t>(count));
+        const auto kept = text.size();
+        text.resize(kept + block);
+        const auto count = ::pread(file.descriptor, text.data() + kept, block,
+                                   static_cast<off_t>(read.length));
+        if (count < 0 && errno != EINTR) refuse_file("read", file.path);
+        text.resize(kept + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        if (count == 0) break;
+        const auto begins = read.length - kept;
+        read.length += text.size() - kept;
+        std::size_t begin = 0;
+        for (auto end = text.find('\n', kept); end != std::string::npos;
+             end = text.find('\n', begin)) {
+            use(std::string_view{text}.substr(begin, end - begin), begins + begin);
+            begin = end + 1;
+        }
+        text.erase(0, begin);
     }
+    read.is_whole = text.empty();
+    if (!read.is_whole) use(std::string_view{text}, read.length - text.size());
+    return read;
 }
 
 } // namespace
@@ -69,91 +92,135 @@ SessionStore::open(const std::string& path, const FolderIdentity& identity, std:
 {
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     if (descriptor < 0) refuse_file("write", path);
-    std::unique_ptr<SessionStore> store{new SessionStore{descriptor, path, std::move(program)}};
+    std::unique_ptr<SessionStore> store{new SessionStore{std::move(program)}};
+    store->is_writable_ = true;
+    store->files_.push_back({descriptor, path});
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
         return base::fail(path + " is in use by another run: wait for it, or choose another --out");
     }
-    auto read = store->read(identity);
+    auto read = store->read_last(identity);
     if (!read) return tl::unexpected{std::move(read).error()};
     return store;
 }
 
-SessionStore::SessionStore(int descriptor, std::string path, std::string program)
-    : descriptor_{descriptor}, path_{std::move(path)}, program_{std::move(program)}
-{}
-
-SessionStore::~SessionStore() { close(descriptor_); }
-
-base::Result<void> SessionStore::read(const FolderIdentity& identity)
+base::Result<std::unique_ptr<SessionStore>>
+SessionStore::open_all(std::span<const std::string> paths, const FolderIdentity& identity,
+                       std::string program)
 {
-    const std::string text = whole_text(descriptor_, path_);
-    if (text.empty()) {
-        append(header_of(identity).dump());
-        return {};
+    std::unique_ptr<SessionStore> store{new SessionStore{std::move(program)}};
+    for (const std::string& path : paths) {
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        if (descriptor < 0) refuse_file("read", path);
+        store->files_.push_back({descriptor, path});
+        auto read = store->read_last(identity);
+        if (!read) return tl::unexpected{std::move(read).error()};
     }
+    return store;
+}
+
+SessionStore::SessionStore(std::string program) : program_{std::move(program)} {}
+
+SessionStore::~SessionStore()
+{
+    for (const File& file : files_) close(file.descriptor);
+}
+
+base::Result<void> SessionStore::read_last(const FolderIdentity& identity)
+{
+    const std::size_t number = files_.size() - 1;
+    File& file = files_.back();
+    const Json expected = header_of(identity);
+    std::optional<Json> other; // that the file begins with
     bool is_first = true;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const auto end = std::min(text.find('\n', begin), text.size());
-        const Json line = Json::parse(text.substr(begin, end - begin), nullptr, false);
-        begin = end + 1;
-        if (std::exchange(is_first, false)) {
-            if (line.is_object() && line == header_of(identity)) continue;
-            return base::fail(fmt::format(
-                "{} holds the sessions of {}: choose another --out, or remove that file", path_,
-                line.is_object()
-                    ? fmt::format("another experiment, '{}'", line.value("title", std::string{}))
-                    : "something else"));
+    const auto read = for_each_line(file, [&](std::string_view line, auto offset) {
+        if (!std::exchange(is_first, false)) {
+            if (!other) take_line(line, {number, offset, static_cast<std::uint32_t>(line.size())});
+            return;
         }
-        take_line(line);
+        const Json header = Json::parse(line, nullptr, false);
+        if (header != expected) other = header;
+    });
+    file.length = read.length;
+    if (other) {
+        return base::fail(fmt::format(
+            "{} holds the sessions of {}: choose another --out, or remove that file", file.path,
+            other->is_object()
+                ? fmt::format("another experiment, '{}'", other->value("title", std::string{}))
+                : "something else"));
     }
-    if (text.back() != '\n') append(""); // the next session starts a new line
+    if (!is_writable_) return {};
+    if (read.length == 0) append(expected.dump());
+    if (!read.is_whole) append(""); // the next session starts a new line
     return {};
 }
 
-void SessionStore::take_line(const nlohmann::ordered_json& line)
+void SessionStore::take_line(std::string_view text, const Place& place)
 {
+    const Json line = Json::parse(text, nullptr, false);
     const bool has_key = line.is_object() && line.value("key", Json{}).is_string();
-    auto played = has_key ? played_from(line) : std::nullopt;
-    if (!played) {
+    if (!has_key || !played_from(line)) {
         ++damaged_;
         return;
     }
-    const auto key = line["key"].get<std::string>();
-    sessions_.insert_or_assign(key, *std::move(played));
-    from_before_.insert(key);
+    Place& known = places_[std::hash<std::string>{}(line["key"].get<std::string>())];
+    known = place;
+    known.is_from_before = true;
 }
 
-void SessionStore::append(const std::string& line) const
+void SessionStore::append(const std::string& line)
 {
+    File& file = files_.front();
     const std::string text = line + '\n';
     for (std::size_t written = 0; written < text.size();) {
-        const auto count = write(descriptor_, text.data() + written, text.size() - written);
+        const auto count = write(file.descriptor, text.data() + written, text.size() - written);
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) refuse_file("write", path_);
+        if (count < 0) refuse_file("write", file.path);
         written += static_cast<std::size_t>(count);
+        file.length += static_cast<std::uint64_t>(count);
     }
+}
+
+experiment::PlayedSession SessionStore::read_at(const Place& place, const std::string& key) const
+{
+    const File& file = files_[place.file];
+    std::string text(place.length, '\0');
+    const auto count = ::pread(file.descriptor, text.data(), text.size(),
+                               static_cast<off_t>(place.offset));
+    if (count < 0) refuse_file("read", file.path);
+    const Json line = Json::parse(text, nullptr, false);
+    auto played = line.is_object() && line.value("key", Json{}) == key ? played_from(line)
+                                                                       : std::nullopt;
+    if (!played) throw std::runtime_error{file.path + " was changed by something else"};
+    return *std::move(played);
+}
+
+std::optional<SessionStore::Place> SessionStore::place_of(const std::string& key)
+{
+    std::unique_lock lock{mutex_};
+    changed_.wait(lock, [&] { return being_played_.count(key) == 0; });
+    const auto known = places_.find(std::hash<std::string>{}(key));
+    if (known == places_.end()) {
+        being_played_.insert(key);
+        return std::nullopt;
+    }
+    if (std::exchange(known->second.is_from_before, false)) ++counts_.reused;
+    return known->second;
 }
 
 base::Result<experiment::PlayedSession> SessionStore::played(const experiment::SessionSpec& spec,
                                                              const experiment::PlaySession& play)
 {
     const auto key = key_of(spec, program_);
-    {
-        std::unique_lock lock{mutex_};
-        changed_.wait(lock, [&] { return being_played_.count(key) == 0; });
-        if (const auto known = sessions_.find(key); known != sessions_.end()) {
-            counts_.reused += from_before_.erase(key);
-            return known->second;
-        }
-        being_played_.insert(key);
-    }
+    if (const auto place = place_of(key)) return read_at(*place, key);
     const auto leave = [this, &key](const base::Result<experiment::PlayedSession>& played) {
         const std::lock_guard lock{mutex_};
         being_played_.erase(key);
         changed_.notify_all();
-        if (!played) return;
-        sessions_.emplace(key, *played);
-        append(line_of(key, *played).dump());
+        if (!played || !is_writable_) return;
+        const std::string line = line_of(key, *played).dump();
+        const Place place{0, files_.front().length, static_cast<std::uint32_t>(line.size())};
+        append(line);
+        places_.emplace(std::hash<std::string>{}(key), place);
         ++counts_.played;
     };
     try {

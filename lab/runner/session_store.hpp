@@ -7,12 +7,16 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
 
 namespace hapnet::lab::runner {
 
@@ -22,9 +26,9 @@ struct FolderIdentity {
     std::string title;
 };
 
-/// The sessions that an experiment has played, in a file of JSON lines that each is appended to
-/// as soon as it is over: what ends a run loses none of them. May be used by several threads; no
-/// session is played twice.
+/// The sessions that an experiment has played, in files of JSON lines that each is appended to as
+/// soon as it is over: what ends a run loses none of them. In memory is only where each stands. May
+/// be used by several threads; no session is played twice.
 class SessionStore {
 public:
     /// Reads what is there, and keeps others from writing. The error: the file belongs to another
@@ -32,12 +36,17 @@ public:
     /// `program` is who plays: sessions of another one are not known.
     [[nodiscard]] static base::Result<std::unique_ptr<SessionStore>>
     open(const std::string& path, const FolderIdentity& identity, std::string program);
+    /// The sessions of all these files; further ones are not kept. The error: a file belongs to
+    /// another experiment.
+    [[nodiscard]] static base::Result<std::unique_ptr<SessionStore>>
+    open_all(std::span<const std::string> paths, const FolderIdentity& identity,
+             std::string program);
     ~SessionStore();
     SessionStore(const SessionStore&) = delete;
     SessionStore& operator=(const SessionStore&) = delete;
 
     /// What is known of a session, or else what comes of `play`. Throws std::system_error when it
-    /// cannot be kept.
+    /// cannot be read or kept.
     [[nodiscard]] base::Result<experiment::PlayedSession>
     played(const experiment::SessionSpec& spec, const experiment::PlaySession& play);
 
@@ -47,24 +56,41 @@ public:
     };
     [[nodiscard]] Counts counts() const;
 
-    /// Lines of the file that are no session: cut off when something ended its writer, say.
+    /// Lines of the files that are no session: cut off when something ended their writer, say.
     [[nodiscard]] std::size_t damaged_lines() const { return damaged_; }
 
 private:
-    SessionStore(int descriptor, std::string path, std::string program);
-    [[nodiscard]] base::Result<void> read(const FolderIdentity& identity);
-    void take_line(const nlohmann::ordered_json& line);
-    void append(const std::string& line) const;
+    /// Where a session stands.
+    struct Place {
+        std::size_t file = 0;
+        std::uint64_t offset = 0;
+        std::uint32_t length = 0;
+        bool is_from_before = false; // and this run has not asked for it yet
+    };
+    struct File {
+        int descriptor = -1;
+        std::string path;
+        std::uint64_t length = 0;
+    };
 
-    int descriptor_;
-    std::string path_;
+    explicit SessionStore(std::string program);
+    /// Of the files the last.
+    [[nodiscard]] base::Result<void> read_last(const FolderIdentity& identity);
+    void take_line(std::string_view line, const Place& place);
+    void append(const std::string& line);
+    /// nullopt: it is not known.
+    [[nodiscard]] std::optional<Place> place_of(const std::string& key);
+    [[nodiscard]] experiment::PlayedSession read_at(const Place& place,
+                                                    const std::string& key) const;
+
     std::string program_;
+    std::vector<File> files_;
+    bool is_writable_ = false; // the only file
     std::size_t damaged_ = 0;
 
-    mutable std::mutex mutex_; // over all below
+    mutable std::mutex mutex_; // over all below, and the length of a file that is written
     std::condition_variable changed_;
-    std::map<std::string, experiment::PlayedSession> sessions_;
-    std::set<std::string> from_before_; // those that this run has not asked for yet
+    std::unordered_map<std::size_t, Place> places_; // by the hash of the key
     std::set<std::string> being_played_;
     Counts counts_;
 };

@@ -7,14 +7,14 @@
 
 namespace hapnet::base {
 
-/// "0.1.0"
+/// As in project() of CMakeLists.txt: "1.2.3".
 [[nodiscard]] std::string_view version();
 /// The commit the program was built from, with "-dirty" when the tree was changed; "unknown"
 /// outside a git checkout.
 [[nodiscard]] std::string_view commit();
 /// "GCC 12.2.0"
 [[nodiscard]] std::string_view compiler();
-/// What `--version` prints: "hapnet-peer 0.1.0 (commit abc, GCC 12.2.0)".
+/// What `--version` prints: "hapnet-peer 1.2.3 (commit abc, GCC 12.2.0)".
 [[nodiscard]] std::string version_line(std::string_view program);
 
 } // namespace hapnet::base

@@ -31,33 +31,10 @@ unsigned char* raw_room(std::span<std::byte> bytes)
     return reinterpret_cast<unsigned char*>(bytes.data()); // NOLINT(*-reinterpret-cast)
 }
 
-/// BLAKE2b of parts.
-class Hasher {
-public:
-    // NOLINTNEXTLINE(*-member-init): the library does that
-    explicit Hasher(std::size_t size, Bytes key = {}) : size_{size}
-    {
-        base::ensure(crypto_generichash_init(&state_, raw(key), key.size(), size) == 0);
-    }
-    Hasher(const Hasher&) = delete;
-    Hasher& operator=(const Hasher&) = delete;
-    ~Hasher() { sodium_memzero(&state_, sizeof state_); }
-
-    Hasher& add(Bytes part)
-    {
-        base::ensure(crypto_generichash_update(&state_, raw(part), part.size()) == 0);
-        return *this;
-    }
-    void end(std::span<std::byte> result)
-    {
-        base::ensure(result.size() == size_);
-        base::ensure(crypto_generichash_final(&state_, raw_room(result), size_) == 0);
-    }
-
-private:
-    crypto_generichash_state state_;
-    std::size_t size_;
-};
+crypto_generichash_state* state_in(std::span<std::byte> room)
+{
+    return reinterpret_cast<crypto_generichash_state*>(room.data()); // NOLINT(*-reinterpret-cast)
+}
 
 std::array<std::byte, crypto_aead_chacha20poly1305_ietf_NPUBBYTES> nonce_of(std::uint64_t number)
 {
@@ -70,6 +47,28 @@ std::array<std::byte, crypto_aead_chacha20poly1305_ietf_NPUBBYTES> nonce_of(std:
 
 } // namespace
 
+// NOLINTNEXTLINE(*-member-init): the library does that
+Blake2b::Blake2b(std::size_t size, Bytes key) : size_{size}
+{
+    static_assert(sizeof state_ == sizeof(crypto_generichash_state));
+    static_assert(alignof(Blake2b) >= alignof(crypto_generichash_state));
+    base::ensure(crypto_generichash_init(state_in(state_), raw(key), key.size(), size) == 0);
+}
+
+Blake2b::~Blake2b() { wipe(state_); }
+
+Blake2b& Blake2b::add(Bytes part)
+{
+    base::ensure(crypto_generichash_update(state_in(state_), raw(part), part.size()) == 0);
+    return *this;
+}
+
+void Blake2b::end(std::span<std::byte> result)
+{
+    base::ensure(result.size() == size_);
+    base::ensure(crypto_generichash_final(state_in(state_), raw_room(result), size_) == 0);
+}
+
 void wipe(std::span<std::byte> bytes) { sodium_memzero(bytes.data(), bytes.size()); }
 
 void prepare() { base::ensure(sodium_init() >= 0); }
@@ -77,14 +76,14 @@ void prepare() { base::ensure(sodium_init() >= 0); }
 Hash hash(Bytes first, Bytes second)
 {
     Hash result;
-    Hasher{hash_bytes}.add(first).add(second).end(result);
+    Blake2b{hash_bytes}.add(first).add(second).end(result);
     return result;
 }
 
 Mac keyed_hash(Bytes key, Bytes first, Bytes second)
 {
     Mac result;
-    Hasher{result.size(), key}.add(first).add(second).end(result);
+    Blake2b{result.size(), key}.add(first).add(second).end(result);
     return result;
 }
 
@@ -98,8 +97,8 @@ SecretHash authenticate(Bytes key, Bytes first, Bytes second)
     for (std::byte& each : inner.bytes()) each ^= std::byte{0x36};
     for (std::byte& each : outer.bytes()) each ^= std::byte{0x5c};
     SecretHash within, result;
-    Hasher{hash_bytes}.add(inner.bytes()).add(first).add(second).end(within.bytes());
-    Hasher{hash_bytes}.add(outer.bytes()).add(within.bytes()).end(result.bytes());
+    Blake2b{hash_bytes}.add(inner.bytes()).add(first).add(second).end(within.bytes());
+    Blake2b{hash_bytes}.add(outer.bytes()).add(within.bytes()).end(result.bytes());
     return result;
 }
 

@@ -66,6 +66,24 @@ using SecretHash = SecretBytes<hash_bytes>;
 /// called again, from any thread. Without a source of randomness the program ends here.
 void prepare();
 
+/// BLAKE2b (RFC 7693) of parts, one after the other.
+class Blake2b {
+public:
+    /// `size` of the result: 16 to 64 bytes. A key has as many, or is empty.
+    explicit Blake2b(std::size_t size, Bytes key = {});
+    Blake2b(const Blake2b&) = delete;
+    Blake2b& operator=(const Blake2b&) = delete;
+    ~Blake2b();
+
+    Blake2b& add(Bytes part);
+    /// Writes the result, once.
+    void end(std::span<std::byte> result);
+
+private:
+    alignas(64) std::array<std::byte, 384> state_; // libsodium's
+    std::size_t size_;
+};
+
 /// BLAKE2b with 64 bytes over the parts one after the other.
 [[nodiscard]] Hash hash(Bytes first, Bytes second = {});
 /// BLAKE2b with 16 bytes under a key of 16 to 64 bytes.

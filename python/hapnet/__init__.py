@@ -14,7 +14,7 @@ from hapnet.process import ProgramFailed
 from hapnet.record import Record, read_record
 from hapnet.results import read_csv, read_manifest, to_frame
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "ControlSocket",

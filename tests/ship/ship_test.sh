@@ -97,7 +97,7 @@ inside "/root/${folder##*/}/bin/hapnet-lab" --version
 inside sh -c 'apt-get -q -y install --no-install-recommends /root/*.deb' >>"$work/apt.log" 2>&1 ||
     fail "installing all: $(tail -5 "$work/apt.log")"
 inside hapnet-peer doctor || (($? == 1)) || fail "hapnet-peer doctor"
-inside hapnet-lab run --list >"$work/experiments.log" || fail "hapnet-lab run --list"
+inside hapnet-lab list >"$work/experiments.log" || fail "hapnet-lab list"
 inside python3 -c '
 import hapnet
 with hapnet.Emulator(delay="5ms") as network:

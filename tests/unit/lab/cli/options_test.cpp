@@ -31,7 +31,7 @@ TEST(LabOptions, HaveACompleteHelp)
                   ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B] [MORE ...]\n", 0),
               0U);
     EXPECT_EQ(
-        prints({"help", "run"})->rfind("Usage: hapnet-lab run EXPERIMENT --out DIR [OPTIONS]\n", 0),
+        prints({"help", "plan"})->rfind("Usage: hapnet-lab plan EXPERIMENT --out DIR [OPTIONS]\n", 0),
         0U);
 }
 
@@ -67,23 +67,35 @@ TEST(LabOptions, ReportAFolderOrTwoRecords)
     EXPECT_EQ(report.record_b, "b.rec");
 }
 
-TEST(LabOptions, ListTheExperiments)
+TEST(LabOptions, ListWhatIsBuiltIn)
 {
-    const auto prints = cli::prints_of("hapnet-lab", parse_command_line);
-    EXPECT_NE(prints({"run", "--list"})->find("fig6a\n"), std::string::npos);
+    const auto list = cli::prints_of("hapnet-lab", parse_command_line)({"list"}).value();
+    for (const char* name : {" fig6a, ", "paper\n", " stack-10, ", " dead-reckoning, ", " T1, "})
+        EXPECT_NE(list.find(name), std::string::npos) << name << " in\n" << list;
+}
+
+TEST(LabOptions, TakeShardsFromZeroToTheirNumberLessOne)
+{
+    const auto run = command_of<RunCommand>({"run", "sweep", "--shard", "3/16"});
+    EXPECT_EQ(run.shard, (experiment::Shard{3, 16}));
+    for (const char* bad : {"16/16", "3", "3/0", "-1/2", "1/2/3", "0/100001"}) {
+        EXPECT_NE(refusal_to({"run", "sweep", "--shard", bad}).find("from 0/N to N-1/N"),
+                  std::string::npos)
+            << bad;
+    }
+    EXPECT_EQ(command_of<MergeCommand>({"merge", "a", "b", "c"}).folders,
+              (std::vector<std::string>{"a", "b", "c"}));
 }
 
 TEST(LabOptions, SayWhatIsMissingOrMistyped)
 {
     EXPECT_EQ(refusal_to({"analyse", "a.rec"}),
               "RECORD_B is required: hapnet-lab analyse a.rec b.rec");
-    EXPECT_EQ(refusal_to({"run", "fig6a"}), "--out is required: --out results/mine");
+    EXPECT_EQ(refusal_to({"plan", "fig6a"}), "--out is required: --out sweep");
     EXPECT_EQ(refusal_to({"run", "fig6a", "--output", "x"}),
               "unknown option --output: did you mean --out?");
     EXPECT_EQ(refusal_to({"repotr", "x"}),
               "unknown command 'repotr': did you mean hapnet-lab report?");
-    EXPECT_EQ(refusal_to({"compare", "a", "b"}),
-              "unknown command 'compare': did you mean hapnet-lab analyse?");
     EXPECT_NE(refusal_to({"explain", "paper", "--tick", "1s"}).find("10us to 100ms"),
               std::string::npos);
     EXPECT_EQ(refusal_to({"replay", "a", "--json", "--csv"}),

@@ -3,7 +3,6 @@
 // The files of an experiment whose sessions follow a known law.
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/text.hpp"
-#include "lab/results/axis_files.hpp"
 #include "lab/results/result_files.hpp"
 #include "lab/results/results.hpp"
 #include "lab/results/rows.hpp"
@@ -255,17 +254,6 @@ seeds = 1
     auto none = experiment;
     std::get<experiment::Limits>(none.kind).sensitivity->seeds = 0;
     EXPECT_FALSE(results(none, play_known).contains("limits_by_convention.csv"));
-}
-
-TEST(Results, AnAxisJoinsTheTablesOfItsValues)
-{
-    const std::vector<AxisFiles> points{{"1ms", {{"limits.csv", "a,b\n1,2\n"}, {"x.toml", "k"}}},
-                                        {"2ms", {{"limits.csv", "a,c\n3,\"4,5\"\n"}}}};
-    const auto files = joined_by_axis("both.delay", points);
-    ASSERT_EQ(files.size(), 1U);
-    EXPECT_EQ(files[0].path, "limits_by_axis.csv");
-    EXPECT_EQ(files[0].text, "parameter,value,a,b,c\nboth.delay,1ms,1,2,\n"
-                             "both.delay,2ms,3,,\"4,5\"\n");
 }
 
 TEST(Results, Table1HasARowForEachAlgorithmAndTheTasksBesideIt)

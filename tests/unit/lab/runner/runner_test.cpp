@@ -4,6 +4,7 @@
 #include "lab/experiment/text.hpp"
 #include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
+#include "lab/runner/result_tables.hpp"
 #include "lab/runner/runner.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
@@ -67,6 +68,14 @@ base::Result<experiment::PlayedSession> play_known(const experiment::SessionSpec
     return known_session(spec);
 }
 
+base::Result<std::optional<std::vector<experiment::JobResult>>>
+run_whole(const experiment::Experiment& experiment, const Runner& runner, net::StopSignal& stop)
+{
+    std::vector<Assignment> jobs;
+    for (auto& job : make_jobs(experiment)) jobs.push_back({&experiment, std::move(job)});
+    return run_all(jobs, experiment::known_criteria(), runner, stop);
+}
+
 Runner runner_of(SessionStore& store, unsigned jobs)
 {
     return {store, play_known, jobs, [](const RunProgress&) {}};
@@ -91,7 +100,7 @@ TEST_F(SessionFile, GivesTheSameResultsForAnyNumberOfJobsAndPlaysNoSessionTwice)
         std::filesystem::remove(path);
         const auto store = open();
         const auto findings =
-            run_all(experiment, experiment::known_criteria(), runner_of(*store, jobs), stop);
+            run_whole(experiment, runner_of(*store, jobs), stop);
         ASSERT_TRUE(findings && *findings);
         const auto limits = limits_of(experiment, **findings);
         if (jobs == 1) {
@@ -110,7 +119,7 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
     const auto run = [&](const experiment::Experiment& experiment) {
         const auto store = open();
         const auto findings =
-            run_all(experiment, experiment::known_criteria(), runner_of(*store, 2), stop);
+            run_whole(experiment, runner_of(*store, 2), stop);
         EXPECT_TRUE(findings && *findings);
         return store->counts();
     };
@@ -126,16 +135,16 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 TEST_F(SessionFile, DoesNotReuseTheSessionsOfAnotherProgram)
 {
     std::ignore =
-        run_all(known_limits(), experiment::known_criteria(), runner_of(*open(), 1), stop);
+        run_whole(known_limits(), runner_of(*open(), 1), stop);
     const auto store = open("that");
-    std::ignore = run_all(known_limits(), experiment::known_criteria(), runner_of(*store, 1), stop);
+    std::ignore = run_whole(known_limits(), runner_of(*store, 1), stop);
     EXPECT_EQ(store->counts().reused, 0U);
 }
 
 TEST_F(SessionFile, LosesOnlyTheLineThatWasCutOff)
 {
     std::ignore =
-        run_all(known_limits(), experiment::known_criteria(), runner_of(*open(), 1), stop);
+        run_whole(known_limits(), runner_of(*open(), 1), stop);
     const auto whole = text();
     const auto lines = static_cast<std::size_t>(std::count(whole.begin(), whole.end(), '\n'));
     std::filesystem::resize_file(path, whole.size() - 20);
@@ -143,7 +152,7 @@ TEST_F(SessionFile, LosesOnlyTheLineThatWasCutOff)
         const auto store = open();
         EXPECT_EQ(store->damaged_lines(), 1U);
         const auto findings =
-            run_all(known_limits(), experiment::known_criteria(), runner_of(*store, 1), stop);
+            run_whole(known_limits(), runner_of(*store, 1), stop);
         ASSERT_TRUE(findings && *findings);
         EXPECT_EQ(store->counts().played, played);
         EXPECT_EQ(store->counts().reused, lines - 1 - played); // the first is a header
@@ -177,7 +186,7 @@ TEST_F(SessionFile, KeepsWhatWasPlayedBeforeASessionFailed)
         if (++played > 5) return base::fail("the scene cannot be shared");
         return known_session(spec);
     };
-    const auto findings = run_all(known_limits(), experiment::known_criteria(), runner, stop);
+    const auto findings = run_whole(known_limits(), runner, stop);
     ASSERT_FALSE(findings);
     EXPECT_EQ(findings.error().message, "the scene cannot be shared");
     EXPECT_EQ(store->counts().played, 5U);
@@ -191,8 +200,43 @@ TEST_F(SessionFile, PassesOnWhatAThreadHasThrown)
                      const std::atomic<bool>&) -> base::Result<experiment::PlayedSession> {
         throw std::runtime_error{"disk full"};
     };
-    EXPECT_THROW(std::ignore = run_all(known_limits(), experiment::known_criteria(), runner, stop),
+    EXPECT_THROW(std::ignore = run_whole(known_limits(), runner, stop),
                  std::runtime_error);
+}
+
+TEST_F(SessionFile, ReadsTheSessionsOfSeveralFilesAndKeepsNoOther)
+{
+    const auto other = path + "-other";
+    std::filesystem::remove(other);
+    std::ignore = run_whole(known_limits({"tasks=T1"}), runner_of(*open(), 1), stop);
+    {
+        const auto store = SessionStore::open(other, {"limits", "known"}, "this").value();
+        std::ignore = run_whole(known_limits({"tasks=T3"}), runner_of(*store, 1), stop);
+    }
+    const auto before = text();
+    const std::vector files{path, other};
+    const auto both = SessionStore::open_all(files, {"limits", "known"}, "this").value();
+    ASSERT_TRUE(run_whole(known_limits(), runner_of(*both, 2), stop));
+    EXPECT_EQ(both->counts().played, 0U);
+    const auto one = SessionStore::open_all({&path, 1}, {"limits", "known"}, "this").value();
+    ASSERT_TRUE(run_whole(known_limits(), runner_of(*one, 2), stop));
+    EXPECT_EQ(text(), before);
+    EXPECT_FALSE(SessionStore::open_all(files, {"limits", "other"}, "this"));
+    std::filesystem::remove(other);
+}
+
+TEST(ResultTables, JoinTheLinesOfPartsWhoseColumnsDiffer)
+{
+    const std::filesystem::path folder = testing::TempDir();
+    ResultTables tables{folder};
+    const std::vector<LeadingCell> first{{"value", "1ms"}}, second{{"value", "2,ms"}};
+    tables.add({"t.csv", "a,b\n1,2\n"}, first);
+    tables.add({"t.csv", "a,c\n3,\"4,5\"\n"}, second);
+    tables.add({"t.csv", "a,b\n6,7\n"}, first);
+    EXPECT_EQ(tables.commit(), std::vector<std::string>{"t.csv"});
+    std::ostringstream out;
+    out << std::ifstream{folder / "t.csv"}.rdbuf();
+    EXPECT_EQ(out.str(), "value,a,b,c\n1ms,1,2,\n\"2,ms\",3,,\"4,5\"\n1ms,6,7,\n");
 }
 
 TEST(ProgressText, SaysHowMuchIsLeftOnceAPartIsDone)

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/cli/options.hpp"
+#include "proto/base/result.hpp"
+
+#include <string>
+
+namespace hapnet::lab {
+
+/// What two folders of results differ in, as a table, CSV or JSON. The error: one has no sessions,
+/// or they have none in common.
+[[nodiscard]] base::Result<std::string> compare_folders(const CompareCommand& command);
+
+} // namespace hapnet::lab

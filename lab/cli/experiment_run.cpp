@@ -1,0 +1,380 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/cli/experiment_run.hpp"
+
+#include "lab/cli/checksums.hpp"
+#include "lab/cli/files.hpp"
+#include "lab/cli/host.hpp"
+#include "lab/records/kept_play.hpp"
+#include "lab/records/text_table.hpp"
+#include "lab/results/manifest.hpp"
+#include "lab/results/result_files.hpp"
+#include "lab/runner/progress.hpp"
+#include "lab/runner/result_tables.hpp"
+#include "lab/runner/runner.hpp"
+#include "proto/base/version.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/text_file.hpp"
+#include "proto/record/writer.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+namespace hapnet::lab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view program_name = "hapnet-lab";
+
+runner::FolderIdentity identity_of(const LoadedExperiment& experiment)
+{
+    return {std::string{name_of(experiment.whole.kind)}, experiment.whole.title};
+}
+
+void write_text(const fs::path& path, const std::string& text)
+{
+    create_folder(path.parent_path().string());
+    net::ResultFile{path.string()}.commit(text);
+}
+
+void tell_of_damage(const runner::SessionStore& store, const std::string& where)
+{
+    if (store.damaged_lines() == 0) return;
+    net::say(program_name, fmt::format("{} lines of {} are damaged and left out",
+                                       store.damaged_lines(), where));
+}
+
+/// records/[VALUE/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed.
+void write_records(const fs::path& out, const LoadedExperiment::Part& part)
+{
+    const experiment::Experiment& experiment = part.experiment;
+    for (const experiment::Job& job : make_jobs(experiment)) {
+        const auto* one = std::get_if<experiment::SessionJob>(&job);
+        const bool is_first =
+            one != nullptr && one->spec.setting.seed.value() == experiment.first_seed;
+        if (!is_first) continue;
+        const auto kept = records::play_and_keep(one->spec.setting);
+        if (!kept) throw std::runtime_error{kept.error().message};
+        const auto name =
+            fmt::format("{}-{}", experiment.algorithms[one->algorithm].name, name_of(one->task));
+        const auto folder = out / "records" / part.value / name;
+        create_folder(folder.string());
+        for (std::size_t seat = 0; seat < kept->size(); ++seat) {
+            const records::KeptRecord& of_player = (*kept)[seat];
+            const auto path = folder / fmt::format("peer-{}.rec", seat + 1);
+            record::Writer writer{path.string(), of_player.config, of_player.layout};
+            for (const record::Row& row : of_player.rows) writer.write(row);
+            writer.flush();
+        }
+    }
+}
+
+/// The jobs of a part that a shard has.
+std::vector<experiment::Job> jobs_of(const LoadedExperiment::Part& part,
+                                     experiment::ShardDeal& deal)
+{
+    std::vector<experiment::Job> jobs;
+    for (experiment::Job& job : make_jobs(part.experiment)) {
+        if (deal.takes(job)) jobs.push_back(std::move(job));
+    }
+    return jobs;
+}
+
+experiment::ShardDeal deal_of(const LoadedExperiment& experiment, const experiment::Shard& shard)
+{
+    return {shard, make_jobs(experiment.parts.front().experiment)};
+}
+
+/// Carries out the jobs of a shard, some parts at a time.
+class ShardRun {
+public:
+    using Results = std::vector<experiment::JobResult>;
+    /// Takes what came of the jobs of a part.
+    using UseResults = std::function<void(const LoadedExperiment::Part&, const Results&)>;
+
+    ShardRun(const LoadedExperiment& experiment, const experiment::Shard& shard,
+             runner::Runner runner)
+        : experiment_{experiment},
+          shard_{shard},
+          runner_{std::move(runner)},
+          line_{net::monotonic_now()}
+    {
+        auto deal = deal_of(experiment, shard);
+        for (const auto& part : experiment.parts) total_ += jobs_of(part, deal).size();
+        runner_.on_progress = [this](const runner::RunProgress& progress) {
+            line_.show({total_, done_ + progress.jobs_done, progress.sessions},
+                       net::monotonic_now());
+        };
+    }
+
+    [[nodiscard]] std::size_t jobs() const { return total_; }
+
+    /// False: it was stopped.
+    base::Result<bool> run(const UseResults& use)
+    {
+        auto deal = deal_of(experiment_, shard_);
+        const auto& parts = experiment_.parts;
+        for (auto part = parts.begin(); part != parts.end();) {
+            std::vector<runner::Assignment> jobs;
+            std::vector<std::size_t> counts; // of the parts of this batch
+            const auto first = part;
+            for (; part != parts.end() && jobs.size() < batch; ++part) {
+                auto more = jobs_of(*part, deal);
+                counts.push_back(more.size());
+                for (experiment::Job& job : more)
+                    jobs.push_back({&part->experiment, std::move(job)});
+            }
+            auto results = run_all(jobs, experiment_.criteria, runner_, stop_);
+            if (!results) return tl::unexpected{results.error()};
+            if (!*results) return false;
+            done_ += jobs.size();
+            auto next = std::make_move_iterator((*results)->begin());
+            for (std::size_t i = 0; i < counts.size(); ++i) {
+                const auto end = next + static_cast<std::ptrdiff_t>(counts[i]);
+                use(first[static_cast<std::ptrdiff_t>(i)], Results(next, end));
+                next = end;
+            }
+        }
+        line_.finish();
+        return true;
+    }
+
+private:
+    static constexpr std::size_t batch = 1000; // jobs, where threads wait for one another
+
+    const LoadedExperiment& experiment_;
+    experiment::Shard shard_;
+    runner::Runner runner_;
+    runner::ProgressLine line_;
+    net::StopSignal stop_;
+    std::size_t total_ = 0;
+    std::size_t done_ = 0;
+};
+
+/// What an experiment found, on its way to a folder.
+class ResultFolder {
+public:
+    ResultFolder(const LoadedExperiment& experiment, const RunPlace& place)
+        : experiment_{experiment},
+          place_{place},
+          out_{place.out},
+          tables_{out_},
+          start_{net::monotonic_now()},
+          start_s_{net::wall_clock_seconds()}
+    {}
+
+    void add(const LoadedExperiment::Part& part, const ShardRun::Results& found)
+    {
+        if (part.experiment.record) write_records(out_, part);
+        const auto files =
+            results::make_result_files(part.experiment, experiment_.criteria, found);
+        if (!files) throw std::runtime_error{files.error().message};
+        for (const results::File& file : *files) add(part, file);
+    }
+
+    /// Moves all into place. Returns the digest.
+    std::string finish(const runner::SessionStore::Counts& counts)
+    {
+        for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
+        const auto checksums = checksums_of(out_, names_);
+        write_text(out_ / checksums_name, checksums);
+        const auto digest = checksum_of(checksums);
+        write_manifest(counts, {}, digest);
+        for (const std::string& name : names_) print_short(name);
+        return digest;
+    }
+
+    void write_manifest(const runner::SessionStore::Counts& counts,
+                        std::vector<std::string> invalid, const std::string& digest = {}) const
+    {
+        const results::Circumstances circumstances{place_.command, results::utc_text(start_s_),
+                                                   base::to_seconds(net::monotonic_now() - start_),
+                                                   host(), base::version_line(program_name)};
+        const results::RunOutcome outcome{print_criteria(experiment_.criteria), counts.played,
+                                          counts.reused, std::move(invalid), digest};
+        write_text(out_ / "manifest.json",
+                   make_manifest(experiment_.whole, circumstances, outcome).dump(2) + '\n');
+    }
+
+private:
+    void add(const LoadedExperiment::Part& part, results::File file)
+    {
+        constexpr std::string_view ending = ".csv";
+        const bool is_table =
+            file.path.ends_with(ending) && file.path.find('/') == std::string::npos;
+        if (experiment_.whole.axis && !is_table) return;
+        if (!is_table) {
+            write_text(out_ / file.path, file.text);
+            names_.push_back(file.path);
+            return;
+        }
+        std::vector<runner::LeadingCell> leading;
+        if (experiment_.whole.axis) {
+            leading = {{"parameter", experiment_.whole.axis->key}, {"value", part.value}};
+            file.path.insert(file.path.size() - ending.size(), "_by_axis");
+        }
+        tables_.add(file, leading);
+    }
+
+    /// On standard output, what can be read at a glance.
+    void print_short(const std::string& name) const
+    {
+        const bool is_short = name == "table1.csv" || name == "criteria.toml" ||
+                              name.starts_with("limits.") || name == "limits_by_axis.csv";
+        if (!is_short) return;
+        const auto text = net::text_of_file((out_ / name).string());
+        if (!text) throw std::runtime_error{text.error().message};
+        fmt::print("{}\n", name.ends_with(".csv") ? records::aligned(*text) : *text);
+    }
+
+    const LoadedExperiment& experiment_;
+    const RunPlace& place_;
+    fs::path out_;
+    runner::ResultTables tables_;
+    std::vector<std::string> names_;
+    base::TimePoint start_;
+    double start_s_;
+};
+
+/// A manifest without sessions or a plan beside it was written by something else.
+base::Result<void> refuse_foreign(const fs::path& out)
+{
+    const bool is_ours = fs::exists(out / "sessions.jsonl") || fs::exists(out / "plan.json");
+    if (is_ours || !fs::exists(out / "manifest.json")) return {};
+    return base::fail(fmt::format("--out: {} holds the results of something else: choose another "
+                                  "folder, or remove it",
+                                  out.string()));
+}
+
+std::string stem_of(const experiment::Shard& shard)
+{
+    return fmt::format("{}-of-{}", shard.index, shard.count);
+}
+
+/// The files of sessions in a folder, and in its shards/.
+void collect_sessions(const fs::path& folder, std::vector<std::string>& paths)
+{
+    if (fs::exists(folder / "sessions.jsonl")) paths.push_back((folder / "sessions.jsonl").string());
+    if (!fs::is_directory(folder / "shards")) return;
+    for (const auto& entry : fs::directory_iterator{folder / "shards"}) {
+        if (entry.path().extension() == ".jsonl") paths.push_back(entry.path().string());
+    }
+}
+
+/// The shards that have begun and not said that they have all: "3/16, 7/16".
+std::string unfinished_among(const std::vector<std::string>& files)
+{
+    std::vector<std::string> shards;
+    for (const fs::path file : files) {
+        auto done = file;
+        if (file.filename() == "sessions.jsonl" || fs::exists(done.replace_extension(".done")))
+            continue;
+        auto name = file.stem().string();
+        if (const auto of = name.find("-of-"); of != std::string::npos) name.replace(of, 4, "/");
+        shards.push_back(name);
+    }
+    std::ranges::sort(shards);
+    return fmt::format("{}", fmt::join(shards, ", "));
+}
+
+} // namespace
+
+base::Result<int> run_whole(const LoadedExperiment& experiment, const RunPlace& place)
+{
+    const fs::path out{place.out};
+    auto foreign = refuse_foreign(out);
+    if (!foreign) return tl::unexpected{std::move(foreign).error()};
+    create_folder(place.out);
+    const auto path = (out / "sessions.jsonl").string();
+    const auto store =
+        runner::SessionStore::open(path, identity_of(experiment), experiment.program);
+    if (!store) return base::fail("--out: " + store.error().message);
+    tell_of_damage(**store, path);
+    ResultFolder folder{experiment, place};
+    ShardRun run{experiment, {}, {**store, runner::play_in_virtual_time, place.threads, {}}};
+    const auto done = run.run([&](const auto& part, const auto& found) { folder.add(part, found); });
+    const auto counts = (*store)->counts();
+    if (!done) throw std::runtime_error{done.error().message};
+    if (!*done) {
+        folder.write_manifest(counts, {"stopped before its end"});
+        net::say(program_name,
+                 fmt::format("stopped; {} sessions are kept in {}: the same command goes on from "
+                             "there",
+                             counts.played + counts.reused, place.out));
+        return net::exit_failed;
+    }
+    const auto digest = folder.finish(counts);
+    fmt::print("{}: {} sessions played, {} reused; results in {}\ndigest {}\n",
+               experiment.whole.title, counts.played, counts.reused, place.out, digest);
+    return 0;
+}
+
+base::Result<int> run_shard(const LoadedExperiment& experiment, const experiment::Shard& shard,
+                            const RunPlace& place)
+{
+    const auto folder = fs::path{place.out} / "shards";
+    create_folder(folder.string());
+    const auto path = folder / (stem_of(shard) + ".jsonl");
+    const auto store =
+        runner::SessionStore::open(path.string(), identity_of(experiment), experiment.program);
+    if (!store) return base::fail(store.error().message);
+    tell_of_damage(**store, path.string());
+    ShardRun run{experiment, shard, {**store, runner::play_in_virtual_time, place.threads, {}}};
+    const auto done = run.run([](const auto&, const auto&) {});
+    if (!done) throw std::runtime_error{done.error().message};
+    const auto counts = (*store)->counts();
+    if (!*done) {
+        net::say(program_name, fmt::format("stopped; {} sessions are kept in {}: the same command "
+                                           "goes on from there",
+                                           counts.played + counts.reused, path.string()));
+        return net::exit_failed;
+    }
+    write_text(folder / (stem_of(shard) + ".done"), fmt::format("{} jobs\n", run.jobs()));
+    fmt::print("shard {}/{}: {} of {} jobs; {} sessions played, {} reused\n", shard.index,
+               shard.count, run.jobs(), experiment.jobs, counts.played, counts.reused);
+    return 0;
+}
+
+base::Result<int> merge_shards(const LoadedExperiment& experiment,
+                               const std::vector<std::string>& folders, const RunPlace& place)
+{
+    std::vector<std::string> files;
+    for (const std::string& folder : folders) collect_sessions(folder, files);
+    const auto store =
+        runner::SessionStore::open_all(files, identity_of(experiment), experiment.program);
+    if (!store) return base::fail(store.error().message);
+    ResultFolder folder{experiment, place};
+    const auto play = [](const experiment::SessionSpec& spec,
+                         const auto&) -> base::Result<experiment::PlayedSession> {
+        return base::fail(fmt::format("nobody has played '{}'", key_of(spec, "")));
+    };
+    ShardRun run{experiment, {}, {**store, play, place.threads, {}}};
+    const auto done = run.run([&](const auto& part, const auto& found) { folder.add(part, found); });
+    if (!done) {
+        const auto unfinished = unfinished_among(files);
+        net::say(program_name,
+                 fmt::format("sessions are missing ({}): {}", done.error().message,
+                             unfinished.empty() ? "not all shards have begun"
+                                                : "these shards have not ended: " + unfinished));
+        return net::exit_failed;
+    }
+    if (!*done) return net::exit_failed;
+    const auto counts = (*store)->counts();
+    const auto digest = folder.finish(counts);
+    fmt::print("{}: {} sessions of {} files; results in {}\ndigest {}\n", experiment.whole.title,
+               counts.reused, files.size(), place.out, digest);
+    return 0;
+}
+
+} // namespace hapnet::lab

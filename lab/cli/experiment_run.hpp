@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/shard.hpp"
+#include "lab/experiment/text.hpp"
+#include "lab/metrics/criteria.hpp"
+#include "lab/runner/session_store.hpp"
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// What an experiment is to find out: as it is stated, and in the parts that are played one after
+/// the other.
+struct LoadedExperiment {
+    struct Part {
+        std::string value; // of the axis; empty: there is none
+        experiment::Experiment experiment;
+    };
+
+    experiment::Experiment whole;
+    std::vector<Part> parts;
+    metrics::Criteria criteria;
+    std::string program; // who plays
+    std::size_t jobs = 0;
+};
+
+/// Where the results go, and what the manifest says of how they came about.
+struct RunPlace {
+    std::string out;
+    unsigned threads = 1;
+    std::string command; // what was typed
+};
+
+/// Plays what is missing, and writes the results. The exit code, or why it cannot begin.
+[[nodiscard]] base::Result<int> run_whole(const LoadedExperiment& experiment,
+                                          const RunPlace& place);
+
+/// Plays the sessions of a shard into shards/I-of-N.jsonl, and leaves I-of-N.done when it has all.
+[[nodiscard]] base::Result<int> run_shard(const LoadedExperiment& experiment,
+                                          const experiment::Shard& shard, const RunPlace& place);
+
+/// Writes the results from the sessions that the shards in these folders have played, the first of
+/// which is where the results go. Exit code 1, with the reason on standard error: some are missing.
+[[nodiscard]] base::Result<int> merge_shards(const LoadedExperiment& experiment,
+                                             const std::vector<std::string>& folders,
+                                             const RunPlace& place);
+
+} // namespace hapnet::lab

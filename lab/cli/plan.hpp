@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/text.hpp"
+#include "proto/base/reading.hpp"
+#include "proto/base/result.hpp"
+
+#include <map>
+#include <string>
+
+namespace hapnet::lab {
+
+/// plan.json: an experiment with all that it follows from, so that each shard of it, on whatever
+/// machine, plays sessions of the same one.
+struct Plan {
+    std::string experiment; // as after `hapnet-lab plan`
+    experiment::Overrides overrides{};
+    std::string criteria;                       // likewise
+    std::map<std::string, std::string> files{}; // the texts of all files that were read, by name
+    std::string program; // who made it: another program may play otherwise
+};
+
+inline constexpr const char* plan_name = "plan.json";
+
+/// The file of the plan that a word names: itself, or in the folder; empty: it names no plan.
+[[nodiscard]] std::string plan_at(const std::string& word);
+
+[[nodiscard]] base::Result<Plan> read_plan(const std::string& path);
+/// Throws std::system_error naming the file.
+void write_plan(const Plan& plan, const std::string& path);
+
+/// Gives the files that a plan holds, and no other.
+[[nodiscard]] base::OpenFile opener_of(const Plan& plan);
+/// Gives the files of this machine, and keeps them in a plan.
+[[nodiscard]] base::OpenFile opener_into(Plan& plan);
+
+} // namespace hapnet::lab

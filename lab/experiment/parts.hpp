@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/experiment.hpp"
+
+#include <vector>
+
+namespace hapnet::lab::experiment {
+
+/// Experiments whose sessions and results, one after the other, are those of the whole: a plane by
+/// its points; of other kinds the whole is the only part. What has to be kept in memory at a time
+/// grows with a part, not with the whole.
+[[nodiscard]] std::vector<Experiment> parts_of(const Experiment& experiment);
+
+} // namespace hapnet::lab::experiment

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/jobs.hpp"
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <tuple>
+
+namespace hapnet::lab::experiment {
+
+/// One of `count` shares of an experiment's jobs, `index` from 0.
+struct Shard {
+    std::uint32_t index = 0;
+    std::uint32_t count = 1;
+
+    friend bool operator==(const Shard&, const Shard&) = default;
+};
+
+inline constexpr std::uint32_t shards_max = 100'000;
+
+/// "3/16"
+[[nodiscard]] base::Result<Shard> parse_shard(std::string_view text);
+
+/// Deals the jobs of an experiment out to its shards: the same for all who ask for them in the same
+/// order. Jobs that share a perfect twin go to the same shard, which then plays it once, unless
+/// there are fewer twins than shards; then they go round.
+class ShardDeal {
+public:
+    /// `first_jobs`: those that will be asked for first; they tell how many twins there are.
+    ShardDeal(const Shard& shard, const std::vector<Job>& first_jobs);
+
+    /// Whether the next job is of the shard.
+    [[nodiscard]] bool takes(const Job& job);
+
+private:
+    /// Algorithm, task, number of peers, scene and seed; a search has all seeds.
+    using Twin = std::tuple<std::size_t, device::Task, std::uint32_t, std::size_t, std::uint64_t>;
+    [[nodiscard]] static Twin twin_of(const Job& job);
+    [[nodiscard]] std::size_t number_of(const Twin& twin);
+
+    Shard shard_;
+    std::map<Twin, std::size_t> twins_;
+    bool by_twins_ = false;
+    std::size_t next_ = 0;
+};
+
+} // namespace hapnet::lab::experiment

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/file.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hapnet::lab::runner {
+
+/// A column before those of a table, and what all lines of a part have in it.
+struct LeadingCell {
+    std::string column;
+    std::string value;
+};
+
+/// Tables of results on their way to a folder, part after part. Lines wait in files NAME.part: what
+/// is kept in memory does not grow with the parts.
+class ResultTables {
+public:
+    explicit ResultTables(std::filesystem::path folder) : folder_{std::move(folder)} {}
+    /// Removes what was not committed.
+    ~ResultTables();
+    ResultTables(const ResultTables&) = delete;
+    ResultTables& operator=(const ResultTables&) = delete;
+
+    /// Appends the lines of a CSV to the table of its name. Columns that the table has not yet are
+    /// added; one that a line lacks is empty in it. Throws std::system_error.
+    void add(const results::File& csv, std::span<const LeadingCell> leading);
+
+    /// Moves all tables to their places, and names them. Throws std::system_error.
+    [[nodiscard]] std::vector<std::string> commit();
+
+private:
+    struct Table {
+        std::string name;
+        std::vector<std::string> columns{};
+        /// From which line on lines have how many cells.
+        std::vector<std::pair<std::size_t, std::size_t>> widths{};
+        std::size_t lines = 0;
+    };
+
+    [[nodiscard]] Table& table_named(const std::string& name);
+    [[nodiscard]] std::filesystem::path waiting(const Table& table) const;
+
+    std::filesystem::path folder_;
+    std::vector<Table> tables_;
+};
+
+} // namespace hapnet::lab::runner
