@@ -40,6 +40,7 @@ esac
 
 case $kind in
 programs) scripts/setup.sh --test --programs ;;
+web) scripts/setup.sh --web ;;
 ship) scripts/setup.sh --package ;;
 *) scripts/setup.sh --test ;;
 esac
