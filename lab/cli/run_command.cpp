@@ -13,7 +13,6 @@
 #include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/runner.hpp"
-#include "peer/shared_object/load.hpp"
 #include "proto/base/version.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
@@ -61,16 +60,6 @@ experiment::Overrides overrides_of(const RunCommand& command)
     experiment::Overrides overrides{command.quick, command.settings};
     if (command.seeds) overrides.settings.push_back(fmt::format("seeds={}", *command.seeds));
     return overrides;
-}
-
-/// Loads the algorithms that are no part of the program.
-base::Result<void> load_own_algorithms(experiment::Experiment& experiment)
-{
-    for (experiment::NamedAlgorithm& named : experiment.algorithms) {
-        const auto loaded = peer::shared_object::load(named.algorithm);
-        if (!loaded) return base::fail(fmt::format("{}: {}", named.name, loaded.error().message));
-    }
-    return {};
 }
 
 /// What an experiment is to find out: as it is stated, and at each value of its axis.
