@@ -153,7 +153,7 @@ private:
 void play_a_turn(live::Session& session, live::Pace& pace, base::Duration passed,
                  base::Duration tick)
 {
-    if (session.is_over()) return;
+    if (session.is_over()) return pace.pause(); // a seek back from there does not play on
     if (const auto due = pace.due(passed, tick)) return session.play_on(*due);
     const auto end = net::monotonic_now() + playing_max;
     while (!session.is_over() && net::monotonic_now() < end) session.play_on(played_at_once);
