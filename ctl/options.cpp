@@ -29,8 +29,8 @@ the answer names the first datagram of each direction that it holds for. A setti
 timeline of the profile changes the same key. With --for it ends by itself, even if hapnet-ctl is
 gone by then.
 
-A peer answers show, stats, watch, wait, stop and estop. Its settings cannot be changed while it
-runs.
+A peer answers show, stats, watch, wait, keep, stop and estop. Its settings cannot be changed while
+it runs.
 
 Examples:
   hapnet-ctl /tmp/emulator.sock show
@@ -45,6 +45,7 @@ Examples:
   hapnet-ctl /tmp/peer.sock wait --until 'messages.states_received>0'
   export HAPNET_SOCKET=/tmp/peer.sock; hapnet-ctl watch
   hapnet-ctl watch --frames --every 16ms
+  hapnet-ctl /tmp/peer.sock keep before-the-crash --last 10s
   hapnet-ctl /tmp/peer.sock stop)";
 
 constexpr const char* set_footer =
@@ -141,6 +142,12 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
         .required("'up.received>1000'");
     wait.option("--timeout", "TIME", "Give up after this time, with exit code 1",
                 cli::into(options.timeout, base::Time{base::Duration{0}, longest}));
+    cli::Command& keep = program.command("keep", "Saves what happened last, of a program that was "
+                                                 "started with --keep: a capture or a record");
+    keep.positional("NAME", "What to call it: a-z, 0-9 and -", cli::into(options.name))
+        .required("trap-1");
+    keep.option("--last", "TIME", "How much of it (default: all that is held)",
+                cli::into(options.last, base::Time{std::chrono::milliseconds{1}, longest}));
     program.command("stop", "Ends the program as SIGTERM does: a peer with zero force, an "
                             "emulator with its files written");
     program.command("estop", "Emergency stop: ends the force of a peer at once, until the peer is "

@@ -21,6 +21,8 @@ struct Options {
     std::optional<base::Duration> lasting; // --for
     std::string file;                      // of apply and diff; "-" is stdin
     std::string until;
+    std::string name; // of keep
+    std::optional<base::Duration> last;
     std::optional<base::Duration> timeout;
     std::optional<base::Duration> every;
     bool of_frames = false; // watch --frames

@@ -148,6 +148,7 @@ std::string in_words(const Options& options, const Json& reply)
                    ? "the emulator ends and writes its files\n"
                    : "the peer ends with zero force\n";
     }
+    if (command == "keep") return fmt::format("{}\n", text_at(reply, "/file"));
     if (command == "estop") return "zero force until the peer is started anew\n";
     if (command == "wait") {
         const auto until = text_at(reply, "/until");

@@ -48,6 +48,8 @@ base::Result<nlohmann::ordered_json> make_request(const Options& options)
         if (!added) return tl::unexpected{added.error()};
     }
     if (!options.until.empty()) request["until"] = options.until;
+    if (!options.name.empty()) request["name"] = options.name;
+    add("last", options.last);
     add("for", options.lasting);
     add("timeout", options.timeout);
     add("every", options.every);

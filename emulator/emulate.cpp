@@ -127,6 +127,7 @@ public:
             now = relay(0);
             run_.elapsed = now - start_;
             if (control_) control_->serve(subject, now, paths_.front()->next_due());
+            tell_of_kept();
             if (stop.reload_requested()) reload(now, workers);
             status_.show(
                 [&] {
@@ -227,7 +228,12 @@ private:
                 .open = text_beside,
                 .preset = preset_text,
                 .stop = [this] { is_stopped_ = true; },
-                .netem = netem_profile};
+                .netem = netem_profile,
+                .held = recorder_.held(),
+                .keep =
+                    [this](const std::string& name, base::TimePoint from) {
+                        return recorder_.keep(name, from);
+                    }};
     }
 
     /// Reads the profile again. One that is wrong changes nothing.
@@ -262,6 +268,11 @@ private:
         status_.say(
             "what this run records cannot be written any more (is the disk full?): the run goes "
             "on, but its files will end here");
+    }
+
+    void tell_of_kept()
+    {
+        if (const auto trouble = recorder_.keep_trouble()) status_.say(*trouble);
     }
 
     base::TimePoint start_;
@@ -305,6 +316,8 @@ Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths
         .scenario = scenario,
         .files = {.fates = options.fates,
                   .capture = options.capture,
+                  .kept = options.keep.span,
+                  .keep_in = options.keep.folder,
                   .has_several_paths = true,
                   .lanes = threads},
         .parts = {threads,

@@ -297,6 +297,7 @@ void add_capture(cli::Command& program, Options& options)
                    "Capture both sides to FILE, with a comment on each packet (pcapng, for "
                    "Wireshark)",
                    cli::into(options.capture));
+    cli::add_keep(program, options.keep, "what --pcap would write");
 }
 
 /// Datagrams a second, or the bit rate that the condition of this name is.
@@ -408,7 +409,7 @@ base::Result<void> require_own_files(const Options& options)
                                           option, files[j].first, *file));
         }
     }
-    return {};
+    return cli::check_keep(options.keep, options.control.has_value());
 }
 
 base::Result<void> require_own_addresses(const Options& options)
@@ -574,7 +575,6 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     const cli::Command& learn = add_learn(program, learning);
     ProbeOptions probing;
     const cli::Command& probe = add_probe(program, probing);
-
     FrameCommands frames{program};
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));

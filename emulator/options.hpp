@@ -11,6 +11,7 @@
 #include "proto/base/condition.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
+#include "proto/cli/keep_options.hpp"
 #include "proto/net/address_set.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/program.hpp"
@@ -63,6 +64,7 @@ struct Options {
     std::optional<std::string> fates;
     std::optional<std::string> capture;
     std::optional<std::string> control;      // the path of a Unix socket
+    cli::KeepOptions keep{};                 // the last seconds of the capture
     std::vector<base::Condition> required{}; // besides the profile's checks
 };
 

@@ -30,6 +30,8 @@ constexpr std::size_t buffer_bytes = 1 << 18;
 constexpr std::size_t batch_max = 4096;
 /// Rows that are kept in memory, of all ways together.
 constexpr std::size_t waiting_bytes_max = 4 << 20;
+/// Of the packets held in memory: 20 s of two peers take 24 MB.
+constexpr std::size_t held_bytes_max = std::size_t{64} << 20;
 
 [[noreturn]] void refuse(const std::string& what)
 {
@@ -161,13 +163,17 @@ void Recorder::Fates::finish()
     file.commit({});
 }
 
-Recorder::Capture::Capture(const std::string& path, const std::vector<CaptureNames>& pairs)
-    : file{path},
+Recorder::Capture::Capture(const Files& files)
+    : span{files.kept},
+      keeper{files.keep_in},
       since_1970{base::from_seconds(net::wall_clock_seconds()) -
                  net::monotonic_now().time_since_epoch()}
 {
+    if (files.capture) file.emplace(*files.capture);
+    if (span) held.emplace(*span, held_bytes_max);
+    append_capture_head(section, base::version_line("hapnet-emulator"), files.pairs);
     bytes.reserve(2 * buffer_bytes);
-    append_capture_head(bytes, base::version_line("hapnet-emulator"), pairs);
+    bytes = section;
 }
 
 void Recorder::Capture::write(Queue<Part>& queue, Incomplete& incomplete)
@@ -175,12 +181,21 @@ void Recorder::Capture::write(Queue<Part>& queue, Incomplete& incomplete)
     Part part;
     for (std::size_t i = 0; i < batch_max && queue.try_dequeue(part); ++i) {
         take(part, incomplete);
-        if (bytes.size() < buffer_bytes) continue;
-        file.append(bytes);
-        bytes.clear();
+        if (bytes.size() >= buffer_bytes) flush();
     }
-    file.append(bytes);
+    flush();
+}
+
+void Recorder::Capture::flush()
+{
+    if (file) file->append(bytes);
     bytes.clear();
+}
+
+/// Writes what was ordered of the last packets.
+void Recorder::Capture::save_ordered()
+{
+    if (const auto order = keeper.take()) keeper.save(order->path, section + held->since(order->from));
 }
 
 /// A packet whose chunks do not all come was lost: the next one begins instead.
@@ -211,13 +226,15 @@ void Recorder::Capture::append(const Incomplete& complete)
         append_arrival_comment(comment, head.fate);
     }
     packet.payload = complete.payload;
+    const std::size_t before = bytes.size();
     append_packet(bytes, packet, since_1970, comment);
+    if (held) held->add(packet.at, std::string_view{bytes}.substr(before));
 }
 
 Recorder::Recorder(const Files& files)
 {
     if (files.fates) fates_ = std::make_unique<Fates>(*files.fates, files.has_several_paths);
-    if (files.capture) capture_ = std::make_unique<Capture>(*files.capture, files.pairs);
+    if (files.capture || files.kept) capture_ = std::make_unique<Capture>(files);
     for (std::size_t i = 0; i < files.lanes; ++i) {
         lanes_.push_back(std::make_unique<Lane>(fates_ != nullptr, capture_ != nullptr));
     }
@@ -252,6 +269,22 @@ std::uint64_t Recorder::capture_lost() const
     std::uint64_t sum = 0;
     for (const auto& lane : lanes_) sum += lane->packets_lost_.load(relaxed);
     return sum;
+}
+
+std::optional<base::Duration> Recorder::held() const
+{
+    return capture_ ? capture_->span : std::nullopt;
+}
+
+base::Result<std::string> Recorder::keep(const std::string& name, base::TimePoint from)
+{
+    if (!held()) return base::fail("nothing is held in memory");
+    return capture_->keeper.order(name + ".pcapng", from);
+}
+
+std::optional<std::string> Recorder::keep_trouble()
+{
+    return capture_ ? capture_->keeper.trouble() : std::nullopt;
 }
 
 Recorder::Lane::Lane(bool has_fates, bool has_capture)
@@ -297,6 +330,7 @@ void Recorder::write()
         if (lane->fates_) fates_->write(*lane->fates_);
         if (lane->packets_) capture_->write(*lane->packets_, lane->incomplete_);
     }
+    if (capture_) capture_->save_ordered();
 }
 
 /// Of the queue in which most waits.
@@ -336,11 +370,11 @@ void Recorder::finish()
     try {
         if (failure_) std::rethrow_exception(failure_);
         if (fates_) fates_->finish();
-        if (capture_) capture_->file.commit({});
+        if (capture_ && capture_->file) capture_->file->commit({});
     } catch (...) {
         failed_.store(true, std::memory_order_release);
         if (fates_) fates_->file.keep();
-        if (capture_) capture_->file.keep();
+        if (capture_ && capture_->file) capture_->file->keep();
         throw;
     }
 }

@@ -5,8 +5,10 @@
 #include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/fate.hpp"
+#include "proto/base/rolling_bytes.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
+#include "proto/net/keeper.hpp"
 #include "proto/net/result_file.hpp"
 
 #include <array>
@@ -35,6 +37,8 @@ public:
     struct Files {
         std::optional<std::string> fates{};
         std::optional<std::string> capture{};
+        std::optional<base::Duration> kept{}; // of the capture's last packets, in memory
+        std::string keep_in{};                // the folder for them
         std::vector<CaptureNames> pairs{CaptureNames{}}; // of interfaces of the capture
         bool has_several_paths = false;                  // the fates say of which path they are
         std::size_t lanes = 1;                           // threads that hand over
@@ -62,6 +66,14 @@ public:
     /// complete.
     [[nodiscard]] std::uint64_t fates_lost() const;
     [[nodiscard]] std::uint64_t capture_lost() const;
+
+    /// How much of the last packets is held; nullopt: nothing.
+    [[nodiscard]] std::optional<base::Duration> held() const;
+    /// Orders a capture of the packets since that time; gives its path. Never waits: the file
+    /// appears, whole, soon after. The error says why there will be none. From one thread.
+    [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
+    /// Why an ordered capture could not be written; once.
+    [[nodiscard]] std::optional<std::string> keep_trouble();
 
     /// Whether a file could not be written (a full disk): from then on everything is lost.
     [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
@@ -138,13 +150,19 @@ private:
         std::vector<std::byte> payload;
     };
     struct Capture {
-        Capture(const std::string& path, const std::vector<CaptureNames>& pairs);
+        explicit Capture(const Files& files);
 
         void write(Queue<Part>& queue, Incomplete& incomplete);
         void take(const Part& part, Incomplete& incomplete);
         void append(const Incomplete& complete);
+        void flush();
+        void save_ordered();
 
-        net::ResultFile file;
+        std::optional<net::ResultFile> file; // of the whole run
+        std::string section; // that every capture begins with
+        std::optional<base::Duration> span;
+        std::optional<base::RollingBytes> held; // of so much
+        net::Keeper keeper;
         base::Duration since_1970; // of the time point 0
         std::string bytes;
         std::string comment;

@@ -218,10 +218,9 @@ record::Layout layout_for(const scene::Description& scene)
     return is_one ? layout : layout.with_bodies();
 }
 
-std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
-                                         const device::Rig& rig, const Settings& settings)
+monitor::Recorder::Setup recording_for(const Options& options, std::string_view device,
+                                       const device::Rig& rig, const Settings& settings)
 {
-    if (!options.record) return std::nullopt;
     nlohmann::json configuration = monitor::configuration_json(options, device);
     // The session's number follows from it.
     configuration["nonce"] = settings.introduction.nonce;
@@ -231,7 +230,14 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     const glm::dvec3& offset = mount.offset.value;
     configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
     configuration["governor_toml"] = device::print_limits(rig.governor().limits());
-    return record::Writer{*options.record, configuration, layout_for(options.scene)};
+    const record::Layout layout = layout_for(options.scene);
+    std::optional<record::Writer> writer;
+    if (options.record) writer.emplace(*options.record, configuration, layout);
+    return {.writer = std::move(writer),
+            .config = std::move(configuration),
+            .layout = layout,
+            .held = options.keep.span,
+            .keep_in = options.keep.folder};
 }
 
 /// What a person is told of by name.
@@ -371,7 +377,7 @@ base::Result<int> run(const Options& options)
     loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate,
                        std::chrono::milliseconds{1}, layout_for(options.scene)}};
     // Last of all that may fail: the file is emptied.
-    monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
+    monitor::Monitor monitor{journal, screen.err, recording_for(options, device, rig, settings),
                              named_in(settings)};
 
     std::optional<monitor::ControlSession> control_session;

@@ -8,12 +8,14 @@ set -euo pipefail
 
 usage="usage: scripts/demo.sh [--peers N] [--scene turning] [--duration SECONDS] [--programs DIR]
                        [--out DIR]
+       scripts/demo.sh --web [--virtual] [--programs DIR] [--out DIR]
 Installs what is missing, builds, runs task P1 for 30 s and T3 for 20 s with a delay of 160 ms
 each way, and prints what was measured beside the paper's Table 1. Writes everything to DIR
 (results/demo-<time> when not given). With --peers N, 3 to 8, N hands carry the cube together
 instead (T7), for 20 s or --duration SECONDS through an emulator with a link for every two, 40 ms
 each way; their analysis is printed. With --scene turning, two hands or N turn a cube (T8) that
-way. --programs DIR takes the programs in DIR and builds nothing. Exits 0 when it went well, 1 when
+way. --web shows sessions on a page instead, with the network under your fingers, until Ctrl-C;
+with --virtual in virtual time, without any UDP. --programs DIR takes the programs in DIR and builds nothing. Exits 0 when it went well, 1 when
 a program failed or the measurement misses, 2 for an unknown argument, 3 when something that it
 needs cannot be installed."
 
@@ -22,7 +24,7 @@ refuse() {
     echo "demo: $1" >&2
     exit 2
 }
-out='' peers=2 scene='' seconds='' programs=''
+out='' peers=2 scene='' seconds='' programs='' web='' virtual=''
 while (($# > 0)); do
     case $1 in
     --out | --programs)
@@ -45,6 +47,8 @@ while (($# > 0)); do
         (($# > 1)) || refuse "--duration: how many seconds?"
         seconds=${2%s} && shift 2
         ;;
+    --web) web=yes && shift ;;
+    --virtual) virtual=--virtual && shift ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) refuse "unknown argument '$1'"$'\n'"$usage" ;;
     esac
@@ -55,6 +59,8 @@ done
 circle=''
 if ((peers > 2)) || [[ -n $scene ]]; then circle=yes; fi
 [[ -n $circle || -z $seconds ]] || refuse "--duration goes with --peers 3 to 8 or --scene turning"
+[[ -z $virtual || -n $web ]] || refuse "--virtual goes with --web"
+[[ -z $web || -z $circle$seconds ]] || refuse "--web has its own choice of peers, tasks and seconds"
 [[ -z $out ]] || out=$(realpath -m "$out")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out=${out:-$PWD/results/demo-$(date -u +%Y%m%dT%H%M%SZ)}
@@ -101,6 +107,41 @@ run_circle() {
     printf 'demo: records, rows (CSV) and statistics are beside it\n'
 }
 
+# show_page: the live page, until Ctrl-C.
+show_page() {
+    local opened=$1/address page
+    mkdir -p "$1"
+    rm -f "$opened"
+    # shellcheck disable=SC2086 # $virtual is one word, or none
+    "$bin/hapnet-web" --stage $virtual --out "$1" --url-file "$opened" >/dev/null &
+    page=$!
+    trap 'kill -TERM "$page" 2>/dev/null || true' INT TERM
+    for _ in {1..100}; do
+        [[ -s $opened ]] && break
+        kill -0 "$page" 2>/dev/null || break
+        sleep 0.1
+    done
+    if [[ -s $opened ]]; then
+        printf 'demo: open %s\n' "$(<"$opened")"
+        if [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]] && command -v xdg-open >/dev/null; then
+            xdg-open "$(<"$opened")" >/dev/null 2>&1 || true
+        fi
+    fi
+    local code=0
+    wait "$page" || code=$?
+    ((code <= 128)) || { code=0 && wait "$page" || code=$?; }
+    rm -f "$opened"
+    ((code == 0)) && printf '\ndemo: records, captures and statistics lie in %s\n' "$1"
+    return "$code"
+}
+
+if [[ -n $web ]]; then
+    [[ -n $programs ]] || build_programs hapnet-web hapnet-emulator hapnet-peer hapnet-lab
+    [[ -x $bin/hapnet-web ]] || { echo "demo: $bin/hapnet-web is not there" >&2 && exit 3; }
+    code=0
+    show_page "$out" || code=$?
+    exit "$code"
+fi
 if [[ -n $circle ]]; then
     [[ -n $programs ]] || build_programs hapnet-emulator hapnet-peer hapnet-lab
     seconds=${seconds:-20} task=T7

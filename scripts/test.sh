@@ -40,6 +40,7 @@ esac
 
 case $kind in
 programs) scripts/setup.sh --test --programs ;;
+web) scripts/setup.sh --web ;;
 ship) scripts/setup.sh --package ;;
 *) scripts/setup.sh --test ;;
 esac
@@ -166,7 +167,7 @@ build_programs() {
 
 build_web() {
     cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
-        --target hapnet-web hapnet-peer hapnet-emulator
+        --target hapnet-web hapnet-peer hapnet-emulator hapnet-lab
 }
 
 # The modules of the page and of its tests, as the lock file has them.
@@ -176,7 +177,9 @@ test_web() {
         command -v "$program" >/dev/null || { echo "left out: $program is missing" && return; }
     done
     (cd web/page && npm ci --ignore-scripts --no-audit --no-fund) || return
-    node --test --test-reporter=spec tests/web/page.test.mjs
+    mkdir -p "$logs/web"
+    HAPNET_WEB_PICTURES=$PWD/$logs/web node --test --test-concurrency=1 --test-reporter=spec \
+        tests/web/page.test.mjs tests/web/virtual.test.mjs
 }
 
 # closing LOG...: what ctest said at the end of each.

@@ -6,7 +6,6 @@
 #include "proto/base/version.hpp"
 #include "proto/control/core/request.hpp"
 #include "proto/net/clock.hpp"
-#include "web/core/metrics.hpp"
 #include "web/presets.hpp"
 
 #include <algorithm>
@@ -21,19 +20,10 @@ namespace {
 
 constexpr base::Duration state_every{std::chrono::milliseconds{100}};
 constexpr base::Duration look_every{std::chrono::milliseconds{500}};
-constexpr base::Duration metrics_for{std::chrono::seconds{1}};
 constexpr std::size_t mark_bytes_max = 320; // 80 characters of up to 4 bytes
-constexpr std::size_t files_max = 10'000;
 
 const std::string show_request = R"({"command":"show"})";
 const std::string scene_request = R"({"command":"scene"})";
-const std::string stats_request = R"({"command":"stats"})";
-
-std::string text_of(const nlohmann::ordered_json& json)
-{
-    using Json = nlohmann::ordered_json;
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 Viewer::Text shared(std::string text)
 {
@@ -52,13 +42,6 @@ std::uint64_t generation_in(const nlohmann::ordered_json& reply)
     return found != reply.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
-Reply fine(const char* key, nlohmann::ordered_json value)
-{
-    nlohmann::ordered_json json{{"ok", true}};
-    json[key] = std::move(value);
-    return {.body = text_of(json)};
-}
-
 std::size_t characters_in(std::string_view text)
 {
     return static_cast<std::size_t>(std::ranges::count_if(
@@ -67,23 +50,33 @@ std::size_t characters_in(std::string_view text)
 
 } // namespace
 
-Reply error_reply(int status, std::string_view error)
-{
-    return {.status = status,
-            .body = text_of(nlohmann::ordered_json{{"ok", false}, {"error", error}})};
-}
-
 Hub::Hub(boost::asio::io_context& io) : io_{io}, begun_{net::monotonic_now()} {}
 
-double Hub::at_s() const { return base::to_seconds(net::monotonic_now() - begun_); }
+bool Hub::is_virtual() const
+{
+    return emulator_state_.shown.is_object() && emulator_state_.shown.contains("pace");
+}
+
+double Hub::at_s() const
+{
+    if (is_virtual()) return feed_.elapsed_s().value_or(at_s_told_);
+    return base::to_seconds(net::monotonic_now() - begun_);
+}
+
+void Hub::attach_lab(const std::string& socket)
+{
+    finds_lab_peers_ = true;
+    set_daemons(socket, {});
+}
 
 void Hub::attach(const std::string& emulator, const std::vector<std::string>& peers)
 {
     set_daemons(emulator, peers);
 }
 
-void Hub::offer(Stage::Setup setup, bool begins)
+void Hub::offer(Stage::Setup setup, bool begins, bool is_virtual)
 {
+    results_.emplace(setup.out);
     stage_ = std::make_unique<Stage>(
         io_, std::move(setup),
         Stage::Handlers{
@@ -93,9 +86,11 @@ void Hub::offer(Stage::Setup setup, bool begins)
                 [this](const std::string& emulator, const std::vector<std::string>& peers) {
                     set_daemons(emulator, peers);
                 },
-            .on_run_end = [this](int run) { find_files(run); }});
+            .on_run_end = [this](int run) { results_->look_in(fmt::format("run-{}", run), run); }});
     if (!begins) return;
-    if (const auto begun = stage_->start(stage_->choice()); !begun) {
+    Choice choice = stage_->choice();
+    if (is_virtual) choice.mode = "virtual";
+    if (const auto begun = stage_->start(choice); !begun) {
         note("stage", begun.error().message);
     }
 }
@@ -235,6 +230,13 @@ void Hub::ask_emulator_to_show()
         is_showing_ = false;
         if (!reply || !reply->value("ok", false)) return;
         emulator_state_.shown = *reply;
+        const auto peers = reply->find("peers");
+        if (finds_lab_peers_ && peers != reply->end() && peers->is_number_unsigned() &&
+            *peers <= 8) {
+            finds_lab_peers_ = false;
+            const std::string socket = emulator_state_.socket;
+            set_daemons(socket, lab_peer_sockets(socket, peers->get<int>()));
+        }
         shown_generation_ = generation_in(*reply);
         has_news_ = true;
     });
@@ -272,7 +274,8 @@ nlohmann::ordered_json Hub::state() const
     std::vector<PeerState> peers;
     for (const auto& peer : peers_) peers.push_back(peer->state);
     Json trap = trap_.json();
-    trap["available"] = false; // no daemon keeps its last seconds
+    const auto why_not = why_nothing_is_held();
+    trap["available"] = why_not.empty();
     trap["keys"] = feed_.names();
     Json presets = Json::array();
     for (const Preset& preset : presets_built_in()) presets.push_back({{"name", preset.name}});
@@ -282,9 +285,10 @@ nlohmann::ordered_json Hub::state() const
         at_s(), emulator_state_, peers,
         {{"presets", std::move(presets)},
          {"stage", std::move(stage)},
-         {"pace", nullptr},
+         {"mode", is_virtual() ? "virtual" : "live"},
+         {"pace", is_virtual() ? emulator_state_.shown["pace"] : Json(nullptr)},
          {"trap", std::move(trap)},
-         {"keep", {{"available", false}, {"says", "these daemons do not keep their last seconds"}}},
+         {"keep", {{"available", why_not.empty()}, {"says", why_not}}},
          {"events", events_.kept()},
          {"help", help_for(emulator_state_, peers, stage_ != nullptr)}});
 }
@@ -319,6 +323,7 @@ void Hub::tell_state(base::TimePoint now)
 void Hub::tick(base::TimePoint now)
 {
     if (stage_) stage_->tick(now);
+    saving_.tick(now);
     if (emulator_) emulator_->tick(now);
     for (const auto& peer : peers_) peer->daemon->tick(now);
     if (!next_look_ || base::is_due(next_look_, now)) {
@@ -326,13 +331,27 @@ void Hub::tick(base::TimePoint now)
         for (const auto& peer : peers_) {
             if (peer->daemon->is_attached()) ask_peer_to_show(peer);
         }
+        if (is_virtual()) ask_emulator_to_show(); // how far it is
     }
-    if (const auto body = feed_.next(base::to_seconds(now - begun_), now)) {
-        const auto viewers = viewers_;
-        for (const auto& [id, viewer] : viewers) viewer.frame(*body);
-        step_trap(now);
-    }
+    tell_frame(now);
     tell_state(now);
+}
+
+void Hub::tell_frame(base::TimePoint now)
+{
+    if (is_virtual()) {
+        if (std::exchange(moves_told_, feed_.moves()) == feed_.moves()) return;
+        if (at_s() < at_s_told_) {
+            feed_.forget();
+            tell_all(shared(fmt::format("{{\"type\":\"reset\",\"at_s\":{:.4f}}}", at_s())));
+        }
+        at_s_told_ = at_s();
+    }
+    const auto body = feed_.next(at_s(), now);
+    if (!body) return;
+    const auto viewers = viewers_;
+    for (const auto& [id, viewer] : viewers) viewer.frame(*body);
+    step_trap(now);
 }
 
 void Hub::step_trap(base::TimePoint now)
@@ -341,8 +360,9 @@ void Hub::step_trap(base::TimePoint now)
     case Trap::News::none: return;
     case Trap::News::fired: return note("trap", fmt::format("{} came true", trap_.when()));
     case Trap::News::wants_keep:
-        return note("trap", fmt::format("{}: marked; these daemons do not keep their last seconds",
-                                        trap_.when()));
+        return save(free_name("trap"), trap_.last(), [this](const auto& files) {
+            if (!files) note("trap", "nothing is saved: " + files.error().message);
+        });
     case Trap::News::armed_again: has_news_ = true; return;
     }
 }
@@ -369,19 +389,21 @@ void Hub::answer(std::string_view path, const std::string& body, const OnReply& 
         return on_reply({.body = text_of(json)});
     }
     if (path == "/api/history") return on_reply({.body = feed_.history().coarse_json()});
-    if (path == "/api/files") return on_reply(files());
-    if (path == "/metrics") return answer_metrics(on_reply);
-    if (path.starts_with("/f/")) return answer_file(path, on_reply);
+    if (path == "/api/files") {
+        return on_reply(results_ ? results_->list() : fine_reply("files", Json::array()));
+    }
+    if (path == "/metrics") return metrics_.answer(attached_emulator(), attached_peers(), on_reply);
+    if (path.starts_with("/f/")) {
+        return on_reply(results_ ? results_->file(path) : error_reply(404, "no such file"));
+    }
     const auto request = control::parse_object(body);
     if (!request) return on_reply(error_reply(400, request.error().message));
     if (path == "/api/emulator") return answer_emulator(*request, on_reply);
     if (path == "/api/stage") return answer_stage(*request, on_reply);
     if (path == "/api/trap") return answer_trap(*request, on_reply);
     if (path == "/api/mark") return answer_mark(*request, on_reply);
-    if (path == "/api/pace") {
-        return on_reply(error_reply(409, "this is live: time cannot be set here"));
-    }
-    on_reply(error_reply(409, "these daemons do not keep their last seconds"));
+    if (path == "/api/pace") return answer_pace(*request, on_reply);
+    answer_keep(*request, on_reply);
 }
 
 void Hub::answer_emulator(const Json& request, const OnReply& on_reply)
@@ -427,7 +449,7 @@ void Hub::answer_stage(const Json& request, const OnReply& on_reply)
     const auto what = text_member(request, "do");
     if (what == "stop") {
         stage_->stop();
-        return on_reply(fine("stage", stage_->json()));
+        return on_reply(fine_reply("stage", stage_->json()));
     }
     if (what != "start" && what != "restart" && what != "loop") {
         return on_reply(error_reply(400, "\"do\" must be one of start, stop, restart, loop"));
@@ -441,7 +463,7 @@ void Hub::answer_stage(const Json& request, const OnReply& on_reply)
     } else if (const auto begun = stage_->start(*choice); !begun) {
         return on_reply(error_reply(409, begun.error().message));
     }
-    on_reply(fine("stage", stage_->json()));
+    on_reply(fine_reply("stage", stage_->json()));
 }
 
 void Hub::answer_trap(const Json& request, const OnReply& on_reply)
@@ -461,7 +483,100 @@ void Hub::answer_trap(const Json& request, const OnReply& on_reply)
         return on_reply(error_reply(400, "\"do\" must be arm or disarm"));
     }
     has_news_ = true;
-    on_reply(fine("trap", trap_.json()));
+    on_reply(fine_reply("trap", trap_.json()));
+}
+
+void Hub::answer_pace(const Json& request, const OnReply& on_reply)
+{
+    if (!is_virtual()) return on_reply(error_reply(409, "this is live: time cannot be set here"));
+    if (request.contains("command")) return on_reply(error_reply(400, "\"do\" says what to do"));
+    Json passed{{"command", "pace"}};
+    passed.update(request);
+    emulator_->ask(text_of(passed), [this, on_reply](const base::Result<Json>& reply) {
+        if (!reply) return on_reply(error_reply(504, "hapnet-lab: " + reply.error().message));
+        if (!reply->value("ok", false)) return on_reply({.status = 422, .body = text_of(*reply)});
+        on_pace(*reply, on_reply);
+    });
+}
+
+void Hub::on_pace(const Json& reply, const OnReply& on_reply)
+{
+    Json json = reply;
+    if (json.contains("pace")) emulator_state_.shown["pace"] = json["pace"];
+    if (const auto path = text_member(json, "file"); !path.empty()) {
+        if (stage_) results_->look_in(fmt::format("run-{}", stage_->run()), stage_->run());
+        json["file"] = std::filesystem::path{path}.filename().string();
+        Event event{.at = {}, .kind = "pace", .text = "saved as an experiment"};
+        event.files.push_back(json["file"].get<std::string>());
+        note(std::move(event));
+    }
+    has_news_ = true;
+    on_reply({.body = text_of(json)});
+}
+
+void Hub::answer_keep(const Json& request, const OnReply& on_reply)
+{
+    if (const auto why = why_nothing_is_held(); !why.empty()) {
+        return on_reply(error_reply(409, why));
+    }
+    const auto last = request.contains("last") ? base::parse_duration(text_member(request, "last"))
+                                               : base::Result<base::Duration>{Trap::last_usual};
+    if (!last) return on_reply(error_reply(400, "\"last\": " + last.error().message));
+    const auto name = request.contains("name") ? text_member(request, "name") : free_name("keep");
+    save(name, *last, [on_reply](const auto& files) {
+        if (!files) return on_reply(error_reply(422, files.error().message));
+        on_reply(fine_reply("files", *files));
+    });
+}
+
+std::string Hub::why_nothing_is_held() const
+{
+    const auto holds = [](const Json& shown) {
+        return shown.is_object() && shown.contains("held_s") && shown["held_s"].is_number();
+    };
+    if (is_virtual()) return "virtual time plays again from its seed: save it as an experiment";
+    bool is_any = false;
+    bool are_all = true;
+    const auto look_at = [&](bool is_attached, const Json& shown) {
+        if (!is_attached || !shown.is_object()) return;
+        is_any = true;
+        are_all = are_all && holds(shown);
+    };
+    look_at(emulator_state_.is_attached, emulator_state_.shown);
+    for (const auto& peer : peers_) look_at(peer->state.is_attached, peer->state.shown);
+    if (!is_any) return "nothing is attached";
+    return are_all ? "" : "start the daemons with --keep 20s --keep-in DIR";
+}
+
+/// "trap-2": one that nothing was saved under.
+std::string Hub::free_name(const std::string& stem)
+{
+    std::string name;
+    do {
+        name = fmt::format("{}-{}", stem, ++saved_);
+    } while (stage_ && std::filesystem::exists(stage_->kept() + "/" + name + ".pcapng"));
+    return name;
+}
+
+/// By all daemons; tells everybody.
+void Hub::save(const std::string& name, base::Duration last, Saving::OnSaved on_saved)
+{
+    std::vector<Daemon*> daemons = attached_peers();
+    if (Daemon* emulator = attached_emulator()) daemons.insert(daemons.begin(), emulator);
+    saving_.begin(daemons, name, last,
+                  [this, name, on_saved = std::move(on_saved)](
+                      const base::Result<std::vector<std::string>>& paths) {
+                      if (!paths) return on_saved(paths);
+                      if (stage_) results_->look_in(Stage::kept_folder, stage_->run());
+                      std::vector<std::string> files;
+                      for (const std::string& path : *paths) {
+                          files.push_back(std::filesystem::path{path}.filename().string());
+                      }
+                      Event event{.at = {}, .kind = "keep", .text = "saved " + name};
+                      event.files = files;
+                      note(std::move(event));
+                      on_saved(files);
+                  });
 }
 
 void Hub::answer_mark(const Json& request, const OnReply& on_reply)
@@ -474,100 +589,18 @@ void Hub::answer_mark(const Json& request, const OnReply& on_reply)
     on_reply({.body = R"({"ok":true})"});
 }
 
-void Hub::answer_metrics(const OnReply& on_reply)
+std::vector<Daemon*> Hub::attached_peers() const
 {
-    const auto plain = [on_reply](const std::string& text) {
-        on_reply({.body = text, .type = "text/plain; version=0.0.4; charset=utf-8"});
-    };
-    const auto now = net::monotonic_now();
-    if (metrics_until_ && !base::is_due(metrics_until_, now)) return plain(metrics_);
-    struct Gathered {
-        Json emulator = nullptr;
-        std::vector<Json> peers;
-        std::size_t awaited = 1;
-    };
-    auto gathered = std::make_shared<Gathered>();
-    metrics_until_ = now + metrics_for;
-    const auto one_more = [this, gathered, plain] {
-        if (--gathered->awaited > 0) return;
-        metrics_ = prometheus_text(gathered->emulator, gathered->peers);
-        plain(metrics_);
-    };
-    if (emulator_ && emulator_->is_attached()) {
-        ++gathered->awaited;
-        emulator_->ask(stats_request, [gathered, one_more](const base::Result<Json>& reply) {
-            if (reply) gathered->emulator = *reply;
-            one_more();
-        });
-    }
+    std::vector<Daemon*> attached;
     for (const auto& peer : peers_) {
-        if (!peer->daemon->is_attached()) continue;
-        ++gathered->awaited;
-        peer->daemon->ask(stats_request, [gathered, one_more](const base::Result<Json>& reply) {
-            if (reply) gathered->peers.push_back(*reply);
-            one_more();
-        });
+        if (peer->daemon->is_attached()) attached.push_back(peer->daemon.get());
     }
-    one_more();
+    return attached;
 }
 
-/// What a run has left behind: of known names only.
-void Hub::find_files(int run)
+Daemon* Hub::attached_emulator() const
 {
-    struct Known {
-        std::string_view ending;
-        std::string_view kind;
-    };
-    constexpr std::array known{Known{".pcapng", "capture"}, Known{".rec", "record"},
-                               Known{".csv", "csv"}, Known{".toml", "profile"},
-                               Known{".json", "statistics"}};
-    const std::string folder = fmt::format("run-{}", run);
-    std::error_code trouble;
-    std::vector<std::string> names;
-    for (const auto& entry :
-         std::filesystem::directory_iterator{stage_->out() + "/" + folder, trouble}) {
-        if (entry.is_regular_file(trouble)) names.push_back(entry.path().filename().string());
-    }
-    std::ranges::sort(names);
-    for (const std::string& name : names) {
-        const auto kind = std::ranges::find_if(
-            known, [&](const Known& one) { return name.ends_with(one.ending); });
-        const std::string shown = folder + "/" + name;
-        const bool is_there = std::ranges::find(files_, shown, &File::name) != files_.end();
-        if (kind == known.end() || is_there || files_.size() >= files_max) continue;
-        files_.push_back({shown, stage_->out() + "/" + shown, std::string{kind->kind}, run});
-    }
-}
-
-Reply Hub::files() const
-{
-    Json list = Json::array();
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-        const File& file = files_[i];
-        std::error_code trouble;
-        const auto bytes = std::filesystem::file_size(file.path, trouble);
-        if (trouble) continue;
-        list.push_back({{"name", file.name},
-                        {"bytes", bytes},
-                        {"kind", file.kind},
-                        {"run", file.run},
-                        {"href", fmt::format("/f/{}", i)}});
-    }
-    return fine("files", std::move(list));
-}
-
-void Hub::answer_file(std::string_view path, const OnReply& on_reply) const
-{
-    constexpr std::string_view folder = "/f/";
-    const auto number = base::parse_count(path.substr(folder.size()), files_max);
-    if (!number || *number >= files_.size()) return on_reply(error_reply(404, "no such file"));
-    const File& file = files_[*number];
-    std::string name = file.name;
-    std::ranges::replace(name, '/', '-');
-    on_reply({.body = {},
-              .type = "application/octet-stream",
-              .file = file.path,
-              .attached_as = std::move(name)});
+    return emulator_ && emulator_->is_attached() ? emulator_.get() : nullptr;
 }
 
 } // namespace hapnet::web

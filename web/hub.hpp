@@ -8,6 +8,10 @@
 #include "web/core/state.hpp"
 #include "web/core/trap.hpp"
 #include "web/daemon.hpp"
+#include "web/metrics_page.hpp"
+#include "web/reply.hpp"
+#include "web/results.hpp"
+#include "web/saving.hpp"
 #include "web/stage.hpp"
 
 #include <cstdint>
@@ -29,18 +33,6 @@ struct Viewer {
     std::function<void(const std::string& body)> frame;
 };
 
-/// An answer to a request.
-struct Reply {
-    int status = 200;
-    std::string body;
-    std::string type = "application/json";
-    std::string file{};        // served instead of the body
-    std::string attached_as{}; // the name that a browser is to save it under
-};
-using OnReply = std::function<void(Reply)>;
-
-[[nodiscard]] Reply error_reply(int status, std::string_view error);
-
 /// Between daemons, stage and pages: joins frames, passes requests on, tells everybody what has
 /// changed. Knows nothing of HTTP.
 class Hub {
@@ -53,7 +45,9 @@ public:
     /// What runs already; an empty path: none.
     void attach(const std::string& emulator, const std::vector<std::string>& peers);
     /// The stage that pages may use.
-    void offer(Stage::Setup setup, bool begins);
+    void offer(Stage::Setup setup, bool begins, bool is_virtual);
+    /// A session in virtual time, whose peers have their sockets beside it.
+    void attach_lab(const std::string& socket);
 
     /// Call it every frame_every.
     void tick(base::TimePoint now);
@@ -76,6 +70,9 @@ private:
     };
 
     [[nodiscard]] double at_s() const;
+    /// Whether what is attached plays in virtual time.
+    [[nodiscard]] bool is_virtual() const;
+    void tell_frame(base::TimePoint now);
     [[nodiscard]] Json state() const;
     void note(const std::string& kind, const std::string& text);
     void note(Event event);
@@ -96,18 +93,16 @@ private:
     void answer_emulator(const Json& request, const OnReply& on_reply);
     void answer_stage(const Json& request, const OnReply& on_reply);
     void answer_trap(const Json& request, const OnReply& on_reply);
+    void answer_pace(const Json& request, const OnReply& on_reply);
+    void on_pace(const Json& reply, const OnReply& on_reply);
     void answer_mark(const Json& request, const OnReply& on_reply);
-    void answer_file(std::string_view path, const OnReply& on_reply) const;
-    void answer_metrics(const OnReply& on_reply);
-    [[nodiscard]] Reply files() const;
-    void find_files(int run);
-
-    struct File {
-        std::string name; // "run-1/peer-1.rec"
-        std::string path;
-        std::string kind;
-        int run = 0;
-    };
+    void answer_keep(const Json& request, const OnReply& on_reply);
+    [[nodiscard]] std::vector<Daemon*> attached_peers() const;
+    [[nodiscard]] Daemon* attached_emulator() const; // null: it is not
+    /// Why the daemons cannot save their last seconds; "" when they can.
+    [[nodiscard]] std::string why_nothing_is_held() const;
+    void save(const std::string& name, base::Duration last, Saving::OnSaved on_saved);
+    [[nodiscard]] std::string free_name(const std::string& stem);
 
     boost::asio::io_context& io_;
     base::TimePoint begun_;
@@ -126,9 +121,13 @@ private:
     bool has_news_ = true; // of the state
     std::optional<base::TimePoint> next_state_;
     std::optional<base::TimePoint> next_look_; // at what daemons say of themselves
-    std::vector<File> files_;                  // appended to only
-    std::string metrics_;
-    std::optional<base::TimePoint> metrics_until_;
+    std::optional<Results> results_;
+    Saving saving_;
+    std::uint64_t moves_told_ = 0; // of the feed, in virtual time
+    double at_s_told_ = 0.0;
+    bool finds_lab_peers_ = false; // --lab: once it says how many there are
+    int saved_ = 0; // for names
+    MetricsPage metrics_;
 };
 
 } // namespace hapnet::web

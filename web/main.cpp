@@ -198,9 +198,13 @@ base::Result<int> run(const Options& options)
     auto acceptor = listening_on_loopback(io, options);
     const std::uint16_t port = acceptor.local_endpoint().port();
     Hub hub{io};
-    if (options.stage) hub.offer(stage_setup(options), !options.keeps_stopped);
+    if (options.stage) hub.offer(stage_setup(options), !options.keeps_stopped, options.is_virtual);
     setpriority(PRIO_PROCESS, 0, niceness); // of this thread: children begin in another
-    if (!options.stage) hub.attach(options.emulator, options.peers);
+    if (!options.lab.empty()) {
+        hub.attach_lab(options.lab);
+    } else if (!options.stage) {
+        hub.attach(options.emulator, options.peers);
+    }
     const Gate gate{{.port = port, .hosts = options.hosts, .token = *token}};
     const Page page;
     Server server{{io, hub, gate, page}};

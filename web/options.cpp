@@ -25,6 +25,7 @@ machine: ssh -L local.sock:remote.sock HOST.
 
 Examples:
   hapnet-web --stage
+  hapnet-web --lab /tmp/lab.sock
   hapnet-web --emulator /tmp/emulator.sock --peer /tmp/peer-1.sock --peer /tmp/peer-2.sock)";
 
 constexpr const char* exit_codes = R"(  0  ended by SIGINT or SIGTERM
@@ -53,10 +54,13 @@ net::CommandLine<Options> parse_options(std::span<char*> words)
         .option("--peer", "SOCKET", "The control socket of a peer; once for each",
                 cli::onto(options.peers))
         .repeated();
+    program.option("--lab", "SOCKET", "That of hapnet-lab play --control: virtual time",
+                   cli::into(options.lab));
     program.flag("--stage", "Start an emulator and simulated peers, again and again",
                  options.stage);
     program.flag("--stopped", "With --stage: start nothing until the page asks for it",
                  options.keeps_stopped);
+    program.flag("--virtual", "With --stage: begin in virtual time", options.is_virtual);
     program.option("--out", "DIR",
                    "With --stage: where records and captures go (default: a new folder below "
                    "results/)",
@@ -79,11 +83,17 @@ net::CommandLine<Options> parse_options(std::span<char*> words)
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     options.is_port_chosen = program.is_given("--port");
     const bool attaches = !options.emulator.empty() || !options.peers.empty();
-    if (options.stage && attaches) {
-        return base::fail("--stage starts its own daemons: leave --emulator and --peer out");
+    if (options.stage && (attaches || !options.lab.empty())) {
+        return base::fail("--stage starts its own programs: leave --emulator, --peer and --lab "
+                          "out");
     }
-    if (!options.stage && (!options.out.empty() || options.keeps_stopped)) {
-        return base::fail("--out and --stopped go with --stage");
+    if (attaches && !options.lab.empty()) {
+        return base::fail("--lab is of virtual time: leave --emulator and --peer out");
+    }
+    const bool has_stage_options =
+        !options.out.empty() || options.keeps_stopped || options.is_virtual;
+    if (!options.stage && has_stage_options) {
+        return base::fail("--out, --stopped and --virtual go with --stage");
     }
     if (options.peers.size() > 8) return base::fail("--peer: 8 at most");
     if (!options.listen.empty() && (options.token_file.empty() || options.hosts.empty())) {

@@ -16,6 +16,7 @@ namespace hapnet::web {
 struct Options {
     std::string emulator;           // a control socket; empty: none
     std::vector<std::string> peers; // control sockets
+    std::string lab;                // of a session in virtual time; empty: none
     bool stage = false;             // may start daemons of its own
     std::string out;                // of the stage: where results go
     std::string listen;             // an address without a port; empty: loopback
@@ -24,6 +25,7 @@ struct Options {
     std::vector<std::string> hosts; // other names under which it is asked
     std::string token_file;         // empty: a token of its own
     std::string url_file;           // empty: none
+    bool is_virtual = false;        // --virtual: the stage begins in virtual time
     bool keeps_stopped = false;     // --stopped: the stage waits for its button
 };
 

@@ -83,14 +83,15 @@ StageFolders Stage::folders() const
 {
     return {.programs = setup_.programs,
             .sockets = sockets_,
-            .results = fmt::format("{}/run-{}", setup_.out, run_)};
+            .results = fmt::format("{}/run-{}", setup_.out, run_),
+            .kept = kept()};
 }
 
 base::Result<void> Stage::start(const Choice& choice)
 {
     if (!children_.empty()) return base::fail("the stage plays already: stop it first, or restart");
     choice_ = choice;
-    begin_emulator();
+    begin();
     return {};
 }
 
@@ -98,7 +99,7 @@ void Stage::restart(const Choice& choice)
 {
     if (children_.empty()) {
         choice_ = choice;
-        return begin_emulator();
+        return begin();
     }
     next_ = choice;
     begin_at_.reset();
@@ -121,11 +122,16 @@ void Stage::set_loop(bool loops)
     handlers_.on_change();
 }
 
-void Stage::begin_emulator()
+void Stage::begin()
 {
     try {
         ++run_;
         std::filesystem::create_directories(folders().results);
+        std::filesystem::create_directories(kept());
+        if (is_virtual()) {
+            change(State::starting, "hapnet-lab starts");
+            return add(lab_start(choice_, folders(), setup_.choices), "hapnet-lab", true);
+        }
         change(State::starting, "the emulator starts");
         add(emulator_start(choice_, folders()), "emulator", true);
     } catch (const std::system_error& error) {
@@ -152,6 +158,15 @@ void Stage::begin_peers()
     handlers_.on_event(fmt::format("session {} begins: task {}, algorithm {}", run_, choice_.task,
                                    choice_.algorithm));
     handlers_.on_daemons(sockets_ + "/emulator.sock", peer_sockets_);
+}
+
+void Stage::begin_watching_lab()
+{
+    const std::string socket = sockets_ + "/lab.sock";
+    change(State::running, fmt::format("virtual time: task {}, {}", choice_.task, choice_.algorithm));
+    handlers_.on_event(fmt::format("a session in virtual time begins: task {}, algorithm {}",
+                                   choice_.task, choice_.algorithm));
+    handlers_.on_daemons(socket, lab_peer_sockets(socket, choice_.peers));
 }
 
 void Stage::add(const Start& start, const std::string& name, bool is_emulator)
@@ -198,6 +213,7 @@ void Stage::on_output(Running& running)
     if (state_ != State::starting) return;
     const auto end = running.said.find('\n');
     if (end == std::string::npos) return;
+    if (is_virtual()) return begin_watching_lab();
     auto places = places_in(running.said.substr(0, end), choice_.peers);
     if (!places) return fail(places.error().message);
     places_ = *std::move(places);
@@ -242,7 +258,7 @@ void Stage::on_empty()
     handlers_.on_run_end(run_);
     if (next_) {
         choice_ = *std::exchange(next_, std::nullopt);
-        return begin_emulator();
+        return begin();
     }
     if (state_ == State::stopping) change(State::stopped, "press start");
 }

@@ -55,7 +55,9 @@ public:
     [[nodiscard]] bool is_idle() const { return children_.empty(); }
     [[nodiscard]] const Choice& choice() const { return choice_; }
     [[nodiscard]] const Choices& choices() const { return setup_.choices; }
-    [[nodiscard]] const std::string& out() const { return setup_.out; }
+    /// Of what the daemons save of their last seconds, below `out`.
+    static constexpr const char* kept_folder = "kept";
+    [[nodiscard]] std::string kept() const { return setup_.out + "/" + kept_folder; }
     [[nodiscard]] int run() const { return run_; }
     [[nodiscard]] nlohmann::ordered_json json() const;
 
@@ -72,8 +74,10 @@ private:
         std::array<char, 4096> buffer{};
     };
 
-    void begin_emulator();
+    void begin();
     void begin_peers();
+    void begin_watching_lab();
+    [[nodiscard]] bool is_virtual() const { return choice_.mode == "virtual"; }
     void add(const Start& start, const std::string& name, bool is_emulator);
     void await_end(const std::shared_ptr<Running>& running);
     void await_output(const std::shared_ptr<Running>& running);

@@ -5,8 +5,10 @@
 #include "emulator/core/all_paths.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace hapnet::emulator {
@@ -27,6 +29,10 @@ struct Emulation {
     std::function<void()> stop{};
     /// What a sentence of tc-netem asks for.
     std::function<base::Result<TranslatedProfile>(const std::string& sentence)> netem{};
+    /// How much of the last packets is held in memory; nullopt: none.
+    std::optional<base::Duration> held{};
+    /// Orders a capture of them since a time; gives its path.
+    std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};
 };
 
 } // namespace hapnet::emulator

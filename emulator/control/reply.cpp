@@ -211,6 +211,7 @@ std::string reply_to(const ShowRequest& /*request*/, const Emulation& emulation)
                {"changes", director.profile().timeline.size()},
                {"next_change_in_s", seconds(next)}}},
              {"conditions", conditions_json(emulation.paths)},
+             {"held_s", seconds(emulation.held)},
              {"live", is_only && deciders.front().name.empty() ? live_of(director)
                                                                : live_of_several(deciders, now)},
              {"profile", to_text(remaining_of(emulation, deciders))}});
@@ -281,6 +282,12 @@ std::string reply_to(const StopRequest& /*request*/, const Emulation& emulation)
     return line_of(Json{{"ok", true}, {"stopping", true}, {"program", "hapnet-emulator"}});
 }
 
+std::string reply_to(const KeepRequest& request, const Emulation& emulation, base::TimePoint now)
+{
+    const base::TimePoint from = now - request.last.value_or(*emulation.held);
+    return control::keep_reply(emulation.keep(request.name, from), from, now);
+}
+
 nlohmann::ordered_json statistics_of(const Emulation& emulation)
 {
     auto json = Json::parse(emulation.statistics_json(), nullptr,
@@ -293,7 +300,7 @@ nlohmann::ordered_json statistics_of(const Emulation& emulation)
 
 control::Answer answer_to(std::string_view line, Emulation& emulation, base::TimePoint now)
 {
-    const auto request = parse_request(line);
+    const auto request = parse_request(line, emulation.held);
     if (!request) return refusal(request.error().message);
     emulation.paths.catch_up(now);
     if (const auto* one = std::get_if<ShowRequest>(&*request)) return reply_to(*one, emulation);
@@ -308,6 +315,9 @@ control::Answer answer_to(std::string_view line, Emulation& emulation, base::Tim
         return reply_to(*reset, emulation, now);
     }
     if (const auto* stop = std::get_if<StopRequest>(&*request)) return reply_to(*stop, emulation);
+    if (const auto* keep = std::get_if<KeepRequest>(&*request)) {
+        return reply_to(*keep, emulation, now);
+    }
     if (const auto* wait = std::get_if<WaitRequest>(&*request)) return *wait;
     if (const auto* watch = std::get_if<WatchRequest>(&*request)) return *watch;
     return control::statistics_reply(statistics_of(emulation));

@@ -24,6 +24,9 @@ namespace hapnet::emulator {
 [[nodiscard]] std::string reply_to(const ResetRequest& request, Emulation& emulation,
                                    base::TimePoint now);
 
+[[nodiscard]] std::string reply_to(const KeepRequest& request, const Emulation& emulation,
+                                   base::TimePoint now);
+
 /// The emulator's statistics with "generation" and "elapsed_s".
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Emulation& emulation);
 

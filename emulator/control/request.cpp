@@ -45,7 +45,7 @@ ProfileText profile_of(Members& members)
     return {std::move(toml), members.optional_text("file").value_or("profile")};
 }
 
-Request request_of(std::string_view command, Members& members)
+Request request_of(std::string_view command, Members& members, std::optional<base::Duration> held)
 {
     if (command == "set") {
         auto settings = settings_of(members);
@@ -57,16 +57,17 @@ Request request_of(std::string_view command, Members& members)
     if (command == "stats") return StatsRequest{};
     if (command == "stop") return StopRequest{};
     if (command == "wait") return control::wait_request(members);
+    if (command == "keep") return control::keep_request(members, held);
     if (command == "watch") return control::watch_request(members, frames_least);
     return ShowRequest{};
 }
 
 } // namespace
 
-base::Result<Request> parse_request(std::string_view line)
+base::Result<Request> parse_request(std::string_view line, std::optional<base::Duration> held)
 {
-    constexpr std::array<std::string_view, 9> commands{"show",  "set",  "apply", "diff", "reset",
-                                                       "stats", "wait", "watch", "stop"};
+    constexpr std::array<std::string_view, 10> commands{
+        "show", "set", "apply", "diff", "reset", "stats", "wait", "watch", "keep", "stop"};
     const auto json =
         control::parse_object(line); // settings count in the order in which they stand
     if (!json) return tl::unexpected{json.error()};
@@ -76,7 +77,7 @@ base::Result<Request> parse_request(std::string_view line)
     if (std::find(commands.begin(), commands.end(), command) == commands.end()) {
         return base::fail(fmt::format("\"command\" must be one of {}", fmt::join(commands, ", ")));
     }
-    return members.finish(request_of(command, members));
+    return members.finish(request_of(command, members, held));
 }
 
 } // namespace hapnet::emulator

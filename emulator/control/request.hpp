@@ -43,16 +43,19 @@ struct DiffRequest {
 struct ResetRequest {};
 struct StatsRequest {};
 struct StopRequest {};
+using control::KeepRequest;
 using control::WaitRequest;
 using control::WatchRequest;
 
 using Request = std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest,
-                             StatsRequest, WaitRequest, WatchRequest, StopRequest>;
+                             StatsRequest, WaitRequest, WatchRequest, KeepRequest, StopRequest>;
 
 /// How many settings one request may make.
 inline constexpr std::size_t settings_max = 64;
 
-/// Reads one line. The error says what is wrong and what would be right.
-[[nodiscard]] base::Result<Request> parse_request(std::string_view line);
+/// Reads one line. The error says what is wrong and what would be right. `held`: how much of the
+/// last packets is in memory; nullopt: none.
+[[nodiscard]] base::Result<Request> parse_request(std::string_view line,
+                                                  std::optional<base::Duration> held = {});
 
 } // namespace hapnet::emulator

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/files.hpp"
 
+#include "peer/shared_object/load.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <filesystem>
+#include <spdlog/fmt/fmt.h>
 #include <system_error>
 #include <utility>
 
@@ -38,6 +40,15 @@ base::Result<record::Record> read_record(const std::string& path)
         }
     }
     return record;
+}
+
+base::Result<void> load_own_algorithms(experiment::Experiment& experiment)
+{
+    for (experiment::NamedAlgorithm& named : experiment.algorithms) {
+        const auto loaded = peer::shared_object::load(named.algorithm);
+        if (!loaded) return base::fail(fmt::format("{}: {}", named.name, loaded.error().message));
+    }
+    return {};
 }
 
 void create_folder(const std::string& path)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/experiment/experiment.hpp"
 #include "lab/results/session_files.hpp"
 #include "proto/base/result.hpp"
 #include "proto/record/reader.hpp"
@@ -16,6 +17,9 @@ namespace hapnet::lab {
 
 /// Reads a record. Says so on standard error when its end is missing.
 [[nodiscard]] base::Result<record::Record> read_record(const std::string& path);
+
+/// Loads the algorithms that are no part of the program.
+[[nodiscard]] base::Result<void> load_own_algorithms(experiment::Experiment& experiment);
 
 /// Creates a folder and those above it. Throws std::system_error naming the folder.
 void create_folder(const std::string& path);

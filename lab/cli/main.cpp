@@ -4,6 +4,7 @@
 #include "lab/cli/demo_command.hpp"
 #include "lab/cli/files.hpp"
 #include "lab/cli/options.hpp"
+#include "lab/cli/play_command.hpp"
 #include "lab/cli/real_time_command.hpp"
 #include "lab/cli/report_command.hpp"
 #include "lab/cli/run_command.hpp"
@@ -125,6 +126,12 @@ base::Result<int> run(const ExplainCommand& command)
     const auto explanation = scenes::explain(*scene, command.tick, command.sleeping);
     print(command.json ? to_json(explanation).dump(2) + '\n' : to_table(explanation));
     return 0;
+}
+
+base::Result<int> run(const PlayCommand& command)
+{
+    runner::keep_freed_memory();
+    return play_session(command);
 }
 
 base::Result<int> run(const RealTimeCommand& command)

@@ -5,6 +5,7 @@
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/fields.hpp"
 #include "lab/experiment/text.hpp"
+#include "lab/live/pace.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
@@ -12,6 +13,7 @@
 #include "scene/text/text.hpp"
 #include "scene/world.hpp"
 
+#include <cstdlib>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
@@ -235,6 +237,83 @@ void add_experiment(cli::Command& command, RunCommand& run, const std::string& w
     command.flag("--quick", "Use the values under [quick] of the experiment: rougher", run.quick);
 }
 
+/// A condition both ways, as a setting of the experiment.
+cli::Take condition_into(std::vector<std::string>& settings, std::string_view key)
+{
+    return [&settings, key](const std::string& text) -> base::Result<void> {
+        settings.push_back(fmt::format("both.{}={}", key, text));
+        return {};
+    };
+}
+
+/// "paused", "max", or a factor.
+cli::Take pace_into(PlayCommand& play)
+{
+    return [&play](const std::string& text) -> base::Result<void> {
+        play.paused = text == "paused";
+        if (play.paused) return {};
+        if (text == "max") {
+            play.pace.reset();
+            return {};
+        }
+        char* end = nullptr;
+        const double factor = std::strtod(text.c_str(), &end);
+        const bool is_whole = !text.empty() && *end == '\0';
+        if (!is_whole || !(factor >= live::Pace::factor_min && factor <= live::Pace::factor_max)) {
+            return base::fail(fmt::format("'{}': write a number from {} to {}, max or paused", text,
+                                          live::Pace::factor_min, live::Pace::factor_max));
+        }
+        play.pace = factor;
+        return {};
+    };
+}
+
+void add_play(cli::Command& command, PlayCommand& play)
+{
+    command.describe("Plays one session in virtual time and prints its numbers. With --control it "
+                     "is there to be watched: hapnet-web --lab SOCKET shows it, and hapnet-ctl "
+                     "SOCKET changes its network.");
+    command.add_footer("Examples:\n"
+                       "  hapnet-lab play --task T3 --loss 93% --json\n"
+                       "  hapnet-lab play --algorithm base --algorithm sep --delay 160ms\n"
+                       "  hapnet-lab play --profile wifi-busy --control /tmp/lab.sock --pace 10");
+    command.positional("EXPERIMENT",
+                       "A file, or a built-in experiment: its first task and seed, and up to three "
+                       "algorithms, instead of the options",
+                       cli::into(play.experiment));
+    command.option("--task", "NAME", "P1 (default) or T1 to T10", cli::into(play.task));
+    command
+        .option("--algorithm", "NAME", "base (default); up to three play under the same network",
+                cli::onto(play.algorithms))
+        .repeated();
+    command.option("--profile", "FILE|NAME", "Conditions and their timeline",
+                   cli::into(play.profile));
+    for (const char* key : {"delay", "jitter", "loss"}) {
+        command.option(fmt::format("--{}", key), "VALUE", fmt::format("The {}, both ways", key),
+                       condition_into(play.settings, key));
+    }
+    command
+        .option("--set", "KEY=VALUE", "Another value for a key of the experiment",
+                cli::onto(play.settings))
+        .repeated();
+    command.option("--seed", "N", "Of all random draws (default 1)",
+                   cli::into(play.seed, base::Count{1, 1'000'000'000}));
+    command.option("--duration", "TIME", "Of the session (default 30s)",
+                   cli::into(play.duration, base::Time{std::chrono::seconds{5},
+                                                       std::chrono::seconds{600}}));
+    command.option("--peers", "N", "How many play (default 2)",
+                   cli::into(play.peers, base::Count{2, 8}));
+    command.flag("--json", "Print one JSON object instead of lines", play.json);
+    command.option("--control", "SOCKET",
+                   "Wait on this Unix socket, and on SOCKET.peer-1 and so on, for whoever watches",
+                   cli::into(play.control));
+    command.option("--out", "DIR", "With --control: where experiments are saved",
+                   cli::into(play.out));
+    command.option("--pace", "FACTOR",
+                   "With --control: seconds played in a second (default 1), max or paused",
+                   pace_into(play));
+}
+
 void add_run(cli::Command& command, RunCommand& run)
 {
     command.describe("Runs an experiment in virtual time and writes its results as CSV. Run again "
@@ -348,6 +427,9 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     ReplayCommand replay;
     auto& replay_command = program.command("replay", "Replays a recorded peer in virtual time");
     add_replay(replay_command, replay);
+    PlayCommand play;
+    auto& play_command = program.command("play", "Plays one session in virtual time");
+    add_play(play_command, play);
     ExplainCommand explain;
     bool no_sleeping = false;
     auto& explain_command = program.command("explain", "Describes a scene and its stepper");
@@ -368,11 +450,20 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
                           "or give one record");
     }
+    if (play.algorithms.empty()) play.algorithms = {"base"};
+    if (play.control.empty() && (!play.out.empty() || play_command.is_given("--pace"))) {
+        return base::fail("play: --out and --pace go with --control");
+    }
+    if (!play.control.empty() && play.json) {
+        return base::fail("play: --json is for a session that plays to its end: leave --control "
+                          "out");
+    }
     explain.sleeping = !no_sleeping;
     run.command = merge.command = fmt::format("{}", fmt::join(words, " "));
     if (analyse_command.is_chosen()) return Command{analyse};
     if (demo_command.is_chosen()) return Command{demo};
     if (real_time_command.is_chosen()) return Command{real_time};
+    if (play_command.is_chosen()) return Command{std::move(play)};
     if (replay_command.is_chosen()) return Command{replay};
     if (report_command.is_chosen()) return Command{report};
     if (explain_command.is_chosen()) return Command{explain};

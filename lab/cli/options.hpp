@@ -24,6 +24,23 @@ struct AnalyseCommand {
     bool json = false;
 };
 
+/// `hapnet-lab play [EXPERIMENT] [--task T3 --algorithm sep ...] [--json | --control SOCKET]`
+struct PlayCommand {
+    std::string experiment; // a file, or the name of a built-in one; empty: what the options say
+    std::string task = "P1";
+    std::vector<std::string> algorithms; // none: base
+    std::string profile;                 // a file, or the name of a preset
+    std::vector<std::string> settings;   // of the experiment: "both.delay=160ms"
+    std::uint64_t seed = 1;
+    base::Duration duration{std::chrono::seconds{30}};
+    std::uint32_t peers = 2;
+    bool json = false;
+    std::string control;              // a socket; empty: it plays to the end
+    std::string out;                  // where experiments are saved
+    std::optional<double> pace = 1.0; // nullopt: as fast as possible
+    bool paused = false;
+};
+
 enum class ExportRows : std::uint8_t { ticks, messages, bodies };
 
 /// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages|bodies]`
@@ -107,8 +124,8 @@ struct CompareCommand {
 };
 
 using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
-                             RealTimeCommand, ReplayCommand, ReportCommand, RunCommand, PlanCommand,
-                             MergeCommand, CompareCommand>;
+                             PlayCommand, RealTimeCommand, ReplayCommand, ReportCommand, RunCommand,
+                             PlanCommand, MergeCommand, CompareCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

@@ -8,7 +8,6 @@
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/parts.hpp"
 #include "lab/experiment/text.hpp"
-#include "peer/shared_object/load.hpp"
 #include "proto/base/version.hpp"
 #include "proto/net/text_file.hpp"
 
@@ -48,16 +47,6 @@ experiment::Overrides overrides_of(const RunCommand& command)
     experiment::Overrides overrides{command.quick, command.settings};
     if (command.seeds) overrides.settings.push_back(fmt::format("seeds={}", *command.seeds));
     return overrides;
-}
-
-/// Loads the algorithms that are no part of the program.
-base::Result<void> load_own_algorithms(experiment::Experiment& experiment)
-{
-    for (experiment::NamedAlgorithm& named : experiment.algorithms) {
-        const auto loaded = peer::shared_object::load(named.algorithm);
-        if (!loaded) return base::fail(fmt::format("{}: {}", named.name, loaded.error().message));
-    }
-    return {};
 }
 
 /// What a plan says; `open` gives the texts of the files that it names.

@@ -189,6 +189,8 @@ struct Experiment {
     emulator::Path path{}; // the conditions that all sessions have in common
     /// What single links have of their own, whatever is tried on all of them.
     std::vector<emulator::PathPatch> links{};
+    /// What changes in every session, counted from its first hello.
+    std::vector<emulator::Change> timeline{};
     std::optional<Axis> axis{};
 };
 

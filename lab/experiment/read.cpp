@@ -58,13 +58,15 @@ void read_algorithms(TableReader& table, std::vector<NamedAlgorithm>& algorithms
     }
 }
 
-/// The conditions of all links, and what single ones have of their own.
+/// The conditions of all links, what single ones have of their own, and what changes meanwhile.
 void read_network(TableReader& table, Experiment& experiment)
 {
     emulator::Profile profile;
     emulator::read_conditions(table, {.any = true}, profile);
+    emulator::read_timeline(table, {.any = true}, profile);
     experiment.path = std::move(profile.path);
     experiment.links = std::move(profile.paths);
+    experiment.timeline = std::move(profile.timeline);
 }
 
 void read_kind(TableReader& table, Kind& kind)

@@ -66,6 +66,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     setting.energy_limit = experiment.energy_limit;
     setting.profile.path = path;
     setting.profile.paths = experiment.links;
+    setting.profile.timeline = experiment.timeline;
     setting.players.resize(one.party.peers);
     for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
         setting.players[seat].algorithm = one.algorithm.algorithm;

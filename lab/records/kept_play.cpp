@@ -3,6 +3,7 @@
 #include "lab/records/kept_play.hpp"
 
 #include "device/governor/limits_text.hpp"
+#include "lab/virtual_time/journal.hpp"
 #include "lab/virtual_time/world.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/version.hpp"
@@ -24,8 +25,7 @@ using namespace std::chrono_literals;
 using virtual_time::VirtualPlayer;
 using virtual_time::VirtualWorld;
 
-constexpr base::Duration begins_in{60s};  // or never
-constexpr base::Duration noted_every{1s}; // what two have agreed on
+constexpr base::Duration begins_in{60s}; // or never
 constexpr std::uint64_t tick_ns_of_records = 1'000'000;
 
 nlohmann::json ids_but(std::size_t seat, std::size_t players)
@@ -67,63 +67,6 @@ nlohmann::json kept_config(const virtual_time::Setting& setting, std::size_t sea
             {"boot_id", "virtual time"}};
 }
 
-/// The record of one player while it plays.
-class Keeper {
-public:
-    Keeper(const VirtualPlayer& player, KeptRecord& kept) : player_{player}, kept_{kept} {}
-
-    void on_message(const VirtualWorld::Arrival& arrival)
-    {
-        kept_.rows.push_back(
-            record::MessageRow{.tick = tick_,
-                               .received_at = arrival.at + player_.clock_ahead,
-                               .from = static_cast<std::uint16_t>(arrival.from + 1),
-                               .bytes{arrival.datagram.begin(), arrival.datagram.end()}});
-    }
-
-    /// After each of its ticks.
-    void on_tick()
-    {
-        const base::TimePoint now = player_.stepped_at + player_.clock_ahead;
-        kept_.rows.push_back(player_.side->row(tick_, {.due = now}));
-        if (kept_.layout.has_bodies()) {
-            for (const peer::SharedBody& body : player_.peer().shared())
-                kept_.rows.push_back(player_.side->body_row(tick_, body));
-        }
-        noted_.resize(player_.peer().others().size());
-        for (std::size_t other = 0; other < noted_.size(); ++other) note(other, now);
-        ++tick_;
-    }
-
-private:
-    void note(std::size_t other, base::TimePoint now)
-    {
-        const peer::Member& member = player_.peer().others()[other];
-        const auto& session = member.session();
-        const auto clock = player_.peer().clock(other);
-        if (!session || !clock) return;
-        auto& noted = noted_[other];
-        const bool is_new =
-            !noted || noted->session != session->number || noted->start != session->start;
-        if (!is_new && now - noted->noted_at < noted_every) return;
-        noted = record::SessionRow{.start = session->start,
-                                   .length = player_.peer().length(),
-                                   .remote_offset = clock->offset,
-                                   .offset_uncertainty = clock->uncertainty,
-                                   .session = session->number,
-                                   .seed = session->seed,
-                                   .other = member.id(),
-                                   .noted_at = now,
-                                   .remote_skew_ppm = clock->skew_ppm};
-        kept_.rows.push_back(*noted);
-    }
-
-    const VirtualPlayer& player_;
-    KeptRecord& kept_;
-    std::uint64_t tick_ = 0;
-    std::vector<std::optional<record::SessionRow>> noted_;
-};
-
 bool is_over(const VirtualWorld& world)
 {
     for (std::size_t side = 0; side < world.sides(); ++side) {
@@ -144,16 +87,17 @@ base::Result<std::vector<KeptRecord>> play_and_keep(const virtual_time::Setting&
     if (setting.tick != 1ms) return base::fail("a record has ticks of 1 ms: use tick = \"1ms\"");
     VirtualWorld world{setting};
     std::vector<KeptRecord> kept(world.sides());
-    std::vector<Keeper> keepers;
+    std::vector<virtual_time::Journal> journals;
     for (std::size_t side = 0; side < world.sides(); ++side) {
         const VirtualPlayer& player = world.side(side);
         kept[side].config = kept_config(setting, side, player.rig.governor().limits());
-        if (!peer::is_one_without_turning(player.peer().shared()))
-            kept[side].layout = kept[side].layout.with_bodies();
-        keepers.emplace_back(player, kept[side]);
+        journals.emplace_back(player, [&record = kept[side]](const record::Row& row) {
+            record.rows.push_back(row);
+        });
+        if (journals.back().has_bodies()) kept[side].layout = kept[side].layout.with_bodies();
     }
     world.intercept([&](const VirtualWorld::Arrival& arrival) {
-        keepers[arrival.to].on_message(arrival);
+        journals[arrival.to].on_message(arrival.from, arrival);
         const std::size_t line = arrival.from < arrival.to ? arrival.from : arrival.from - 1;
         world.side(arrival.to).receive(line, arrival.datagram, arrival.at);
     });
@@ -161,7 +105,7 @@ base::Result<std::vector<KeptRecord>> play_and_keep(const virtual_time::Setting&
     while (!is_over(world) && world.now() < latest) {
         world.step();
         for (std::size_t side = 0; side < world.sides(); ++side) {
-            if (world.side(side).stepped_at == world.now()) keepers[side].on_tick();
+            if (world.side(side).stepped_at == world.now()) journals[side].on_tick();
         }
     }
     if (!is_over(world)) return base::fail("a session to be recorded never began");

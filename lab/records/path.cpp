@@ -41,6 +41,7 @@ Path path_between(const Side& sender, const Side& receiver, const auto& delay)
 {
     Path path;
     std::uint32_t highest = 0;
+    std::optional<std::uint32_t> first; // that the record can have
     std::unordered_set<std::uint32_t> seen;
     std::vector<base::Duration> delays;
     for (const record::MessageRow& row : receiver.messages) {
@@ -52,6 +53,7 @@ Path path_between(const Side& sender, const Side& receiver, const auto& delay)
         }
         if (message->sequence < highest) ++path.reordered;
         highest = std::max(highest, message->sequence);
+        first = std::min(first.value_or(message->sequence), message->sequence);
         delays.push_back(delay(row.received_at, message->sent));
     }
     std::vector<base::Duration> variations;
@@ -60,11 +62,13 @@ Path path_between(const Side& sender, const Side& receiver, const auto& delay)
     }
     const Sent sent = sent_by(sender);
     // What came was sent, even if the sender was killed before it wrote that down.
-    path.sent = std::max(sent.highest, highest);
+    const std::uint32_t before = receiver.begins_late && first ? *first - 1 : 0;
+    path.sent = std::max(sent.highest, highest) - before;
     path.packets_per_s = sent.packets_per_s;
     path.received = delays.size();
     if (highest > 0) {
-        path.loss = 1.0 - static_cast<double>(path.received) / static_cast<double>(highest);
+        path.loss =
+            1.0 - static_cast<double>(path.received) / static_cast<double>(highest - before);
     }
     path.delay = metrics::quantiles_of(std::move(delays));
     path.jitter = metrics::quantiles_of(std::move(variations));

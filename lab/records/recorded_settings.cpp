@@ -118,6 +118,10 @@ std::string_view validate(const WrittenConfig& config)
 
 base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
 {
+    if (config.is_object() && config.value("begins_late", nlohmann::json{}) == true) {
+        return base::fail("it begins late: it has only the last seconds of a session, and playing "
+                          "again needs them from the start");
+    }
     const auto written = base::from_json<WrittenConfig>(config, "its config");
     if (!written) {
         return base::fail(written.error().message +

@@ -86,9 +86,13 @@ Side side_of(const record::Record& record, std::uint32_t session, std::int64_t p
     };
     const std::size_t from = ticks_before(first);
     const auto others = others_of(record);
-    return {*newest,         std::span{record.ticks}.subspan(from, ticks_before(next) - from),
-            record.messages, record.bodies,
-            peer_id,         others.size() <= 1 || others.front() == std::int64_t{first->other}};
+    return {*newest,
+            std::span{record.ticks}.subspan(from, ticks_before(next) - from),
+            record.messages,
+            record.bodies,
+            peer_id,
+            others.size() <= 1 || others.front() == std::int64_t{first->other},
+            record.config.value("begins_late", nlohmann::json{}) == true};
 }
 
 Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& terms_of_a)

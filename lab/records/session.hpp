@@ -58,6 +58,8 @@ struct Side {
     std::int64_t peer_id = 0;
     /// Whether `sent_sequence` of its ticks counts the messages to the other side of this session.
     bool numbers_sent = true;
+    /// The record has only the last seconds: messages before them are not lost.
+    bool begins_late = false;
 };
 
 /// The clock of the other peer against that of the record which holds this row.

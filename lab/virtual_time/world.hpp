@@ -40,6 +40,8 @@ public:
 
     /// To the next deadline, and all that happens then.
     void step();
+    /// When step() would do something.
+    [[nodiscard]] base::TimePoint next_deadline() const;
     /// All that happens within `duration` from now, its end included.
     void run_for(base::Duration duration);
 
@@ -73,6 +75,15 @@ public:
     [[nodiscard]] const Setting& setting(std::size_t group = 0) const
     {
         return groups_[group].setting;
+    }
+    /// The links of a group: what holds on them may be changed between two steps.
+    [[nodiscard]] emulator::Paths& paths(std::size_t group = 0) { return groups_[group].paths; }
+    [[nodiscard]] std::size_t groups() const { return groups_.size(); }
+    /// The group of a side, and its seat there.
+    [[nodiscard]] std::size_t group_of(std::size_t side) const { return sides_[side].group; }
+    [[nodiscard]] std::size_t seat_of(std::size_t side) const
+    {
+        return side - groups_[sides_[side].group].first_side;
     }
     [[nodiscard]] base::TimePoint now() const { return now_; }
     [[nodiscard]] std::size_t sides() const { return sides_.size(); }
@@ -119,16 +130,11 @@ private:
 
     void add(const Setting& setting, emulator::QueueLimits limits);
     void add_ways(Group& group);
-    [[nodiscard]] std::size_t seat_of(std::size_t side) const
-    {
-        return side - groups_[sides_[side].group].first_side;
-    }
     [[nodiscard]] std::size_t way_between(std::size_t from, std::size_t to) const
     {
         const std::size_t seat = seat_of(to);
         return sides_[from].first_out + (to < from ? seat : seat - 1);
     }
-    [[nodiscard]] base::TimePoint next_deadline() const;
     void deliver(std::size_t to);
     void hand_over(std::size_t to, const Way& way, const emulator::Datagram& datagram);
     void play(std::size_t side);

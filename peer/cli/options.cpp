@@ -233,8 +233,9 @@ void add_results(cli::Command& program, Options& options)
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which may show the session and "
                    "stop it, and change nothing: hapnet-ctl SOCKET "
-                   "show|stats|watch|wait|stop|estop",
+                   "show|stats|watch|wait|keep|stop|estop",
                    cli::into(options.control));
+    cli::add_keep(program, options.keep, "what --record would write");
 }
 
 } // namespace
@@ -338,6 +339,7 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
     if (auto fine = complete_peers(options, asked, program); !fine) return fine;
     if (auto fine = check_device_options(program, options.device); !fine) return fine;
     if (auto fine = check_results(options); !fine) return fine;
+    if (auto fine = cli::check_keep(options.keep, options.control.has_value()); !fine) return fine;
     if (!program.is_given("--scene")) {
         const auto taken = take_scene(std::string{scene_for(options)}, options);
         if (!taken) return base::fail(fmt::format("--scene: {}", taken.error().message));

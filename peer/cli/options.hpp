@@ -12,6 +12,7 @@
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 #include "proto/cli/command.hpp"
+#include "proto/cli/keep_options.hpp"
 #include "proto/net/endpoint.hpp"
 #include "scene/description.hpp"
 
@@ -44,6 +45,7 @@ struct Options {
     std::optional<std::string> record;
     std::optional<std::string> stats;   // a file, or "-" for stdout
     std::optional<std::string> control; // where its socket is to be
+    cli::KeepOptions keep{};            // the last seconds of a record
 
     [[nodiscard]] bool is_pair() const { return others.size() <= 1; }
     /// Of a pair, whoever answers there.

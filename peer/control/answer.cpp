@@ -54,6 +54,14 @@ control::Answer answer_with(Members& members, Reply reply)
     return whole ? reply() : control::refusal(whole.error().message);
 }
 
+std::string kept(Members& members, const PeerControl& peer, base::TimePoint now)
+{
+    const auto request = members.finish(control::keep_request(members, peer.held));
+    if (!request) return control::refusal(request.error().message);
+    const base::TimePoint from = now - request->last.value_or(*peer.held);
+    return control::keep_reply(peer.keep(request->name, from), from, now);
+}
+
 /// A request that takes time, or what is wrong with it.
 template <typename Request>
 control::Answer begun(Members& members, Request request)
@@ -65,7 +73,7 @@ control::Answer begun(Members& members, Request request)
 
 } // namespace
 
-control::Answer answer_to(std::string_view line, const PeerControl& peer)
+control::Answer answer_to(std::string_view line, const PeerControl& peer, base::TimePoint now)
 {
     const auto json = control::parse_object(line);
     if (!json) return control::refusal(json.error().message);
@@ -81,22 +89,23 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer)
     }
     if (command == "wait") return begun(members, control::wait_request(members));
     if (command == "watch") return begun(members, control::watch_request(members, frames_least));
+    if (command == "keep") return kept(members, peer, now);
     if (is_for_an_emulator(command)) {
         return control::refusal(fmt::format(
             "'{}' is for an emulator: a running peer cannot be changed; use show, scene, stats, "
-            "watch, wait, stop or estop",
+            "watch, wait, keep, stop or estop",
             command));
     }
-    return control::refusal("\"command\" must be one of show, scene, stats, watch, wait, stop, "
-                            "estop");
+    return control::refusal("\"command\" must be one of show, scene, stats, watch, wait, keep, "
+                            "stop, estop");
 }
 
 control::Subject subject_of(PeerControl peer)
 {
     auto statistics = peer.statistics;
     auto frames = peer.frames;
-    return {[peer = std::move(peer)](std::string_view line, base::TimePoint /*now*/) {
-                return answer_to(line, peer);
+    return {[peer = std::move(peer)](std::string_view line, base::TimePoint now) {
+                return answer_to(line, peer, now);
             },
             std::move(statistics), std::move(frames)};
 }

@@ -6,12 +6,14 @@
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace hapnet::peer {
 
-/// A running peer as the clients of its control socket see it: they read its status and may stop
-/// it. Called from the thread that serves them, never from the loop's.
+/// A running peer as the clients of its control socket see it: they read its status, and may stop
+/// it or save what it holds. Called from the thread that serves them, never from the loop's.
 struct PeerControl {
     std::function<nlohmann::ordered_json()> show; // an object
     std::function<nlohmann::ordered_json()> statistics;
@@ -23,11 +25,16 @@ struct PeerControl {
     std::function<nlohmann::ordered_json()> scene;
     /// Begins a watch of frames.
     std::function<control::FrameSource()> frames;
+    /// How much of the last rows is held in memory; nullopt: none.
+    std::optional<base::Duration> held{};
+    /// Orders a record of them since a time; gives its path.
+    std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};
 };
 
 /// The answer to a request line; docs/formats/control.md describes the requests. A request that
 /// would change the peer is refused.
-[[nodiscard]] control::Answer answer_to(std::string_view line, const PeerControl& peer);
+[[nodiscard]] control::Answer answer_to(std::string_view line, const PeerControl& peer,
+                                        base::TimePoint now);
 
 /// The peer for a control socket.
 [[nodiscard]] control::Subject subject_of(PeerControl peer);

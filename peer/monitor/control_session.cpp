@@ -4,7 +4,7 @@
 
 #include "peer/control/answer.hpp"
 #include "peer/monitor/report.hpp"
-#include "peer/monitor/scene_report.hpp"
+#include "peer/control/scene_report.hpp"
 
 #include <utility>
 
@@ -34,7 +34,12 @@ control::Subject ControlSession::subject()
                        .stop = [this] { parts_.stop.request(); },
                        .stop_in_emergency = [this] { parts_.gate.stop_in_emergency(); },
                        .scene = [this] { return scene_json(parts_.options.scene); },
-                       .frames = [this] { return parts_.monitor.watch_frames(); }});
+                       .frames = [this] { return parts_.monitor.watch_frames(); },
+                       .held = parts_.monitor.held(),
+                       .keep =
+                           [this](const std::string& name, base::TimePoint from) {
+                               return parts_.monitor.keep(name, from);
+                           }});
 }
 
 void ControlSession::serve(base::TimePoint now)

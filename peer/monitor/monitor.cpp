@@ -165,7 +165,7 @@ std::string describe_in_circle(Event event, std::string_view shared, std::uint16
 }
 
 Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
-                 std::optional<record::Writer> writer, Named named)
+                 Recorder::Setup recording, Named named)
     : journal_{journal},
       screen_{screen},
       frames_{named.peer_id},
@@ -173,17 +173,18 @@ Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
       line_{STDERR_FILENO}
 {
     status_.awaited = named_.others;
-    if (writer) recorder_.emplace(*std::move(writer));
+    if (recording.writer || recording.held) recorder_.emplace(std::move(recording));
 }
 
 void Monitor::drain()
 {
     while (const auto entry = journal_.take()) {
-        frames_.take(*entry);
         if (const auto* row = std::get_if<record::Row>(&*entry)) {
+            frames_.take(*row);
             take(*row);
         } else if (const auto* message = std::get_if<loop::HeardMessage>(&*entry)) {
             ++status_.messages;
+            frames_.hear(message->from, message->received_at, message->message.bytes());
             note_round_trip(*message);
             if (recorder_) recorder_->put(message->row());
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
@@ -236,6 +237,9 @@ void Monitor::note_round_trip(const loop::HeardMessage& heard)
 /// Tells once that the record has ended before its time.
 void Monitor::look_at_record()
 {
+    if (recorder_) {
+        if (const auto trouble = recorder_->keep_trouble()) say(*trouble);
+    }
     const auto failure = record_failure();
     if (!failure || is_failure_told_) return;
     is_failure_told_ = true;
@@ -245,6 +249,12 @@ void Monitor::look_at_record()
         say(fmt::format("{}: the record ends here, and the session goes on without it",
                         error.what()));
     }
+}
+
+base::Result<std::string> Monitor::keep(const std::string& name, base::TimePoint from)
+{
+    if (!held()) return base::fail("nothing is held in memory");
+    return recorder_->keep(name, from);
 }
 
 std::exception_ptr Monitor::record_failure() const

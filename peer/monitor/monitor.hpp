@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/control/frame_tap.hpp"
 #include "peer/loop/journal.hpp"
-#include "peer/monitor/frame_tap.hpp"
 #include "peer/monitor/rate_limit.hpp"
 #include "peer/monitor/recorder.hpp"
 #include "proto/net/batch_sender.hpp"
@@ -53,9 +53,8 @@ public:
     static constexpr int events_at_once = 20;
     static constexpr base::Duration event_every{std::chrono::milliseconds{500}};
 
-    /// Text goes to `screen`, which outlives it. `writer` may be empty.
-    Monitor(loop::Journal& journal, net::TextQueue& screen, std::optional<record::Writer> writer,
-            Named named);
+    /// Text goes to `screen`, which outlives it.
+    Monitor(loop::Journal& journal, net::TextQueue& screen, Recorder::Setup recording, Named named);
 
     /// Reads everything in the journal. When the record cannot be written any more (a full disk),
     /// it says so once and goes on without it.
@@ -73,6 +72,13 @@ public:
 
     /// Begins a watch of frames of what is drained from now on.
     [[nodiscard]] control::FrameSource watch_frames() { return frames_.watch(); }
+
+    /// See Recorder.
+    [[nodiscard]] std::optional<base::Duration> held() const
+    {
+        return recorder_ ? recorder_->held() : std::nullopt;
+    }
+    [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
 
     /// Why the record is incomplete; null: its file has not refused.
     [[nodiscard]] std::exception_ptr record_failure() const;

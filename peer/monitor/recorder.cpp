@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/recorder.hpp"
 
+#include "peer/monitor/held_rows.hpp"
 #include "proto/net/detached_thread.hpp"
+#include "proto/net/keeper.hpp"
+#include "proto/record/header.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <optional>
+#include <spdlog/fmt/fmt.h>
 #include <readerwriterqueue/readerwritercircularbuffer.h>
 #include <system_error>
 #include <utility>
@@ -14,7 +19,15 @@
 namespace hapnet::peer::monitor {
 
 struct Recorder::State {
-    explicit State(record::Writer to) : writer{std::move(to)} {}
+    explicit State(Setup setup)
+        : writer{std::move(setup.writer)}, span{setup.held}, keeper{setup.keep_in}
+    {
+        if (!span) return;
+        peer_id = setup.config.value("peer_id", 0);
+        held.emplace(*span, setup.layout);
+        setup.config["begins_late"] = true;
+        kept_head = record::header_line(setup.config, setup.layout) + '\n';
+    }
 
     /// The writing thread.
     void work()
@@ -24,13 +37,15 @@ struct Recorder::State {
             while (true) {
                 const bool was_closed = is_closed.load(std::memory_order_acquire);
                 if (rows.wait_dequeue_timed(row, std::chrono::milliseconds{20})) {
-                    writer->write(row); // may take for ever, as all that the file is asked
-                    written.fetch_add(1, std::memory_order_relaxed);
-                } else if (was_closed) {
-                    break;
+                    if (held) held->add(row);
+                    write(row);
+                } else {
+                    save_ordered();
+                    if (was_closed) break;
                 }
+                if (++taken % rows_between_looks == 0) save_ordered();
             }
-            writer->flush();
+            if (writer) writer->flush();
         } catch (const std::system_error&) {
             failure = std::current_exception();
             has_failed.store(true, std::memory_order_release);
@@ -39,7 +54,30 @@ struct Recorder::State {
         is_done.store(true, std::memory_order_release);
     }
 
-    std::optional<record::Writer> writer; // the thread's own
+    void write(const record::Row& row)
+    {
+        if (!writer) return;
+        writer->write(row); // may take for ever, as all that the file is asked
+        written.fetch_add(1, std::memory_order_relaxed);
+    }
+
+    void save_ordered()
+    {
+        if (!held) return;
+        if (const auto order = keeper.take()) {
+            keeper.save(order->path, kept_head + held->since(order->from));
+        }
+    }
+
+    static constexpr std::uint64_t rows_between_looks = 64; // 30 ms of two peers
+
+    std::optional<record::Writer> writer; // the thread's own, as what follows
+    std::optional<HeldRows> held;
+    std::string kept_head; // the first line of a file with what is held
+    std::uint64_t taken = 0;
+    const std::optional<base::Duration> span;
+    std::int64_t peer_id = 0;
+    net::Keeper keeper;
     moodycamel::BlockingReaderWriterCircularBuffer<record::Row> rows{rows_max};
     std::atomic<std::uint64_t> written{0};
     std::atomic<std::uint64_t> lost{0};
@@ -49,7 +87,7 @@ struct Recorder::State {
     std::atomic<bool> is_done{false};
 };
 
-Recorder::Recorder(record::Writer writer) : state_{std::make_shared<State>(std::move(writer))}
+Recorder::Recorder(Setup setup) : state_{std::make_shared<State>(std::move(setup))}
 {
     net::start_detached([state = state_] { state->work(); });
 }
@@ -63,6 +101,15 @@ void Recorder::put(const record::Row& row)
 }
 
 void Recorder::close() { state_->is_closed.store(true, std::memory_order_release); }
+
+std::optional<base::Duration> Recorder::held() const { return state_->span; }
+
+base::Result<std::string> Recorder::keep(const std::string& name, base::TimePoint from)
+{
+    return state_->keeper.order(fmt::format("{}-peer-{}.rec", name, state_->peer_id), from);
+}
+
+std::optional<std::string> Recorder::keep_trouble() { return state_->keeper.trouble(); }
 
 bool Recorder::is_done() const { return state_->is_done.load(std::memory_order_acquire); }
 

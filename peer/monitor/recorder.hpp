@@ -2,24 +2,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
 #include "proto/record/writer.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 namespace hapnet::peer::monitor {
 
 /// A record that a thread of its own writes: a disk, a network drive or a pipe that does not take
-/// it keeps nobody else from anything. Rows that find no room are dropped and counted.
+/// it keeps nobody else from anything. Rows that find no room are dropped and counted. The same
+/// thread holds the last rows in memory, where that is asked for, and saves them on order.
 class Recorder {
 public:
     /// 8 s of ticks and messages of two peers with one body, 2 s of eight, 1 s of eight with eight
     /// bodies: longer than most stalls of a disk.
     static constexpr std::size_t rows_max = 16384;
 
-    explicit Recorder(record::Writer writer);
+    struct Setup {
+        std::optional<record::Writer> writer{}; // of the whole run
+        nlohmann::json config{};                // of what is held: as the record's
+        record::Layout layout{};
+        std::optional<base::Duration> held{}; // so much of the last rows
+        std::string keep_in{};                // the folder in which it is saved
+    };
+
+    explicit Recorder(Setup setup);
     /// Waits for nothing: see is_done().
     ~Recorder();
     Recorder(const Recorder&) = delete;
@@ -29,6 +43,14 @@ public:
     void put(const record::Row& row);
     /// No more rows come: the record is finished and closed.
     void close();
+
+    /// How much of the last rows is held; nullopt: none.
+    [[nodiscard]] std::optional<base::Duration> held() const;
+    /// Orders a record of the rows since that time; gives its path. Never waits: the file appears,
+    /// whole, soon after. The error says why there will be none. From one thread.
+    [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
+    /// Why an ordered record could not be written; once.
+    [[nodiscard]] std::optional<std::string> keep_trouble();
 
     /// After close(): whether nothing is left to do, as all is written or the file has refused.
     [[nodiscard]] bool is_done() const;

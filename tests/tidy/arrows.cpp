@@ -47,7 +47,7 @@ const std::vector<Folder>& map()
         {"device", true, {"proto/base"}},
         {"peer/core", true, {"scene", "proto/wire", "proto/record", "device"}},
         {"peer/line", true, {"proto/wire", "proto/secure"}},
-        {"peer/control", true, {"proto/control/core"}},
+        {"peer/control", true, {"peer/core", "proto/control/core", "proto/telemetry"}},
         {"peer/shared_object", false, {"peer/core", "proto/net"}},
         {"peer",
          false,
@@ -55,11 +55,12 @@ const std::vector<Folder>& map()
           "proto/record", "proto/secure/keys", "proto/telemetry", "proto/control", "proto/cli"}},
         {"web/core", true, {"proto/control/core"}},
         {"web", false, {"web/core", "proto/net", "proto/cli"}},
-        {"lab/cli", false, {"lab/runner", "peer/shared_object", "proto/cli"}},
+        {"lab/cli", false, {"lab/runner", "peer/shared_object", "proto/cli", "proto/control"}},
         {"lab/runner", false, {"lab", "proto/net"}},
         {"lab",
          true,
-         {"emulator/tools", "peer/core", "peer/line", "proto/plot", "proto/record", "device"}},
+         {"emulator/tools", "emulator/control", "peer/core", "peer/line", "peer/control",
+          "proto/plot", "proto/record", "proto/telemetry", "device"}},
     };
     return folders;
 }

@@ -6,7 +6,7 @@ import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 
 const root = new URL("../../", import.meta.url).pathname;
 const program = process.env.HAPNET_WEB ?? `${root}build/release/bin/hapnet-web`;
@@ -30,10 +30,13 @@ export const missing = () => {
   return playwright() ? false : "playwright-core is missing: npm ci in web/page";
 };
 
-/** {address, stop} of a hapnet-web that plays its demo. */
-export const startWeb = async () => {
+/** The path of another program of the same build. */
+export const programBeside = (name) => join(dirname(program), name);
+
+/** {address, out, stop} of a hapnet-web that plays its demo; files lie in `out`. */
+export const startWeb = async (...more) => {
   const out = mkdtempSync(join(tmpdir(), "hapnet-web-"));
-  const child = spawn(program, ["--stage", "--port", "0", "--out", out]);
+  const child = spawn(program, ["--stage", "--port", "0", "--out", out, ...more]);
   const ended = new Promise((resolve) => { child.on("exit", resolve); });
   const address = await new Promise((resolve, reject) => {
     ended.then((code) => reject(new Error(`hapnet-web ended with ${code}`)));
@@ -47,7 +50,13 @@ export const startWeb = async () => {
     await ended;
     rmSync(out, { recursive: true, force: true });
   };
-  return { address, stop };
+  return { address, out, stop };
+};
+
+/** Keeps a picture of the page, for whoever wants to see what a test saw. */
+export const keepPicture = (page, name) => {
+  const folder = process.env.HAPNET_WEB_PICTURES;
+  return folder ? page.screenshot({ path: join(folder, `${name}.png`) }) : undefined;
 };
 
 export const startBrowser = (more = []) =>

@@ -73,6 +73,7 @@ void Feed::take_peer(std::size_t place, PeerFrame frame)
     tracks_[place].add(frame.cube);
     // Counts of frames that came since the live frame before are of both.
     auto& newest = newest_[place];
+    if (!newest.frame || newest.frame->cube.at != frame.cube.at) ++moves_;
     if (newest.frame && newest.is_new) {
         frame.missed += newest.frame->missed;
         frame.force_max_n = std::max(frame.force_max_n, newest.frame->force_max_n);
@@ -85,6 +86,7 @@ void Feed::take_emulator(EmulatorFrame frame)
 {
     known_paths_.clear();
     for (const auto& path : frame.paths) known_paths_.push_back(path.name);
+    if (!emulator_.frame || emulator_.frame->at != frame.at) ++moves_;
     emulator_ = {std::move(frame), true};
 }
 
@@ -105,6 +107,12 @@ std::optional<std::uint64_t> Feed::generation() const
 {
     if (!emulator_.frame) return std::nullopt;
     return emulator_.frame->generation;
+}
+
+std::optional<double> Feed::elapsed_s() const
+{
+    if (!emulator_.frame) return std::nullopt;
+    return emulator_.frame->elapsed_s;
 }
 
 const PeerFrame::Heard* Feed::heard_by(std::size_t place, std::uint16_t from) const

@@ -50,6 +50,11 @@ public:
     [[nodiscard]] const Figures& figures() const { return figures_; }
     [[nodiscard]] const History& history() const { return history_; }
     [[nodiscard]] std::optional<std::uint64_t> generation() const;
+    /// Since the emulator's start, by its newest frame: the time, where time is virtual.
+    [[nodiscard]] std::optional<double> elapsed_s() const;
+    /// Grows with each frame that is of another time than the one before: virtual time may stand
+    /// still.
+    [[nodiscard]] std::uint64_t moves() const { return moves_; }
     /// Of the emulator, or of the last that was attached.
     [[nodiscard]] const std::vector<std::string>& paths() const { return known_paths_; }
 
@@ -81,6 +86,7 @@ private:
     std::vector<Newest<PeerFrame>> newest_; // as peers_
     std::vector<Track> tracks_;             // as peers_
     Newest<EmulatorFrame> emulator_;
+    std::uint64_t moves_ = 0;
     std::vector<std::string> known_paths_; // also while no emulator is attached
     Figures figures_;
     History history_;

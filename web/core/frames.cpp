@@ -199,8 +199,9 @@ base::Result<EmulatorFrame> parse_emulator_frame(std::string_view line)
     const auto json = parsed(line);
     if (!json) return tl::unexpected{json.error()};
     FrameReader in{*json};
-    EmulatorFrame frame{.text = std::string{line}, .generation = 0, .paths = {}};
-    in.time("at_ns");
+    EmulatorFrame frame{.text = std::string{line}, .at = {}, .paths = {}};
+    frame.at = in.time("at_ns");
+    frame.elapsed_s = or_zero(in.number("/elapsed_s"));
     frame.generation = static_cast<std::uint64_t>(std::max(0.0, in.number("/generation")));
     if (const Json* paths = in.list("paths")) {
         for (const Json& one : *paths) {

@@ -62,6 +62,8 @@ struct EmulatorFrame {
 
     std::string text;
     std::uint64_t generation = 0;
+    base::TimePoint at;
+    double elapsed_s = 0.0; // since its start
     std::vector<Path> paths;
 };
 

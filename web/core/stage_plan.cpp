@@ -15,6 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::int64_t virtual_seed_max = 1'000'000'000; // of an experiment
+constexpr const char* held_for = "20s"; // as much as a trap may ask for
 constexpr std::int64_t seed_max = (std::int64_t{1} << 53) - 1; // that JavaScript counts exactly
 
 /// Reads the members of a request onto a choice; the first trouble is remembered.
@@ -132,6 +134,10 @@ base::Result<Choice> choice_of(const nlohmann::ordered_json& request, const Choi
         return base::fail(fmt::format("task {} is for two peers; with {} choose T7 or T8",
                                       choice.task, choice.peers));
     }
+    if (choice.mode == "virtual" && choice.seed > virtual_seed_max) {
+        return base::fail(fmt::format("\"seed\" must be at most {} in virtual time",
+                                      virtual_seed_max));
+    }
     return choice;
 }
 
@@ -152,7 +158,7 @@ Start emulator_start(const Choice& choice, const StageFolders& folders)
         }
     }
     words.insert(words.end(),
-                 {"--profile", choice.preset, "--seed", std::to_string(choice.seed), "--control",
+                 {"--keep", held_for, "--keep-in", folders.kept, "--profile", choice.preset, "--seed", std::to_string(choice.seed), "--control",
                   start.socket, "--stats", folders.results + "/emulator.json"});
     return start;
 }
@@ -189,6 +195,31 @@ base::Result<Places> places_in(std::string_view ready_line, int peers)
     return places;
 }
 
+Start lab_start(const Choice& choice, const StageFolders& folders, const Choices& choices)
+{
+    Start start{.words = {folders.programs + "/hapnet-lab", "play", "--task", choice.task,
+                          "--algorithm", choice.algorithm},
+                .socket = folders.sockets + "/lab.sock",
+                .log = folders.results + "/lab.log"};
+    auto& words = start.words;
+    for (const std::string& other : choices.algorithms) {
+        if (other == choice.algorithm || choice.peers != 2) continue;
+        words.insert(words.end(), {"--algorithm", other});
+    }
+    words.insert(words.end(),
+                 {"--profile", choice.preset, "--seed", std::to_string(choice.seed), "--duration",
+                  fmt::format("{}s", choice.seconds), "--peers", std::to_string(choice.peers),
+                  "--control", start.socket, "--out", folders.results});
+    return start;
+}
+
+std::vector<std::string> lab_peer_sockets(const std::string& socket, int peers)
+{
+    std::vector<std::string> sockets;
+    for (int id = 1; id <= peers; ++id) sockets.push_back(fmt::format("{}.peer-{}", socket, id));
+    return sockets;
+}
+
 Start peer_start(int id, const Choice& choice, const StageFolders& folders, const Places& places)
 {
     base::ensure(id >= 1 && id <= choice.peers);
@@ -208,7 +239,7 @@ Start peer_start(int id, const Choice& choice, const StageFolders& folders, cons
         }
     }
     words.insert(words.end(),
-                 {"--device", "sim", "--task", choice.task, "--algorithm", choice.algorithm,
+                 {"--keep", held_for, "--keep-in", folders.kept, "--device", "sim", "--task", choice.task, "--algorithm", choice.algorithm,
                   "--seed", std::to_string(choice.seed), "--duration",
                   fmt::format("{}s", choice.seconds), "--control", start.socket, "--record",
                   fmt::format("{}/{}.rec", folders.results, name), "--stats",

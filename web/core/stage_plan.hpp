@@ -16,7 +16,7 @@ namespace hapnet::web {
 
 /// The sets that a page may choose from. Nothing else of what a page says reaches a command line.
 struct Choices {
-    std::vector<std::string> modes{"live"};
+    std::vector<std::string> modes{"live", "virtual"};
     std::vector<std::string> tasks;
     std::vector<std::string> algorithms;
     std::vector<std::string> presets;
@@ -56,6 +56,7 @@ struct StageFolders {
     std::string programs; // where hapnet-emulator and hapnet-peer are
     std::string sockets;  // of mode 0700
     std::string results;  // of this run
+    std::string kept;     // for the last seconds that the daemons hold
 };
 
 /// The words of a command, the program first; and the control socket that it makes.
@@ -72,6 +73,13 @@ struct Start {
 /// prints when it is ready. The error says that it is not that line.
 using Places = std::map<std::string, std::string, std::less<>>;
 [[nodiscard]] base::Result<Places> places_in(std::string_view ready_line, int peers);
+
+/// A session in virtual time instead of an emulator and peers: with the other algorithms beside
+/// the chosen one, where two play.
+[[nodiscard]] Start lab_start(const Choice& choice, const StageFolders& folders,
+                              const Choices& choices);
+/// The sockets of its peers.
+[[nodiscard]] std::vector<std::string> lab_peer_sockets(const std::string& socket, int peers);
 
 /// A peer, 1 to choice.peers; simulated, always. `places` is of places_in().
 [[nodiscard]] Start peer_start(int id, const Choice& choice, const StageFolders& folders,

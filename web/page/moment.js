@@ -34,6 +34,10 @@ const offsetsOf = (id, pairs) => {
   return offsets;
 };
 
+/** Where the first shared body of that side is with the other algorithms. */
+const besideOf = (place, others) =>
+  others.map((other) => millimetres(place === 0 ? other.cube_a : other.cube_b));
+
 /** `peers` are those of the state, `shared` the number of the first shared body. */
 export const momentOf = (frame, peers, shared) => {
   const sides = new Map();
@@ -48,6 +52,7 @@ export const momentOf = (frame, peers, shared) => {
       speed: peer.cube_v ? Math.hypot(...peer.cube_v) : 0,
       bodies: bodiesOf(peer, shared),
       offsets: offsetsOf(id, frame.pairs ?? []),
+      beside: besideOf(place, frame.emulator?.others ?? []),
     });
   });
   return { at: frame.at_s, sides };

@@ -39,7 +39,6 @@ export class Pace {
     byId("pace").hidden = !pace;
     if (!pace) return;
     say(byId("play"), pace.state === "playing" ? "Pause" : "Play");
-    byId("play").disabled = pace.state === "ended";
     if (document.activeElement !== byId("factor")) byId("factor").value = String(pace.factor);
   }
 }

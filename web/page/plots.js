@@ -21,6 +21,15 @@ const pairCurves = (model) => {
   }));
 };
 
+/** Other algorithms, which play beside the chosen one under the same network. */
+const otherCurves = (model) =>
+  (model.frame?.emulator?.others ?? []).map(({ algorithm }, i) => ({
+    name: `other_mm:${algorithm}`,
+    label: algorithm,
+    colour: ["sep", "other"][i],
+    show: "mean",
+  }));
+
 const wayCurves =
   (figure, ends, more = {}) =>
   (path) =>
@@ -61,7 +70,7 @@ export const plotsOf = (model, path, ends) => [
     title: "Copies apart, |x₁ − x₂|",
     unit: "mm",
     span: 2,
-    curves: pairCurves(model),
+    curves: [...pairCurves(model), ...otherCurves(model)],
   },
   {
     key: "delay",

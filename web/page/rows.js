@@ -69,6 +69,7 @@ export class RowMaker {
       row[`heard_delay_ms:${peer.peer}`] = band(peer.heard?.[0]?.delay_ms);
     }
     if (!frame.emulator || frame.emulator.repeated) return row;
+    for (const one of frame.emulator.others ?? []) row[`other_mm:${one.algorithm}`] = one.apart_mm;
     for (const path of frame.emulator.paths ?? []) {
       for (const way of ["up", "down"]) {
         const direction = path[way];

@@ -15,7 +15,7 @@ export class Stage {
     byId("loop").addEventListener("change", (event) => {
       if (this.stage?.state === "running") this.#ask({ do: "restart", loop: event.target.checked });
     });
-    for (const id of ["task", "algorithm", "peers", "preset"]) {
+    for (const id of ["time", "task", "algorithm", "peers", "preset"]) {
       byId(id).addEventListener("change", () => { byId("stage").classList.add("changed"); });
     }
     model.addEventListener("state", () => this.#show());
@@ -38,6 +38,7 @@ export class Stage {
     const running = this.stage.state === "running";
     return this.#ask({
       do: running ? "restart" : "start",
+      mode: byId("time").value,
       task: byId("task").value,
       algorithm: byId("algorithm").value,
       preset: byId("preset").value,
@@ -56,6 +57,7 @@ export class Stage {
     const counts = Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
     const kept = byId("stage").classList.contains("changed");
     const chosen = (value) => (kept ? undefined : String(value));
+    fillSelect(byId("time"), same(choices.modes), chosen(choice.mode));
     fillSelect(byId("task"), same(choices.tasks), chosen(choice.task));
     fillSelect(byId("algorithm"), same(choices.algorithms), chosen(choice.algorithm));
     fillSelect(byId("preset"), same(choices.presets), chosen(choice.preset));

@@ -395,6 +395,11 @@ void print_change(std::string& out, const Change& change)
 
 } // namespace
 
+void read_timeline(TableReader& table, const PathNames& names, Profile& profile)
+{
+    read_timeline(table.find("at"), names, profile, table.reading());
+}
+
 void read_conditions(TableReader& table, const PathNames& names, Profile& profile)
 {
     std::vector<Setting> settings;
@@ -433,7 +438,7 @@ base::Result<Profile> parse_profile(std::string_view text, const std::string& so
     if (name != nullptr) read_value(*name, profile.name, reading);
     profile.seed = read_seed(table.find("seed"), reading);
     read_conditions(table, names, profile);
-    read_timeline(table.find("at"), names, profile, reading);
+    read_timeline(table, names, profile);
     read_checks(table.find("check"), profile, reading);
     table.finish();
     if (!reading.is_good()) return base::fail(*reading.complaint());

@@ -47,4 +47,14 @@ std::string wait_reply(const base::Condition& until, bool is_met, const Json& st
     return line_of(reply);
 }
 
+std::string keep_reply(const base::Result<std::string>& file, base::TimePoint from,
+                       base::TimePoint to)
+{
+    if (!file) return refusal(file.error().message);
+    return line_of(Json{{"ok", true},
+                        {"file", *file},
+                        {"from_ns", from.time_since_epoch().count()},
+                        {"to_ns", to.time_since_epoch().count()}});
+}
+
 } // namespace hapnet::control

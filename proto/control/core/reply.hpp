@@ -3,6 +3,8 @@
 #pragma once
 
 #include "proto/base/condition.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -28,5 +30,9 @@ namespace hapnet::control {
 /// The answer to wait; says when it is by the statistics.
 [[nodiscard]] std::string wait_reply(const base::Condition& until, bool is_met,
                                      const nlohmann::ordered_json& statistics);
+
+/// The answer to keep: the path of the file, or why there is none.
+[[nodiscard]] std::string keep_reply(const base::Result<std::string>& file, base::TimePoint from,
+                                     base::TimePoint to);
 
 } // namespace hapnet::control

@@ -139,4 +139,19 @@ WatchRequest watch_request(Members& members, base::Duration frames_least)
     return {members.time("every", 50ms).value_or(WatchRequest{}.every)};
 }
 
+KeepRequest keep_request(Members& members, std::optional<base::Duration> held)
+{
+    constexpr std::string_view characters = "abcdefghijklmnopqrstuvwxyz0123456789-";
+    KeepRequest request{members.text("name"), std::nullopt};
+    const bool fits = !request.name.empty() && request.name.size() <= KeepRequest::name_max &&
+                      request.name.find_first_not_of(characters) == std::string::npos;
+    if (!fits) {
+        members.fail(fmt::format("\"name\" must be 1 to {} characters of a-z, 0-9 and -",
+                                 KeepRequest::name_max));
+    }
+    if (!held) members.fail("nothing is kept in memory: start it with --keep TIME --keep-in DIR");
+    request.last = members.time("last", 1ms, held.value_or(24h));
+    return request;
+}
+
 } // namespace hapnet::control

@@ -32,6 +32,14 @@ struct WatchRequest {
     bool of_frames = false;
 };
 
+/// Answered at once: what happened last is saved to a file, which appears soon after.
+struct KeepRequest {
+    static constexpr std::size_t name_max = 40;
+
+    std::string name; // [a-z0-9-], so that it stays in its folder
+    std::optional<base::Duration> last;
+};
+
 /// How deep a request may be nested; an honest one needs 2.
 inline constexpr std::size_t nesting_max = 16;
 
@@ -77,5 +85,8 @@ private:
 /// The members of wait and of watch. `frames_least`: how often frames may be had.
 [[nodiscard]] WaitRequest wait_request(Members& members);
 [[nodiscard]] WatchRequest watch_request(Members& members, base::Duration frames_least);
+
+/// Those of keep. `held`: how much a program has of what happened last; nullopt: nothing.
+[[nodiscard]] KeepRequest keep_request(Members& members, std::optional<base::Duration> held);
 
 } // namespace hapnet::control

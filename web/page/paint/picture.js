@@ -66,6 +66,11 @@ export const pictureOf = (scene, sides, id) => {
       hands.push({ at: other.hip, radius: scene.hipRadius, place: other.place, look: "ghost" });
     }
   }
+  const shared = scene.bodies.find((body) => body.id === scene.shared);
+  for (const at of shared ? own.beside ?? [] : []) {
+    const pose = { at, turn: poseOf(shared, own).turn };
+    if (differ(pose, poseOf(shared, own))) solids.push(...solidsOf(shared, pose, "ghost"));
+  }
   if (own.hip) {
     hands.push({
       at: own.hip, radius: scene.hipRadius, place: own.place, look: "hand", force: own.force,

@@ -6,11 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hapnet::peer::monitor {
+namespace hapnet::peer {
 
 /// What whoever draws a session needs to know of its scene: docs/formats/live.md. A scene of more
 /// than `bodies_shown_max` bodies is cut there, and says so.
 [[nodiscard]] nlohmann::ordered_json scene_json(const scene::Description& scene);
 inline constexpr std::size_t bodies_shown_max = 1000;
 
-} // namespace hapnet::peer::monitor
+} // namespace hapnet::peer

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/monitor/scene_report.hpp"
+#include "peer/control/scene_report.hpp"
 
 #include "peer/core/shared_body.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::peer::monitor {
+namespace hapnet::peer {
 
 namespace {
 
@@ -66,4 +66,4 @@ nlohmann::ordered_json scene_json(const scene::Description& scene)
     return out;
 }
 
-} // namespace hapnet::peer::monitor
+} // namespace hapnet::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/monitor/frame_tap.hpp"
+#include "peer/control/frame_tap.hpp"
 
 #include "device/fault.hpp"
 #include "device/governor.hpp"
@@ -9,7 +9,7 @@
 #include <string>
 #include <variant>
 
-namespace hapnet::peer::monitor {
+namespace hapnet::peer {
 
 namespace {
 
@@ -20,17 +20,6 @@ constexpr telemetry::Names names{
         },
     .fault = [](std::uint8_t fault) { return device::name_of(static_cast<device::Fault>(fault)); },
 };
-
-void feed(telemetry::Decimator& decimator, const loop::Entry& entry)
-{
-    if (const auto* row = std::get_if<record::Row>(&entry)) {
-        if (const auto* tick = std::get_if<record::TickRow>(row)) decimator.take(*tick);
-        if (const auto* session = std::get_if<record::SessionRow>(row)) decimator.take(*session);
-        if (const auto* body = std::get_if<record::BodyRow>(row)) decimator.take(*body);
-    } else if (const auto* heard = std::get_if<loop::HeardMessage>(&entry)) {
-        decimator.hear(heard->from, heard->received_at, heard->message.bytes());
-    }
-}
 
 } // namespace
 
@@ -44,16 +33,39 @@ control::FrameSource FrameTap::watch()
     };
 }
 
-void FrameTap::take(const loop::Entry& entry)
+void FrameTap::for_each_watch(const auto& visit)
 {
-    if (const auto* row = std::get_if<record::Row>(&entry)) {
-        if (const auto* session = std::get_if<record::SessionRow>(row)) note(*session);
-    }
-    if (watches_.empty()) return;
     std::erase_if(watches_, [&](const Watch& watch) {
         const auto decimator = watch.lock();
-        if (decimator) feed(*decimator, entry);
+        if (decimator) visit(*decimator);
         return !decimator;
+    });
+}
+
+void FrameTap::take(const record::Row& row)
+{
+    if (const auto* session = std::get_if<record::SessionRow>(&row)) note(*session);
+    if (watches_.empty()) return;
+    if (const auto* heard = std::get_if<record::MessageRow>(&row)) {
+        return hear(heard->from, heard->received_at, heard->bytes);
+    }
+    for_each_watch([&](telemetry::Decimator& decimator) {
+        if (const auto* tick = std::get_if<record::TickRow>(&row)) decimator.take(*tick);
+        if (const auto* session = std::get_if<record::SessionRow>(&row)) decimator.take(*session);
+        if (const auto* body = std::get_if<record::BodyRow>(&row)) decimator.take(*body);
+    });
+}
+
+void FrameTap::hear(std::uint16_t from, base::TimePoint at, std::span<const std::byte> message)
+{
+    for_each_watch([&](telemetry::Decimator& decimator) { decimator.hear(from, at, message); });
+}
+
+void FrameTap::begin_anew()
+{
+    sessions_.clear();
+    for_each_watch([&](telemetry::Decimator& decimator) {
+        decimator = telemetry::Decimator{peer_id_, names};
     });
 }
 
@@ -67,4 +79,4 @@ void FrameTap::note(const record::SessionRow& session)
     }
 }
 
-} // namespace hapnet::peer::monitor
+} // namespace hapnet::peer

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/loop/journal.hpp"
+#include "proto/base/time.hpp"
 #include "proto/control/core/conversation.hpp"
+#include "proto/record/rows.hpp"
 #include "proto/telemetry/decimator.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
-namespace hapnet::peer::monitor {
+namespace hapnet::peer {
 
-/// Makes frames for those who watch, from what has left the journal: the loop does nothing for it.
+/// Makes frames for those who watch, from the rows of a peer's record: the loop does nothing for it.
 /// While nobody watches it keeps only what the sessions agreed on, a row a second.
 class FrameTap {
 public:
@@ -21,12 +23,18 @@ public:
     /// Begins a watch; it ends when the source is destroyed. Of this thread, as all here.
     [[nodiscard]] control::FrameSource watch();
 
-    /// What came out of the journal.
-    void take(const loop::Entry& entry);
+    void take(const record::Row& row);
+    /// A message as it came; those of rows, too.
+    void hear(std::uint16_t from, base::TimePoint at, std::span<const std::byte> message);
+
+    /// Frames go on from what follows, which may be earlier than what was before.
+    void begin_anew();
 
 private:
     using Watch = std::weak_ptr<telemetry::Decimator>;
 
+    /// Calls `visit` with each decimator that is still wanted.
+    void for_each_watch(const auto& visit);
     void note(const record::SessionRow& session);
 
     std::uint16_t peer_id_;
@@ -34,4 +42,4 @@ private:
     std::vector<record::SessionRow> sessions_; // the newest with each of the others
 };
 
-} // namespace hapnet::peer::monitor
+} // namespace hapnet::peer

@@ -1,0 +1,7 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+# Leaves out the comments of a script or style sheet that stand on lines of their own.
+/^[[:space:]]*\/\//d
+/^[[:space:]]*\/\*.*\*\/[[:space:]]*$/d
+/^[[:space:]]*\/\*/,/\*\//d
+/^[[:space:]]*$/d

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/cli/play_command.hpp"
+
+#include "emulator/core/profile/text.hpp"
+#include "lab/cli/files.hpp"
+#include "lab/experiment/session_spec.hpp"
+#include "lab/experiment/text.hpp"
+#include "lab/live/control.hpp"
+#include "lab/metrics/json.hpp"
+#include "lab/presets.hpp"
+#include "lab/virtual_time/play.hpp"
+#include "proto/base/built_in.hpp"
+#include "proto/base/text.hpp"
+#include "proto/control/server.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/stop_signal.hpp"
+#include "proto/net/text_file.hpp"
+#include "proto/net/wait.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+#include <utility>
+#include <vector>
+
+namespace hapnet::lab {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Json = nlohmann::ordered_json;
+
+/// Virtual time stands still in between, while clients are served: all their frames are of one
+/// time.
+constexpr base::Duration turn = 16ms;
+/// Of a turn that plays as fast as possible.
+constexpr base::Duration playing_max = 12ms;
+constexpr base::Duration played_at_once = 20ms;
+constexpr control::Server::Limits limits{.answers = 8};
+
+base::Result<std::string> preset_text(const std::string& name)
+{
+    for (const Preset& preset : presets_of_lab()) {
+        if (preset.name == name) return std::string{preset.text};
+    }
+    return base::fail(fmt::format("there is no profile called '{}'", name));
+}
+
+base::Result<emulator::Profile> profile_named(const std::string& name)
+{
+    const auto found = base::find_text(name, presets_of_lab(), "a profile", net::text_of_file);
+    if (!found) return tl::unexpected{found.error()};
+    return emulator::parse_profile(found->text, found->source, net::text_of_file);
+}
+
+/// What the options say, as an experiment of one session.
+base::Result<experiment::Experiment> experiment_of(const PlayCommand& command)
+{
+    const experiment::Overrides overrides{.settings = command.settings};
+    if (!command.experiment.empty()) {
+        return experiment::load_experiment(command.experiment, net::text_of_file, overrides);
+    }
+    std::vector<std::string> algorithms;
+    for (const std::string& name : command.algorithms) algorithms.push_back(base::quoted(name));
+    std::string text =
+        fmt::format("kind = \"limits\"\nseeds = 1\nfirst_seed = {}\nduration = \"{}\"\n"
+                    "tasks = [\"{}\"]\npeers = {}\nalgorithms = [{}]\nlimit.delay = "
+                    "{{ to = \"40ms\", step = \"40ms\", resolution = \"5ms\" }}\n",
+                    command.seed, base::to_text(command.duration), command.task, command.peers,
+                    fmt::join(algorithms, ", "));
+    if (!command.profile.empty()) {
+        auto profile = profile_named(command.profile);
+        if (!profile) return tl::unexpected{profile.error()};
+        profile->name.clear();
+        profile->seed.reset();
+        profile->checks.clear();
+        text += emulator::to_text(*profile);
+    }
+    return experiment::parse_experiment(text, "play", overrides, net::text_of_file);
+}
+
+/// Plays to the end, as hapnet-lab run does.
+base::Result<int> play_out(const PlayCommand& command, live::Session& session,
+                           const experiment::Experiment& experiment)
+{
+    while (!session.is_over()) session.play_on(1s);
+    Json json{{"task", name_of(experiment.tasks.front())},
+              {"seed", experiment.first_seed},
+              {"duration_s", base::to_seconds(experiment.duration)},
+              {"digest", fmt::format("{:016x}", session.digest())},
+              {"sessions", Json::array()}};
+    for (const experiment::NamedAlgorithm& algorithm : experiment.algorithms) {
+        const auto spec = experiment::make_session_spec(
+            experiment,
+            {algorithm, experiment.hands, experiment.tasks.front(), experiment.first_seed,
+             experiment::parties_of(experiment).front()},
+            experiment.path);
+        const auto trace = virtual_time::play(spec.setting);
+        if (!trace) return tl::unexpected{trace.error()};
+        json["sessions"].push_back({{"algorithm", algorithm.name},
+                                    {"metrics", to_json(metrics::metrics_of(*trace))}});
+    }
+    if (command.json) {
+        fmt::print("{}\n", json.dump(2));
+        return 0;
+    }
+    for (const Json& one : json["sessions"]) {
+        const Json& apart = one["metrics"]["discrepancy_m"];
+        fmt::print("{}, {}, seed {}: {}\n", one["algorithm"].get<std::string>(),
+                   json["task"].get<std::string>(), experiment.first_seed,
+                   apart.is_object()
+                       ? fmt::format("copies {:.2f} mm apart in the mean, {:.2f} mm at most",
+                                     apart["mean"].get<double>() * 1e3,
+                                     apart["max"].get<double>() * 1e3)
+                       : "no session began");
+    }
+    return 0;
+}
+
+/// A socket and what is behind it.
+struct Served {
+    std::unique_ptr<control::Server> server;
+    control::Subject subject;
+};
+
+/// Keeps what is saved in a folder: experiment-1.toml, ...
+class SavedExperiments {
+public:
+    explicit SavedExperiments(std::string folder) : folder_{std::move(folder)} {}
+
+    [[nodiscard]] base::Result<std::string> save(const std::string& text)
+    {
+        if (folder_.empty()) return base::fail("start it with --out DIR to save experiments");
+        std::string path;
+        do {
+            path = fmt::format("{}/experiment-{}.toml", folder_, ++count_);
+        } while (std::filesystem::exists(path));
+        net::ResultFile{path}.commit(text);
+        return path;
+    }
+
+private:
+    std::string folder_;
+    int count_ = 0;
+};
+
+void play_a_turn(live::Session& session, live::Pace& pace, base::Duration passed,
+                 base::Duration tick)
+{
+    if (session.is_over()) return pace.pause(); // a seek back from there does not play on
+    if (const auto due = pace.due(passed, tick)) return session.play_on(*due);
+    const auto end = net::monotonic_now() + playing_max;
+    while (!session.is_over() && net::monotonic_now() < end) session.play_on(played_at_once);
+}
+
+/// Until it is stopped.
+int play_live(const PlayCommand& command, live::Session& session, base::Duration tick)
+{
+    net::StopSignal stop;
+    if (!command.out.empty()) create_folder(command.out);
+    SavedExperiments saved{command.out};
+    live::Pace pace{command.pace, !command.paused};
+    const live::Controlled controlled{
+        session, pace, [&saved](const std::string& text) { return saved.save(text); }};
+    std::vector<Served> all;
+    all.push_back({std::make_unique<control::Server>(command.control, limits),
+                   live::subject_of(controlled)});
+    for (std::size_t seat = 0; seat < session.peers(); ++seat) {
+        all.push_back({std::make_unique<control::Server>(
+                           fmt::format("{}.peer-{}", command.control, seat + 1), limits),
+                       live::peer_subject(session, seat)});
+    }
+    std::vector<int> descriptors{stop.descriptor()};
+    for (const Served& one : all) descriptors.push_back(one.server->descriptor());
+    fmt::print("ready control={} peers={}\n", command.control, session.peers());
+    std::fflush(stdout);
+    auto last = net::monotonic_now();
+    while (!stop.requested()) {
+        const auto now = net::monotonic_now();
+        play_a_turn(session, pace, now - std::exchange(last, now), tick);
+        const auto end = now + turn;
+        while (!stop.requested()) {
+            auto deadline = std::optional{end};
+            for (const Served& one : all) {
+                one.server->serve(one.subject, net::monotonic_now(), std::nullopt);
+                deadline = base::earlier(deadline, one.server->next_deadline());
+            }
+            if (base::is_due(end, net::monotonic_now())) break;
+            net::wait_readable(descriptors, deadline);
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+base::Result<int> play_session(const PlayCommand& command)
+{
+    auto experiment = experiment_of(command);
+    if (!experiment) return tl::unexpected{experiment.error()};
+    if (auto opened = load_own_algorithms(*experiment); !opened) {
+        return tl::unexpected{opened.error()};
+    }
+    auto session = live::Session::make(*experiment, preset_text);
+    if (!session) return tl::unexpected{session.error()};
+    if (command.control.empty()) return play_out(command, **session, *experiment);
+    return play_live(command, **session, experiment->tick);
+}
+
+} // namespace hapnet::lab

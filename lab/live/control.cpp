@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/live/control.hpp"
+
+#include "lab/experiment/text.hpp"
+#include "peer/control/answer.hpp"
+#include "peer/control/scene_report.hpp"
+#include "proto/control/core/reply.hpp"
+#include "proto/control/core/request.hpp"
+
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+#include <variant>
+
+namespace hapnet::lab::live {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using control::Members;
+
+Json factor_json(const Pace& pace)
+{
+    return pace.factor() ? Json(*pace.factor()) : Json("max");
+}
+
+Json pace_json(const Controlled& controlled)
+{
+    const Session& session = controlled.session;
+    const char* playing = controlled.pace.plays() ? "playing" : "paused";
+    return {{"state", session.is_over() ? "ended" : playing},
+            {"factor", factor_json(controlled.pace)},
+            {"at_s", base::to_seconds(session.at())},
+            {"length_s", base::to_seconds(session.length())},
+            {"digest", fmt::format("{:016x}", session.digest())},
+            {"steps", session.steps()}};
+}
+
+/// A number of seconds from `least` on; 0 where something else is there, and the fault is noted.
+double seconds_in(Members& members, const char* key, double least)
+{
+    constexpr double most = 3600.0;
+    const Json* value = members.find(key);
+    if (value != nullptr && value->is_number()) {
+        const auto seconds = value->get<double>();
+        if (seconds >= least && seconds <= most) return seconds;
+    }
+    members.fail(fmt::format("\"{}\" must be a number of seconds from {} to {}", key, least, most));
+    return 0.0;
+}
+
+/// nullopt: as fast as possible.
+std::optional<double> factor_in(Members& members)
+{
+    const Json* value = members.find("factor");
+    if (value != nullptr && *value == "max") return std::nullopt;
+    if (value != nullptr && value->is_number()) {
+        const auto factor = value->get<double>();
+        if (factor >= Pace::factor_min && factor <= Pace::factor_max) return factor;
+    }
+    members.fail(fmt::format("\"factor\" must be a number from {} to {}, or \"max\"",
+                             Pace::factor_min, Pace::factor_max));
+    return std::nullopt;
+}
+
+/// Does it, where nothing is wrong with it; the members that the reply has besides.
+base::Result<Json> pace_done(Members& members, const Controlled& controlled)
+{
+    auto& [session, pace, save] = controlled;
+    const auto what = members.text("do");
+    std::function<base::Result<Json>()> act;
+    if (what == "play") {
+        act = [&] {
+            if (session.is_over()) session.seek(base::Duration{0});
+            pace.play();
+            return Json::object();
+        };
+    } else if (what == "pause") {
+        act = [&] {
+            pace.pause();
+            return Json::object();
+        };
+    } else if (what == "step") {
+        const auto by = base::from_seconds(seconds_in(members, "by_s", 0.001));
+        act = [&, by] {
+            pace.pause();
+            session.play_on(by);
+            return Json::object();
+        };
+    } else if (what == "seek") {
+        const auto to = base::from_seconds(seconds_in(members, "to_s", 0.0));
+        act = [&, to] {
+            session.seek(to);
+            return Json::object();
+        };
+    } else if (what == "factor") {
+        const auto factor = factor_in(members);
+        act = [&, factor] {
+            pace.set_factor(factor);
+            return Json::object();
+        };
+    } else if (what == "save") {
+        act = [&]() -> base::Result<Json> {
+            const auto saved = session.as_experiment();
+            if (!saved) return tl::unexpected{saved.error()};
+            const auto file = save(experiment::to_text(*saved));
+            if (!file) return tl::unexpected{file.error()};
+            return Json{{"file", *file}};
+        };
+    } else {
+        members.fail("\"do\" must be one of play, pause, step, seek, factor, save");
+    }
+    const auto whole = members.finish(true);
+    if (!whole) return tl::unexpected{whole.error()};
+    return act();
+}
+
+std::string pace_reply(Members& members, const Controlled& controlled)
+{
+    const auto done = pace_done(members, controlled);
+    if (!done) return control::refusal(done.error().message);
+    Json reply{{"ok", true}, {"pace", pace_json(controlled)}};
+    reply.update(*done);
+    return control::line_of(reply);
+}
+
+/// What an emulator says of itself, and what it has besides here.
+std::string shown(const std::string& reply, const Controlled& controlled)
+{
+    auto json = Json::parse(reply, nullptr, /*allow_exceptions*/ false);
+    if (!json.is_object()) return reply;
+    json["program"] = "hapnet-lab";
+    json["peers"] = controlled.session.peers();
+    json["pace"] = pace_json(controlled);
+    return control::line_of(json);
+}
+
+control::Answer answer_to(std::string_view line, const Controlled& controlled)
+{
+    const auto json = control::parse_object(line);
+    if (!json) return control::refusal(json.error().message);
+    Members members{*json};
+    const std::string command = members.text("command");
+    if (command == "pace") return pace_reply(members, controlled);
+    if (command == "stop") return control::refusal("it ends with the program that plays it");
+    auto answer = controlled.session.answer(line);
+    const auto* reply = std::get_if<std::string>(&answer);
+    if (command == "show" && reply != nullptr) return shown(*reply, controlled);
+    return answer;
+}
+
+} // namespace
+
+control::Subject subject_of(const Controlled& controlled)
+{
+    return {[controlled](std::string_view line, base::TimePoint) {
+                return answer_to(line, controlled);
+            },
+            [controlled] { return controlled.session.statistics(); },
+            [controlled] { return controlled.session.watch(); }};
+}
+
+control::Subject peer_subject(Session& session, std::size_t seat)
+{
+    return peer::subject_of(
+        {.show = [&session, seat] { return session.show_peer(seat); },
+         .statistics =
+             [&session] {
+                 return Json{{"program", "hapnet-lab"},
+                             {"elapsed_s", base::to_seconds(session.at())}};
+             },
+         .stop = [] {},
+         .stop_in_emergency = [] {},
+         .scene = [&session] { return peer::scene_json(session.scene()); },
+         .frames = [&session, seat] { return session.watch_peer(seat); }});
+}
+
+} // namespace hapnet::lab::live

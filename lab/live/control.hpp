@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/live/pace.hpp"
+#include "lab/live/session.hpp"
+#include "proto/control/core/conversation.hpp"
+
+#include <functional>
+#include <string>
+
+namespace hapnet::lab::live {
+
+/// A session in virtual time as the clients of its control sockets see it: an emulator and peers
+/// as they are in real time, and its pace. Both parts outlive it.
+struct Controlled {
+    Session& session;
+    Pace& pace;
+    /// Keeps the text of an experiment; gives the name of its file.
+    std::function<base::Result<std::string>(const std::string& text)> save;
+};
+
+/// The socket of the network and of the pace: requests of an emulator, and `pace`.
+[[nodiscard]] control::Subject subject_of(const Controlled& controlled);
+
+/// The socket of a peer, which is only looked at.
+[[nodiscard]] control::Subject peer_subject(Session& session, std::size_t seat);
+
+} // namespace hapnet::lab::live

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/live/session.hpp"
+
+#include "emulator/control/reply.hpp"
+#include "emulator/control/settings.hpp"
+#include "lab/experiment/session_spec.hpp"
+#include "proto/base/version.hpp"
+#include "proto/record/rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::lab::live {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Json = nlohmann::ordered_json;
+
+/// From the first hello to the start: all hear each other, and then count down.
+constexpr base::Duration usual_countdown = 1s;
+/// What is changed at a time holds after the ticks of that time, as a step of a timeline then does.
+constexpr base::Duration after_the_ticks = 1ns;
+/// After a seek those who watch see the last of the way there.
+constexpr base::Duration shown_of_a_seek = 20ms;
+/// 16 s of datagrams, more than a page can ask for.
+constexpr emulator::QueueLimits roomy{.datagrams_max = 16384, .bytes_max = 64U << 20};
+
+Json statistics_of(const emulator::Statistics& statistics)
+{
+    Json dropped = Json::object();
+    for (std::size_t i = 0; i < emulator::drop_causes.size(); ++i) {
+        dropped[std::string{to_text(emulator::drop_causes[i])}] = statistics.dropped[i];
+    }
+    return {{"received", statistics.received},
+            {"delivered", statistics.delivered},
+            {"duplicated", statistics.duplicated},
+            {"dropped", std::move(dropped)},
+            {"in_flight", statistics.in_flight}};
+}
+
+/// Whether a request of this kind may change what holds.
+bool may_change(std::string_view line)
+{
+    const auto request = emulator::parse_request(line);
+    return request && (std::holds_alternative<emulator::SetRequest>(*request) ||
+                       std::holds_alternative<emulator::ApplyRequest>(*request) ||
+                       std::holds_alternative<emulator::ResetRequest>(*request));
+}
+
+bool is_in_session(const virtual_time::VirtualPlayer& player)
+{
+    return player.peer().session().has_value();
+}
+
+} // namespace
+
+base::Result<std::unique_ptr<Session>> Session::make(const experiment::Experiment& experiment,
+                                                     Presets presets)
+{
+    if (experiment.axis) return base::fail("an experiment with an axis is many: choose one value");
+    if (experiment.algorithms.size() > algorithms_max) {
+        return base::fail(fmt::format("{} algorithms: at most {} play side by side",
+                                      experiment.algorithms.size(), algorithms_max));
+    }
+    std::vector<virtual_time::Setting> settings;
+    const experiment::Party party = experiment::parties_of(experiment).front();
+    for (const experiment::NamedAlgorithm& algorithm : experiment.algorithms) {
+        const auto spec = experiment::make_session_spec(
+            experiment,
+            {algorithm, experiment.hands, experiment.tasks.front(), experiment.first_seed, party},
+            experiment.path);
+        if (auto valid = validate(spec.setting); !valid) return tl::unexpected{valid.error()};
+        settings.push_back(spec.setting);
+    }
+    return std::unique_ptr<Session>{
+        new Session{experiment, std::move(settings), std::move(presets)}};
+}
+
+Session::Session(const experiment::Experiment& experiment,
+                 std::vector<virtual_time::Setting> settings, Presets presets)
+    : experiment_{experiment}, settings_{std::move(settings)}, presets_{std::move(presets)}
+{
+    for (std::size_t seat = 0; seat < peers(); ++seat) {
+        taps_.emplace_back(static_cast<std::uint16_t>(seat + 1));
+    }
+    begin();
+}
+
+/// Everything from its start, with nobody in it who was watched before.
+void Session::begin()
+{
+    journals_.clear();
+    emulations_.clear();
+    world_ = std::make_unique<World>(settings_, roomy);
+    for (std::size_t group = 0; group < world_->groups(); ++group) {
+        emulations_.push_back(
+            {.paths = world_->paths(group),
+             .statistics_json = [this] { return statistics().dump(); },
+             .open = [](const std::string& name, const std::string&) -> base::Result<std::string> {
+                 return base::fail(name + ": no files are read here");
+             },
+             .preset = presets_,
+             .stop = [] {}});
+    }
+    frames_ = std::make_shared<emulator::Frames>();
+    for (std::size_t seat = 0; seat < peers(); ++seat) {
+        journals_.emplace_back(world_->side(seat), [this, seat](const record::Row& row) {
+            if (is_shown_) taps_[seat].take(row);
+        });
+        taps_[seat].begin_anew();
+    }
+    world_->intercept([this](const World::Arrival& arrival) {
+        const std::size_t from = world_->seat_of(arrival.from);
+        const std::size_t to = world_->seat_of(arrival.to);
+        if (world_->group_of(arrival.to) == 0) journals_[to].on_message(from, arrival);
+        world_->side(arrival.to).receive(from < to ? from : from - 1, arrival.datagram, arrival.at);
+    });
+    ++lives_;
+    done_ = 0;
+    digest_ = 0xcbf2'9ce4'8422'2325U;
+}
+
+base::Duration Session::length() const
+{
+    const auto& session = world_->side(0).peer().session();
+    const base::Duration length = settings_.front().length;
+    if (!session) return usual_countdown + length;
+    return session->start - world_->side(0).clock_ahead - World::start + length;
+}
+
+void Session::play_to(base::Duration time)
+{
+    while (true) {
+        const base::Duration end = std::min(time, std::max(length(), at()));
+        const bool is_next = done_ < requests_.size() && requests_[done_].at <= end;
+        run_to(World::start + (is_next ? requests_[done_].at : end));
+        if (!is_next) return;
+        static_cast<void>(apply(requests_[done_++].line));
+    }
+}
+
+void Session::run_to(base::TimePoint end)
+{
+    while (world_->next_deadline() <= end) step();
+    world_->run_for(end - world_->now());
+}
+
+void Session::step()
+{
+    world_->step();
+    for (std::size_t side = 0; side < world_->sides(); ++side) {
+        const virtual_time::VirtualPlayer& player = world_->side(side);
+        if (player.stepped_at != world_->now()) continue;
+        if (is_in_session(player)) note(player);
+        if (side < journals_.size()) journals_[side].on_tick();
+    }
+}
+
+/// FNV-1a, of whole numbers.
+void Session::note(const virtual_time::VirtualPlayer& player)
+{
+    const virtual_time::Sample sample = player.sample();
+    const auto add = [this](double value) {
+        digest_ = (digest_ ^ std::bit_cast<std::uint64_t>(value)) * 0x0000'0100'0000'01b3U;
+    };
+    for (const glm::dvec3& part : {sample.body.value, sample.body_velocity.value, sample.hip.value,
+                                   sample.on_hand.value, sample.on_body.value}) {
+        add(part.x);
+        add(part.y);
+        add(part.z);
+    }
+}
+
+void Session::seek(base::Duration time)
+{
+    time = std::max(time, base::Duration{0});
+    if (time < at()) begin();
+    is_shown_ = false;
+    play_to(std::max(at(), time - shown_of_a_seek));
+    is_shown_ = true;
+    for (auto& tap : taps_) tap.begin_anew();
+    play_to(time);
+}
+
+std::string Session::apply(const std::string& line)
+{
+    std::string first;
+    for (emulator::Emulation& emulation : emulations_) {
+        const auto answer = emulator::answer_to(line, emulation, world_->now());
+        if (first.empty()) first = std::get<std::string>(answer);
+    }
+    return first;
+}
+
+control::Answer Session::answer(std::string_view line)
+{
+    if (!may_change(line)) {
+        return emulator::answer_to(line, emulations_.front(), world_->now());
+    }
+    play_to(at() + after_the_ticks);
+    const std::uint64_t before = emulations_.front().paths.generation();
+    std::string text{line};
+    std::string reply = apply(text);
+    if (emulations_.front().paths.generation() == before) return reply;
+    requests_.erase(requests_.begin() + static_cast<std::ptrdiff_t>(done_), requests_.end());
+    requests_.push_back({at(), std::move(text)});
+    done_ = requests_.size();
+    return reply;
+}
+
+nlohmann::ordered_json Session::statistics() const
+{
+    const emulator::Link& up = world_->link(0, 1);
+    const emulator::Link& down = world_->link(1, 0);
+    return {{"program", "hapnet-lab"},
+            {"up", statistics_of(up.statistics())},
+            {"down", statistics_of(down.statistics())},
+            {"valid", true}};
+}
+
+control::FrameSource Session::watch()
+{
+    struct Watch {
+        std::uint64_t life = 0;
+        control::FrameSource next;
+    };
+    return [this, watch = std::make_shared<Watch>()](std::string& text, std::uint64_t left_out) {
+        if (watch->life != lives_) {
+            *watch = {lives_, frames_->watch(emulations_.front().paths)};
+        }
+        emulations_.front().paths.catch_up(world_->now());
+        watch->next(text, left_out);
+        append_others(text);
+    };
+}
+
+/// How far apart the copies are in the other sessions.
+void Session::append_others(std::string& text) const
+{
+    if (world_->groups() < 2 || text.empty()) return;
+    text.pop_back();
+    text += ",\"others\":[";
+    for (std::size_t group = 1; group < world_->groups(); ++group) {
+        const auto a = world_->side(group * peers()).peer().position().value;
+        const auto b = world_->side(group * peers() + 1).peer().position().value;
+        fmt::format_to(std::back_inserter(text),
+                       "{}{{\"algorithm\":\"{}\",\"apart_mm\":{:.6f},\"cube_a\":[{:.9f},{:.9f},"
+                       "{:.9f}],\"cube_b\":[{:.9f},{:.9f},{:.9f}]}}",
+                       group > 1 ? "," : "", experiment_.algorithms[group].name,
+                       std::abs(a.x - b.x) * 1e3, a.x, a.y, a.z, b.x, b.y, b.z);
+    }
+    text += "]}";
+}
+
+nlohmann::ordered_json Session::show_peer(std::size_t seat) const
+{
+    const virtual_time::VirtualPlayer& player = world_->side(seat);
+    const virtual_time::Setting& setting = settings_.front();
+    const auto& session = player.peer().session();
+    const auto phase = std::string{record::name_of(player.last().phase)};
+    Json agreed = nullptr;
+    if (session) {
+        const base::TimePoint start = session->start - player.clock_ahead;
+        agreed = {{"number", session->number},
+                  {"role", seat % 2 == 0 ? "L" : "R"},
+                  {"at_s", base::to_seconds(world_->now() - start)}};
+    }
+    return {{"program", "hapnet-lab"},
+            {"version", base::version()},
+            {"peer_id", seat + 1},
+            {"task", name_of(setting.task)},
+            {"scene", setting.scene.name},
+            {"algorithm", experiment_.algorithms.front().name},
+            {"seed", setting.seed.value()},
+            {"duration_s", base::to_seconds(setting.length)},
+            {"device", "simulated Omni, in virtual time"},
+            {"tick_rate_hz", 1.0 / base::to_seconds(setting.tick)},
+            {"boot_id", "virtual time"},
+            {"held_s", nullptr},
+            {"elapsed_s", base::to_seconds(at())},
+            {"state", phase},
+            {"says", "plays in virtual time"},
+            {"phase", phase},
+            {"session", std::move(agreed)},
+            {"governor", device::name_of(player.rig.governor().state())},
+            {"fault", nullptr}};
+}
+
+nlohmann::ordered_json Session::steps() const
+{
+    Json steps = Json::array();
+    for (const auto& [name, path] : world_->paths().all()) {
+        for (const emulator::ConditionChange& change : path->changes().entries()) {
+            Json settings = Json::object();
+            for (const auto& [way, patch] : {std::pair{emulator::Direction::up, &change.up},
+                                             std::pair{emulator::Direction::down, &change.down}}) {
+                for (const auto& [key, value] : emulator::texts_of(way, *patch, name))
+                    settings[key] = value;
+            }
+            steps.push_back({{"at_s", base::to_seconds(change.elapsed)},
+                             {"settings", std::move(settings)}});
+        }
+    }
+    return steps;
+}
+
+base::Result<experiment::Experiment> Session::as_experiment() const
+{
+    if (peers() != 2) return base::fail("only sessions of two are saved as an experiment");
+    const auto is_ramp = [](const emulator::Change& change) { return change.ramp > 0ns; };
+    const auto& path = *world_->paths().all().front().path;
+    const auto remaining = world_->paths().deciders().back().director->remaining().timeline;
+    if (std::ranges::any_of(settings_.front().profile.timeline, is_ramp) ||
+        std::ranges::any_of(remaining, is_ramp) || path.changes().omitted() > 0) {
+        return base::fail("what changes all the time, as in a ramp, is not saved as an experiment");
+    }
+    experiment::Experiment saved = experiment_;
+    saved.title = "played by hand";
+    saved.kind = experiment::Trajectories{};
+    saved.seeds = 1;
+    saved.tasks.resize(1);
+    saved.peers = {2};
+    saved.record = !saved.keyed;
+    saved.timeline.clear();
+    for (const emulator::ConditionChange& change : path.changes().entries()) {
+        saved.timeline.push_back({.time = change.elapsed, .up = change.up, .down = change.down});
+    }
+    for (emulator::Change change : remaining) {
+        change.time += at();
+        saved.timeline.push_back(std::move(change));
+    }
+    return saved;
+}
+
+} // namespace hapnet::lab::live

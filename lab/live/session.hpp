@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/emulation.hpp"
+#include "emulator/control/frames.hpp"
+#include "lab/experiment/experiment.hpp"
+#include "lab/virtual_time/journal.hpp"
+#include "lab/virtual_time/world.hpp"
+#include "peer/control/frame_tap.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+#include "proto/control/core/conversation.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::live {
+
+/// A session in virtual time that is watched while it plays: it goes on as far as it is told, its
+/// conditions change as those of a running emulator do, and it may be sought, back and forth: it is
+/// played again from its seed, with all that was set. Further algorithms play beside the first, each
+/// in a session of its own, under the same network, datagram for datagram. Reads no clock.
+class Session {
+public:
+    static constexpr std::size_t algorithms_max = 3;
+
+    /// The first task and seed of the experiment, and up to three of its algorithms. `presets` gives
+    /// the text of a built-in profile.
+    using Presets = std::function<base::Result<std::string>(const std::string& name)>;
+    [[nodiscard]] static base::Result<std::unique_ptr<Session>>
+    make(const experiment::Experiment& experiment, Presets presets);
+
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Since the first hello.
+    [[nodiscard]] base::Duration at() const { return world_->now() - World::start; }
+    /// When the session ends; as far as that is known before it is agreed on.
+    [[nodiscard]] base::Duration length() const;
+    [[nodiscard]] bool is_over() const { return at() >= length(); }
+
+    /// Plays on to that time, at most to the end.
+    void play_to(base::Duration time);
+    /// One step of at least a tick; for playing as fast as possible.
+    void play_on(base::Duration by) { play_to(at() + by); }
+    /// There from wherever it is, at once.
+    void seek(base::Duration time);
+
+    /// A request to the emulator: what it changes holds from now on, in all sessions. What was
+    /// changed later, before a seek came back here, is forgotten then.
+    [[nodiscard]] control::Answer answer(std::string_view line);
+    [[nodiscard]] nlohmann::ordered_json statistics() const;
+
+    /// Frames of the emulator, with how far apart the copies are with the other algorithms; and of
+    /// a peer of the first.
+    [[nodiscard]] control::FrameSource watch();
+    [[nodiscard]] control::FrameSource watch_peer(std::size_t seat) { return taps_[seat].watch(); }
+    /// What a peer says of itself, as a daemon does.
+    [[nodiscard]] nlohmann::ordered_json show_peer(std::size_t seat) const;
+    [[nodiscard]] std::size_t peers() const { return settings_.front().players.size(); }
+    [[nodiscard]] const scene::Description& scene() const { return settings_.front().scene; }
+
+    /// What has changed so far, each as {"at_s","settings"}.
+    [[nodiscard]] nlohmann::ordered_json steps() const;
+    /// An experiment that plays the same, bit for bit: with what was changed as its timeline. The
+    /// error says why there is none.
+    [[nodiscard]] base::Result<experiment::Experiment> as_experiment() const;
+
+    /// Of all that the hands felt and the bodies did in every session so far: equal bits, equal
+    /// digest.
+    [[nodiscard]] std::uint64_t digest() const { return digest_; }
+
+private:
+    using World = virtual_time::VirtualWorld;
+    struct Request {
+        base::Duration at{};
+        std::string line;
+    };
+
+    Session(const experiment::Experiment& experiment, std::vector<virtual_time::Setting> settings,
+            Presets presets);
+
+    void begin();
+    void run_to(base::TimePoint end);
+    void step();
+    void note(const virtual_time::VirtualPlayer& player);
+    [[nodiscard]] std::string apply(const std::string& line);
+    void append_others(std::string& text) const;
+
+    experiment::Experiment experiment_;
+    std::vector<virtual_time::Setting> settings_; // of each algorithm
+    Presets presets_;
+    std::unique_ptr<World> world_;
+    std::vector<emulator::Emulation> emulations_; // of each session's links
+    std::shared_ptr<emulator::Frames> frames_;    // of the first's
+    std::uint64_t lives_ = 0;                     // how often it has begun
+    std::vector<virtual_time::Journal> journals_; // of the first session's players
+    std::vector<peer::FrameTap> taps_;            // likewise
+    bool is_shown_ = true;                        // to those who watch
+    std::vector<Request> requests_;               // ascending; those that changed something
+    std::size_t done_ = 0;                        // of them
+    std::uint64_t digest_ = 0;
+};
+
+} // namespace hapnet::lab::live

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace hapnet::lab {
+
+/// A profile that every emulator of this version carries with it.
+struct Preset {
+    std::string_view name;
+    std::string_view text;
+};
+
+/// All of them, by name.
+[[nodiscard]] std::span<const Preset> presets_of_lab();
+
+} // namespace hapnet::lab

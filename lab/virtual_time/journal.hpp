@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/virtual_time/world.hpp"
+#include "proto/record/rows.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace hapnet::lab::virtual_time {
+
+/// What a daemon would record of a player in virtual time: a row for each of its ticks, for each
+/// message that reaches it, and, once a second, for what it has agreed on with each of the others.
+class Journal {
+public:
+    using Sink = std::function<void(const record::Row& row)>;
+
+    /// The player outlives it.
+    Journal(const VirtualPlayer& player, Sink sink);
+
+    /// The message of the player in that seat, before it is handed over.
+    void on_message(std::size_t from_seat, const VirtualWorld::Arrival& arrival);
+    /// After each of its ticks.
+    void on_tick();
+
+    /// Whether its bodies have rows of their own.
+    [[nodiscard]] bool has_bodies() const { return has_bodies_; }
+
+private:
+    void note(std::size_t other, base::TimePoint now);
+
+    const VirtualPlayer& player_;
+    Sink sink_;
+    bool has_bodies_;
+    std::uint64_t tick_ = 0;
+    std::vector<std::optional<record::SessionRow>> noted_;
+};
+
+} // namespace hapnet::lab::virtual_time

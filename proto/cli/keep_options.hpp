@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+#include "proto/cli/command.hpp"
+
+#include <optional>
+#include <string>
+
+namespace hapnet::cli {
+
+/// How much of its last seconds a program holds in memory, and the folder in which it saves them
+/// when its control socket asks for that.
+struct KeepOptions {
+    std::optional<base::Duration> span; // nullopt: nothing is held
+    std::string folder;
+};
+
+/// Adds --keep and --keep-in, bound to `options`. `what`: that which is held, for --help.
+void add_keep(Command& program, KeepOptions& options, const std::string& what);
+
+/// After parse(): whether the options go together, and with --control.
+[[nodiscard]] base::Result<void> check_keep(const KeepOptions& options, bool has_control);
+
+} // namespace hapnet::cli

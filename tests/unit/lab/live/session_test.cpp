@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/live/session.hpp"
+
+#include "lab/experiment/session_spec.hpp"
+#include "lab/experiment/text.hpp"
+#include "lab/live/control.hpp"
+#include "lab/virtual_time/play.hpp"
+
+#include <bit>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+
+namespace hapnet::lab::live {
+namespace {
+
+using namespace std::chrono_literals;
+
+experiment::Experiment of_text(const std::string& more = "algorithms = [\"base\"]")
+{
+    const auto read = experiment::parse_experiment(
+        "kind = \"trajectories\"\nseeds = 1\nfirst_seed = 3\nduration = \"8s\"\ntasks = [\"P1\"]\n" +
+            more + "\n[both]\ndelay = \"20ms\"\nloss = \"10%\"\n",
+        "test");
+    EXPECT_TRUE(read) << (read ? "" : read.error().message);
+    return *read;
+}
+
+std::unique_ptr<Session> session_of(const experiment::Experiment& experiment)
+{
+    auto made = Session::make(experiment, [](const std::string&) -> base::Result<std::string> {
+        return std::string{"[both]\ndelay = \"60ms\"\n"};
+    });
+    EXPECT_TRUE(made);
+    return *std::move(made);
+}
+
+nlohmann::json ask(Session& session, const std::string& line)
+{
+    return nlohmann::json::parse(std::get<std::string>(session.answer(line)));
+}
+
+constexpr const char* more_delay = R"({"command":"set","settings":{"both.delay":"120ms"}})";
+
+TEST(LiveSession, SoughtTwiceHasEqualBits)
+{
+    const auto session = session_of(of_text());
+    session->play_to(2500ms);
+    ASSERT_TRUE(ask(*session, more_delay)["ok"]);
+    session->play_to(6s);
+    session->seek(5s);
+    const auto first = session->digest();
+    session->seek(1s);
+    EXPECT_NE(session->digest(), first);
+    session->seek(5s);
+    EXPECT_EQ(session->digest(), first);
+    EXPECT_EQ(session->at(), 5s);
+}
+
+TEST(LiveSession, ForgetsWhatWasSetLaterOnceSomethingElseIsSetBefore)
+{
+    const auto session = session_of(of_text());
+    session->play_to(4s);
+    ASSERT_TRUE(ask(*session, more_delay)["ok"]);
+    session->seek(2s);
+    session->seek(5s);
+    EXPECT_EQ(session->steps().size(), 1U) << "it still comes";
+    session->seek(2s);
+    ASSERT_TRUE(ask(*session, R"({"command":"set","settings":{"up.loss":"50%"}})")["ok"]);
+    session->seek(5s);
+    ASSERT_EQ(session->steps().size(), 1U);
+    EXPECT_TRUE(session->steps()[0]["settings"].contains("up.loss"));
+}
+
+/// All that the first side and the second did.
+std::string bits_of(const virtual_time::Trace& trace)
+{
+    std::string bits;
+    for (const auto& side : trace.sides) {
+        for (const virtual_time::Sample& sample : side) {
+            for (const glm::dvec3& v : {sample.body.value, sample.hip.value, sample.on_hand.value}) {
+                bits.append(reinterpret_cast<const char*>(&v), sizeof v); // NOLINT
+            }
+        }
+    }
+    return bits;
+}
+
+virtual_time::Setting setting_of(const experiment::Experiment& experiment)
+{
+    return experiment::make_session_spec(experiment,
+                                         {experiment.algorithms.front(), experiment.hands,
+                                          experiment.tasks.front(), experiment.first_seed,
+                                          experiment::parties_of(experiment).front()},
+                                         experiment.path)
+        .setting;
+}
+
+TEST(LiveSession, SavedAsAnExperimentPlaysTheSameToTheBit)
+{
+    const auto session = session_of(of_text());
+    session->play_to(2500ms);
+    ASSERT_TRUE(ask(*session, more_delay)["ok"]);
+    session->play_to(3s);
+    ASSERT_TRUE(
+        ask(*session,
+            R"({"command":"set","settings":{"up.loss":"{ law = \"every\", every = 7 }"},"for":"1s"})")
+            ["ok"]);
+    session->play_to(5s);
+    ASSERT_TRUE(ask(*session, R"({"command":"apply","preset":"any"})")["ok"]);
+    session->play_to(20s);
+    ASSERT_TRUE(session->is_over());
+    const auto saved = session->as_experiment();
+    ASSERT_TRUE(saved);
+    const std::string text = experiment::to_text(*saved);
+    const auto read = experiment::parse_experiment(text, "saved");
+    ASSERT_TRUE(read) << text << read.error().message;
+    EXPECT_EQ(experiment::to_text(*read), text);
+
+    const auto again = session_of(*read);
+    again->play_to(20s);
+    EXPECT_EQ(again->digest(), session->digest()) << text;
+
+    // hapnet-lab run plays it likewise, and what was changed counts.
+    const auto played = virtual_time::play(setting_of(*read));
+    const auto unchanged = virtual_time::play(setting_of(of_text()));
+    ASSERT_TRUE(played && unchanged);
+    EXPECT_NE(bits_of(*played), bits_of(*unchanged));
+}
+
+TEST(LiveSession, PlaysAsPlayDoes)
+{
+    const auto experiment = of_text();
+    const auto trace = virtual_time::play(setting_of(experiment));
+    ASSERT_TRUE(trace);
+    const auto session = session_of(experiment);
+    session->play_to(trace->begin + 1s + 500ms); // wherever that is: in mid session
+    ASSERT_FALSE(session->is_over());
+    std::string text;
+    session->watch_peer(0)(text, 0); // a watch begins empty
+    const auto frames = session->watch_peer(0);
+    session->play_on(1ms);
+    text.clear();
+    frames(text, 0);
+    const auto frame = nlohmann::json::parse(text);
+    const double at_s = frame["session"]["at_s"];
+    const auto place = static_cast<std::size_t>(
+        std::lround((at_s - base::to_seconds(trace->begin)) / base::to_seconds(trace->tick)));
+    ASSERT_LT(place, trace->sides[0].size());
+    EXPECT_NEAR(frame["cube"][0].get<double>(), trace->sides[0][place].body.value.x, 1e-9);
+}
+
+TEST(LiveSession, PlaysOtherAlgorithmsUnderTheSameNetwork)
+{
+    const auto session = session_of(of_text("algorithms = [\"base\", \"sep\", \"dead-reckoning\"]"));
+    const auto frames = session->watch();
+    session->play_to(6s);
+    ASSERT_TRUE(ask(*session, more_delay)["ok"]);
+    session->play_to(8s);
+    std::string text;
+    frames(text, 0);
+    const auto frame = nlohmann::json::parse(text);
+    ASSERT_EQ(frame["others"].size(), 2U);
+    EXPECT_EQ(frame["others"][0]["algorithm"], "sep");
+    EXPECT_EQ(frame["others"][1]["algorithm"], "dead-reckoning");
+    EXPECT_NE(frame["others"][0]["apart_mm"], frame["others"][1]["apart_mm"]);
+
+    const auto alone = session_of(of_text("algorithms = [\"sep\"]"));
+    alone->play_to(6s);
+    ASSERT_TRUE(ask(*alone, more_delay)["ok"]);
+    alone->play_to(8s);
+    std::string other;
+    const auto own = alone->watch_peer(0);
+    alone->play_on(1ms);
+    session->play_on(1ms);
+    own(other, 0);
+    text.clear();
+    frames(text, 0);
+    EXPECT_NEAR(nlohmann::json::parse(other)["cube"][0].get<double>(),
+                nlohmann::json::parse(text)["others"][0]["cube_a"][0].get<double>(), 1e-9)
+        << "it plays as if it were alone";
+}
+
+TEST(LiveControl, PausesSeeksAndSaves)
+{
+    const auto session = session_of(of_text());
+    Pace pace{1.0, true};
+    std::string saved;
+    const auto subject = subject_of({*session, pace, [&](const std::string& text) {
+                                         saved = text;
+                                         return base::Result<std::string>{"/there/experiment-1.toml"};
+                                     }});
+    const auto said = [&](const std::string& line) {
+        return nlohmann::json::parse(std::get<std::string>(subject.answer(line, {})));
+    };
+    EXPECT_EQ(said(R"({"command":"pace","do":"pause"})")["pace"]["state"], "paused");
+    EXPECT_FALSE(pace.plays());
+    EXPECT_EQ(said(R"({"command":"pace","do":"seek","to_s":4})")["pace"]["at_s"], 4.0);
+    EXPECT_EQ(said(R"({"command":"pace","do":"step","by_s":0.016})")["pace"]["at_s"], 4.016);
+    EXPECT_EQ(said(R"({"command":"pace","do":"factor","factor":"max"})")["pace"]["factor"], "max");
+    for (const char* wrong :
+         {R"({"command":"pace"})", R"({"command":"pace","do":"fly"})",
+          R"({"command":"pace","do":"seek"})", R"({"command":"pace","do":"seek","to_s":-1})",
+          R"({"command":"pace","do":"factor","factor":1000})",
+          R"({"command":"pace","do":"play","more":1})", R"({"command":"stop"})"}) {
+        EXPECT_FALSE(said(wrong)["ok"]) << wrong;
+    }
+    EXPECT_EQ(session->at(), 4016ms) << "what is refused does nothing";
+    EXPECT_EQ(said(R"({"command":"pace","do":"save"})")["file"], "/there/experiment-1.toml");
+    EXPECT_TRUE(experiment::parse_experiment(saved, "saved"));
+    const auto shown = said(R"({"command":"show"})");
+    EXPECT_EQ(shown["peers"], 2);
+    EXPECT_EQ(shown["conditions"]["up.delay"], "20ms");
+}
+
+TEST(Pace, OwesWholeTicks)
+{
+    Pace pace{0.5, true};
+    EXPECT_EQ(pace.due(1ms, 1ms), 0ms);
+    EXPECT_EQ(pace.due(1ms, 1ms), 1ms);
+    EXPECT_EQ(pace.due(16ms, 1ms), 8ms);
+    EXPECT_EQ(pace.due(10s, 1ms), 50ms) << "a long stop is not made up for";
+    pace.pause();
+    EXPECT_EQ(pace.due(16ms, 1ms), 0ms);
+    pace.play();
+    pace.set_factor(std::nullopt);
+    EXPECT_FALSE(pace.due(16ms, 1ms));
+}
+
+} // namespace
+} // namespace hapnet::lab::live

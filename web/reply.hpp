@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace hapnet::web {
+
+/// An answer to a request.
+struct Reply {
+    int status = 200;
+    std::string body;
+    std::string type = "application/json";
+    std::string file{};        // served instead of the body
+    std::string attached_as{}; // the name that a browser is to save it under
+};
+using OnReply = std::function<void(Reply)>;
+
+[[nodiscard]] Reply error_reply(int status, std::string_view error);
+/// {"ok":true,key:value}
+[[nodiscard]] Reply fine_reply(const char* key, nlohmann::ordered_json value);
+
+/// On one line; what is no UTF-8 is replaced.
+[[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);
+
+} // namespace hapnet::web
