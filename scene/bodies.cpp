@@ -183,19 +183,32 @@ glm::dvec3 Bodies::turned_inverse_inertia(const BodyProperties& body, const glm:
     return axes * (body.inverse_inertia * (momentum * axes));
 }
 
-void Bodies::set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity)
+double Bodies::kinetic_energy(Slot slot) const
 {
-    const BodyProperties& body = properties[slot];
+    const glm::dvec3 v = velocity.at(slot);
+    return 0.5 * (properties[slot].mass * glm::dot(v, v) +
+                  glm::dot(angular_momentum.at(slot), angular_velocity(slot)));
+}
+
+glm::dvec3 Bodies::apply_inertia(const BodyProperties& body, const glm::dquat& orientation,
+                                 const glm::dvec3& angular_velocity)
+{
     glm::dvec3 momentum{0.0};
     if (body.turning == Turning::free) {
-        const glm::dmat3 axes = glm::mat3_cast(orientation.at(slot));
+        const glm::dmat3 axes = glm::mat3_cast(orientation);
         momentum = body.is_isotropic ? body.inertia * angular_velocity
                                      : axes * (body.inertia * (angular_velocity * axes));
     } else if (body.turning != Turning::locked) {
         const int axis = free_axis(body.turning);
         momentum[axis] = angular_velocity[axis] / body.inverse_inertia[axis];
     }
-    angular_momentum.put(slot, momentum);
+    return momentum;
+}
+
+void Bodies::set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity)
+{
+    angular_momentum.put(slot,
+                         apply_inertia(properties[slot], orientation.at(slot), angular_velocity));
 }
 
 BodyState Bodies::state(Slot slot) const

@@ -159,7 +159,13 @@ struct Bodies {
     {
         return apply_inverse_inertia(slot, angular_momentum.at(slot));
     }
-    /// Sets the angular momentum that belongs to an angular velocity.
+    /// Of moving and turning, J.
+    [[nodiscard]] double kinetic_energy(Slot slot) const;
+    /// The angular momentum that belongs to an angular velocity, were it oriented so.
+    [[nodiscard]] static glm::dvec3 apply_inertia(const BodyProperties& body,
+                                                  const glm::dquat& orientation,
+                                                  const glm::dvec3& angular_velocity);
+    /// Sets it.
     void set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity);
 
     [[nodiscard]] BodyState state(Slot slot) const;

@@ -86,7 +86,21 @@ glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to)
 
 glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin, double tick)
 {
-    return rotated(orientation, tick * mean_spin(orientation, spin, tick));
+    const glm::dvec3 first = angular_velocity(orientation, spin);
+    const glm::dquat halfway = rotation_by((0.5 * tick) * first) * orientation;
+    const glm::dquat end = rotated(orientation, tick * angular_velocity(halfway, spin));
+    // The rule strays from the energy of turning, L w / 2: back across the level curves of that,
+    // by one step of Newton's method. Not where they are flat, or so far that one says little.
+    const glm::dvec3& momentum = spin.angular_momentum;
+    const glm::dvec3 last = angular_velocity(end, spin);
+    const double excess = 0.5 * glm::dot(momentum, last - first);
+    const glm::dvec3 slope = glm::cross(last, momentum);
+    const double steepness2 = glm::dot(slope, slope);
+    constexpr double flat = 1e-4, far = 1e-2; // radians
+    if (steepness2 <= flat * flat * glm::dot(momentum, momentum) * glm::dot(last, last) ||
+        excess * excess >= far * far * steepness2)
+        return end;
+    return rotated(end, (-excess / steepness2) * slope);
 }
 
 } // namespace hapnet::scene

@@ -66,7 +66,7 @@ struct FreeRotation {
     glm::dvec3 inverse_inertia{0.0};  // about the body's own axes
 };
 
-/// The spin with which rotated_freely() turns a body steadily through a tick: that of its middle.
+/// The spin of a freely turning body in the middle of a tick, by half an explicit step.
 [[nodiscard]] glm::dvec3 mean_spin(const glm::dquat& orientation, const FreeRotation& spin,
                                    double tick);
 
@@ -74,7 +74,8 @@ struct FreeRotation {
 [[nodiscard]] glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to);
 
 /// The orientation of a freely turning body one tick later, by the explicit midpoint rule on the
-/// rotation group: second order. Exact when the three moments of inertia are equal.
+/// rotation group, put back to where the energy of turning is what it was: second order, without a
+/// drift of energy. Exact when the three moments of inertia are equal.
 [[nodiscard]] glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin,
                                         double tick);
 

@@ -70,7 +70,12 @@ glm::dquat orientation_at_end(const BodyIntegration& integration, const Bodies& 
     }
     const glm::dquat now = bodies.orientation.at(slot);
     if (is_negligible(tick * mean.spin)) return now;
-    if (rotates_uniformly(bodies.properties[slot])) return rotated(now, tick * mean.spin);
+    const BodyProperties& properties = bodies.properties[slot];
+    if (rotates_uniformly(properties)) return rotated(now, tick * mean.spin);
+    if (integration.contact_angular_impulse == glm::dvec3{0.0} &&
+        mean.angular_impulse == glm::dvec3{0.0})
+        return rotated_freely(now, {bodies.angular_momentum.at(slot), properties.inverse_inertia},
+                              tick);
     return rotated(now, tick * spin_through_tick(integration, bodies, slot, mean, tick));
 }
 
@@ -326,9 +331,9 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
         if (velocity == way && spin == mean.spin) continue;
         way = velocity;
         if (spin != mean.spin) {
+            mean.angular_impulse += Bodies::apply_inertia(
+                state.bodies.properties[slot], state.bodies.orientation.at(slot), spin - mean.spin);
             mean.spin = spin;
-            mean.angular_impulse =
-                integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse;
         }
         solver.response(i) = {};
         ways.any_kept = true;

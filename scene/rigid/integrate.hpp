@@ -41,6 +41,11 @@ struct BodyIntegration {
     bool is_joined = false;                      // a joint holds it: it goes where that lets it
     double energy_driven = 0.0; // J: work of the own motion of hands and of kinematic bodies
 
+    bool is_grounded = false; // see GroundedEnergy, for these four
+    bool meets_another = false;
+    glm::dvec3 start_position{0.0};
+    double start_energy = 0.0; // J, kinetic
+
     // Where a body with hands on it would be at the end.
     bool has_hands = false;
     bool hands_are_braked = false;

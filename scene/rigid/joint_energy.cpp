@@ -27,13 +27,6 @@ constexpr int energy_rounds_max = 4;
 // One that keeps less than this goes back to where it began.
 constexpr double halted = 0.5;
 
-double kinetic_energy(const Bodies& bodies, Slot slot)
-{
-    const glm::dvec3 velocity = bodies.velocity.at(slot);
-    return 0.5 * (bodies.properties[slot].mass * glm::dot(velocity, velocity) +
-                  glm::dot(bodies.angular_momentum.at(slot), bodies.angular_velocity(slot)));
-}
-
 double given_by_grips(const BodyIntegration& integration, const Bodies& bodies, Slot slot)
 {
     if (!(integration.grips.impulse > 0.0)) return 0.0;
@@ -86,7 +79,7 @@ void JointEnergy::begin_tick(const WorldState& state)
         departures_[bodies.properties[slot].id] = {
             bodies.position.at(slot), bodies.orientation.at(slot), bodies.velocity.at(slot),
             bodies.angular_momentum.at(slot),
-            slot < bodies.awake ? kinetic_energy(bodies, slot) : 0.0};
+            slot < bodies.awake ? bodies.kinetic_energy(slot) : 0.0};
     }
 }
 
@@ -127,7 +120,7 @@ void JointEnergy::add(const Tick& tick, Slot slot)
     const BodyProperties& properties = bodies.properties[slot];
     const Departure& from = departures_[properties.id];
     Account& island = accounts_[root_of(tick, slot)];
-    double now = kinetic_energy(bodies, slot);
+    double now = bodies.kinetic_energy(slot);
     const glm::dvec3 force = properties.mass * gravity_on(properties, tick.config.gravity) +
                              tick.state.pushes[properties.id];
     const glm::dvec3 way = bodies.position.at(slot) - from.position;

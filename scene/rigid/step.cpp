@@ -124,12 +124,15 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     store_contact_impulses(state);
     if (has_joints) joints_.store_impulses(state, solver_);
     stop_sliding_contacts(state.bodies, scales_, solver_, integrations_.all());
-    correct_positions(state);
+    const bool moved_apart = correct_positions(state);
     if (bounced || changed) settle_energy(config, state);
     if (has_kinematics && kinematics_.any_far()) any_far_ = true;
+    const bool may_gain = bounced || changed || moved_apart || any_far_;
+    if (may_gain) grounded_energy(config, state).begin(state, solver_);
     integrate_positions(state);
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
+    if (may_gain) grounded_energy(config, state).settle(state);
     if (has_kinematics) kinematics_.end_tick(state);
     if (has_joints) {
         joints_.end_tick(state, solver_.joints());
@@ -466,8 +469,9 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
 /// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
+/// Returns whether anything is.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::correct_positions(WorldState& state)
+bool RigidStepper<broad_phase>::correct_positions(WorldState& state)
 {
     for (ContactBlock& block : solver_.blocks()) {
         set_least_ways(block);
@@ -475,13 +479,15 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
     if (!joints_.is_empty()) joints_.set_way_targets(state, solver_, integrations_.all());
-    state.tick_cost.visits += solver_.correct_positions(position_limits()).visits;
+    const std::uint64_t visits = solver_.correct_positions(position_limits()).visits;
+    state.tick_cost.visits += visits;
     if (!joints_.is_empty()) joints_.bound_ways(solver_);
     // A body that is thrown off its path is held back; the others go as far as that lets them.
-    if (!hold_back(state)) return;
+    if (!hold_back(state)) return visits > 0;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
     if (!joints_.is_empty()) joints_.bound_ways(solver_);
     hold_back(state);
+    return true;
 }
 
 /// Returns whether any body was thrown off its path.
@@ -528,6 +534,7 @@ void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, Worl
     if (continuous_.has_changed_any()) {
         account_.settle_touches(energy_tick(config, state), continuous_);
         account_.cut_ways(energy_tick(config, state), continuous_);
+        grounded_energy(config, state).leave_pushed(continuous_);
     }
     state.tick_cost.looks = continuous_.looks();
     if constexpr (sleeps) {

@@ -7,6 +7,7 @@
 #include "scene/rigid/continuous.hpp"
 #include "scene/rigid/energy_account.hpp"
 #include "scene/rigid/free_flight.hpp"
+#include "scene/rigid/grounded_energy.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/joint_energy.hpp"
@@ -85,12 +86,16 @@ private:
     void solve_anew_what_gains(const WorldConfig& config, WorldState& state);
     void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
-    void correct_positions(WorldState& state);
+    bool correct_positions(WorldState& state);
     bool hold_back(WorldState& state);
     void settle_energy(const WorldConfig& config, WorldState& state);
     EnergyAccount::Tick energy_tick(const WorldConfig& config, WorldState& state)
     {
         return {config, state, scales_, active_, integrations_.all(), solver_, hand_contacts_};
+    }
+    GroundedEnergy grounded_energy(const WorldConfig& config, WorldState& state)
+    {
+        return {config, state.bodies, active_, integrations_.all()};
     }
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
