@@ -90,13 +90,17 @@ void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,
     const double share = 1.0 / static_cast<double>(steps);
     const double seconds = share * base::to_seconds(elapsed);
     motion_.set_step(seconds);
-    const glm::dvec3 change = share * (target - intended_).value;
+    // As arrays: an index into a glm vector costs a branch.
+    using Axes = std::array<double, 3>;
+    const auto per_axis = [](const glm::dvec3& v) { return Axes{v.x, v.y, v.z}; };
+    const Axes begin = per_axis(intended_.value);
+    const Axes change = per_axis(share * (target - intended_).value);
+    const Axes pushed = per_axis(force);
     for (base::Duration::rep i = 0; i < steps; ++i) {
-        const glm::dvec3 from = intended_.value + static_cast<double>(i) * change;
-        for (const int axis : {0, 1, 2}) {
-            HandAxis& hand = axes_[static_cast<std::size_t>(axis)];
-            motion_.advance(hand, {force[axis], from[axis], change[axis] / seconds});
-            stop_at_workspace_end(axis);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double from = begin[axis] + static_cast<double>(i) * change[axis];
+            motion_.advance(axes_[axis], {pushed[axis], from, change[axis] / seconds});
+            stop_at_workspace_end(static_cast<int>(axis));
         }
     }
 }

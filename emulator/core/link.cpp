@@ -265,7 +265,7 @@ void Link::on_sent(const Datagram& datagram, base::TimePoint at)
     statistics_.bytes_out += datagram.size();
     if (datagram.marks.is_congested()) ++statistics_.ce_out;
     statistics_.lateness.add(at - datagram.due);
-    pulse_.on_sent(at - datagram.arrival, at - datagram.due);
+    if (pulse_) pulse_->on_sent(at - datagram.arrival, at - datagram.due);
     if (setup_.has_stream_statistics) stream_statistics_.on_sent(datagram, at);
     if (datagram.number >= beyond_highest_delivered_) {
         beyond_highest_delivered_ = datagram.number + 1;

@@ -87,8 +87,9 @@ public:
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
-    /// What left since the last call.
-    [[nodiscard]] Pulse take_pulse() { return std::exchange(pulse_, {}); }
+    /// What left since the last call. The first one begins to count, so that a link costs no more
+    /// as long as nobody watches.
+    [[nodiscard]] Pulse take_pulse() { return std::exchange(pulse_, Pulse{}).value_or(Pulse{}); }
 
 private:
     [[nodiscard]] Fate fate_of(const Packet& packet);
@@ -123,7 +124,7 @@ private:
     std::uint64_t beyond_highest_delivered_ = 0; // the highest number that left, plus one
     Statistics statistics_;
     StreamStatistics stream_statistics_;
-    Pulse pulse_;
+    std::optional<Pulse> pulse_; // nullopt: nobody has asked for it
 };
 
 } // namespace hapnet::emulator

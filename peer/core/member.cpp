@@ -114,12 +114,12 @@ bool Member::on_goodbye(const wire::Bye& bye, base::TimePoint arrived)
     return true;
 }
 
-Member::Change Member::look(base::TimePoint now)
+Member::Change Member::look(base::TimePoint now, double freshness)
 {
     if (gone_ || !session()) return Change::none;
     const bool may_be_on_its_way = now - std::max(session()->start, agreed_at_) < first_word_within;
     if (!remote_.arrived() && may_be_on_its_way) return Change::none;
-    const bool lost = freshness(now) <= 0.0;
+    const bool lost = freshness <= 0.0;
     if (lost == lost_) return Change::none;
     lost_ = lost;
     return lost ? Change::lost : Change::back;

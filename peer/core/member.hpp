@@ -89,9 +89,9 @@ public:
     {
         return last_heard_ && now - *last_heard_ <= length;
     }
-    /// Whether its forces have just faded to zero, or it is heard again.
+    /// Whether its forces have just faded to zero, or it is heard again. `freshness`: that of now.
     enum class Change : std::uint8_t { none, lost, back };
-    [[nodiscard]] Change look(base::TimePoint now);
+    [[nodiscard]] Change look(base::TimePoint now, double freshness);
     /// So long silent, or gone: it does not hold the others up any more.
     [[nodiscard]] bool counts_as_gone(base::Duration silence, base::TimePoint now) const;
 

@@ -230,7 +230,7 @@ inline bool Peer::is_shared(const wire::BodyState& body) const
     });
 }
 
-bool Peer::is_plausible(const wire::State& state) const
+inline bool Peer::is_plausible(const wire::State& state) const
 {
     const double speed_m_per_s = remote_reach_m_ / crossing_s;
     const auto is_possible = [&](const base::Position& place, const base::Velocity& velocity) {
@@ -238,11 +238,12 @@ bool Peer::is_plausible(const wire::State& state) const
                scene::is_within(velocity.value, speed_m_per_s);
     };
     if (!is_possible(state.hip, state.hip_velocity)) return false;
-    return std::all_of(state.bodies.begin(), state.bodies.end(), [&](const wire::BodyState& body) {
-        return is_shared(body) && is_possible(body.position, body.velocity) &&
-               (!body.turning ||
-                scene::is_within(body.turning->angular_velocity, turn_max_rad_per_s));
-    });
+    for (const wire::BodyState& body : state.bodies) {
+        if (!is_shared(body) || !is_possible(body.position, body.velocity)) return false;
+        if (body.turning && !scene::is_within(body.turning->angular_velocity, turn_max_rad_per_s))
+            return false;
+    }
+    return true;
 }
 
 void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived, std::size_t from)
@@ -306,8 +307,9 @@ void Peer::note(Phase phase, base::TimePoint now)
         phase_ = phase;
     }
     if (!in_session) return;
-    for (Member& other : circle_.members()) {
-        const Member::Change change = other.look(now);
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        Member& other = circle_.members()[i];
+        const Member::Change change = other.look(now, others_[i].freshness);
         if (change != Member::Change::none)
             tell(change == Member::Change::lost ? Event::lost : Event::back, &other);
     }
@@ -415,7 +417,8 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     } else {
         intention_.reset();
     }
-    say_states(tick, now, usable ? hand : Hand{});
+    static constexpr Hand none{};
+    say_states(tick, now, usable ? hand : none);
 }
 
 /// A remote side that lies can drag the body to where the other copy would not believe it to be any

@@ -10,9 +10,10 @@ namespace hapnet::base {
 /// nearest() of a number that is known to be less than 2^63 in size.
 [[nodiscard]] constexpr std::int64_t nearest_in_range(double x)
 {
-    const auto whole = static_cast<std::int64_t>(x);
-    const double rest = x - static_cast<double>(whole); // exact
-    return whole + static_cast<std::int64_t>(rest >= 0.5) - static_cast<std::int64_t>(rest <= -0.5);
+    // Just below a half: what is a half off rounds to the next number in the sum, nothing else
+    // does.
+    constexpr double almost_half = 0x1.fffffffffffffp-2;
+    return static_cast<std::int64_t>(x + __builtin_copysign(almost_half, x));
 }
 
 /// The whole number nearest to `x`, halves away from zero: what std::llround gives, in place. That

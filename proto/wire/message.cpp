@@ -264,8 +264,8 @@ inline void put_steps(ByteWriter& out, const glm::dvec3& v, double step)
     base::ensure(base::is_finite(v));
     for (const double component : {v.x, v.y, v.z}) {
         const double limit = steps_max;
-        const auto steps = base::nearest_in_range(std::clamp(component / step, -limit, limit));
-        out.u16(static_cast<std::uint16_t>(steps));
+        const double bounded = std::min(limit, std::max(-limit, component / step));
+        out.u16(static_cast<std::uint16_t>(base::nearest_in_range(bounded)));
     }
 }
 

@@ -3,16 +3,16 @@
 # SPDX-License-Identifier: MIT
 #
 # A session with the copy of base in C takes at most 5 % more instructions than with base itself.
-# VALGRIND PLAY_SESSION BASE_SO
+# VALGRIND SPIN_SESSION BASE_SO
 set -euo pipefail
-valgrind=$1 play=$2 base=$3
+valgrind=$1 spin=$2 base=$3
 [[ -x $valgrind ]] || { echo "valgrind is not installed: nothing was counted" && exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 # count ALGORITHM SECONDS: the instructions of the whole run.
 count() {
-    "$valgrind" --tool=callgrind --callgrind-out-file="$folder/out" "$play" "$1" "$2" \
+    "$valgrind" --tool=callgrind --callgrind-out-file="$folder/out" "$spin" "$1" 2 "$2" \
         >"$folder/log" 2>&1 || { cat "$folder/log" >&2 && exit 1; }
     sed -n 's/^summary: //p' "$folder/out"
 }

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // spin_session ALGORITHM PLAYERS SECONDS: sessions in virtual time at 160 ms without keys. Two play
-// P1 in the paper's scene; more carry its cube (T7).
+// P1 in the paper's scene; more carry its cube (T7). ALGORITHM is a name or a shared object.
 #include "lab/virtual_time/play.hpp"
+#include "peer/shared_object/load.hpp"
 #include "scene/text/text.hpp"
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -15,7 +17,8 @@ int main(int argc, char** argv)
     using namespace hapnet;
     using namespace std::chrono_literals;
     if (argc != 4) return 2;
-    const auto algorithm = peer::algorithm_named(argv[1]);
+    const auto algorithm = peer::shared_object::load_from_disk(argv[1]);
+    if (!algorithm) std::fprintf(stderr, "%s\n", algorithm.error().message.c_str());
     const auto players = static_cast<std::size_t>(std::atol(argv[2]));
     if (!algorithm || players < 2) return 2;
     lab::virtual_time::Setting setting;
