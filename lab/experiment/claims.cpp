@@ -171,7 +171,7 @@ std::vector<Job> claim_jobs(const Experiment& experiment)
     return jobs;
 }
 
-base::Result<double> apart_after_silence(const SessionSpec& spec)
+base::Result<double> apart_after_silence(const SessionSpec& spec, base::Duration after)
 {
     using virtual_time::VirtualWorld;
     virtual_time::Setting setting = spec.setting;
@@ -179,7 +179,7 @@ base::Result<double> apart_after_silence(const SessionSpec& spec)
     if (!at) return base::fail("a session that is to end in silence never began");
     setting.profile.timeline = {healing(*at)};
     VirtualWorld world{setting};
-    world.run_for(*at + 1s);
+    world.run_for(*at + after);
     double apart_m = 0.0;
     for (std::size_t a = 0; a < world.sides(); ++a) {
         for (std::size_t b = a + 1; b < world.sides(); ++b) {

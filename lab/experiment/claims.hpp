@@ -35,8 +35,9 @@ inline constexpr std::string_view settled_cell = "all";
 /// How many of the seeds judge: the first ones.
 [[nodiscard]] std::uint32_t judging_seeds(const Experiment& experiment);
 
-/// How far two copies of the body are apart at most, a second after all hands let go and the
+/// How far two copies of the body are apart at most, so long after all hands let go and the
 /// network became perfect, metres. Played twice: the first time tells when that is.
-[[nodiscard]] base::Result<double> apart_after_silence(const SessionSpec& spec);
+[[nodiscard]] base::Result<double>
+apart_after_silence(const SessionSpec& spec, base::Duration after = std::chrono::seconds{1});
 
 } // namespace hapnet::lab::experiment

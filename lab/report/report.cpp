@@ -44,6 +44,7 @@ constexpr std::array parts_of_page{
     PartOfPage{"the closed-loop tasks", tasks_section, "scripts/table1.sh --out", "table1"},
     PartOfPage{"real time", real_time_section, "scripts/table1.sh --real-time --out", "table1"},
     PartOfPage{"what stands against the paper", claims_section, ""},
+    PartOfPage{"what is claimed beyond the paper", beyond_section, "scripts/beat.sh --out", "beat"},
     PartOfPage{"how to repeat it", runs_section, ""}};
 
 /// The sections that there are, and as HTML what is missing.

@@ -55,6 +55,8 @@ struct Section {
 [[nodiscard]] std::optional<Section> qos_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> real_time_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> claims_section(const results::Results& results);
+/// What is claimed of an algorithm beyond the paper's: claims.csv.
+[[nodiscard]] std::optional<Section> beyond_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> runs_section(const results::Results& results);
 
 /// Results that stand against the paper, as lines of HTML.

@@ -332,6 +332,27 @@ private:
     std::vector<ClaimRow> rows_;
 };
 
+using Stiffness = decltype(metrics::Metrics::stiffness_n_per_m);
+
+/// What each side feels on a perfect network, the median of the seeds: in one session a hand that
+/// holds against the press is kept by the friction of its device, or slips as it wavers.
+Stiffness usual_stiffness(std::span<const experiment::JobResult> of_seeds)
+{
+    Stiffness usual{};
+    for (std::size_t press = 0; press < usual.size(); ++press) {
+        for (std::size_t side = 0; side < usual[press].size(); ++side) {
+            std::vector<double> felt;
+            for (const experiment::JobResult& result : of_seeds) {
+                const auto& one = std::get<experiment::SessionResult>(result);
+                if (const auto value = one.perfect.stiffness_n_per_m[press][side])
+                    felt.push_back(*value);
+            }
+            if (!felt.empty()) usual[press][side] = quantile_of(felt, 0.5);
+        }
+    }
+    return usual;
+}
+
 } // namespace
 
 ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
@@ -342,12 +363,17 @@ ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
     for (const auto& algorithm : experiment.algorithms) {
         for (const experiment::ClaimCell& cell : experiment::claim_cells()) {
             for (const Task task : cell.tasks) {
+                const auto of_seeds = results.subspan(next, experiment.seeds);
+                const auto due = usual_stiffness(of_seeds);
                 for (std::uint32_t seed = 0; seed < experiment.seeds; ++seed) {
-                    const auto& one = std::get<experiment::SessionResult>(results[next++]);
+                    const auto& one = std::get<experiment::SessionResult>(of_seeds[seed]);
+                    metrics::Metrics perfect = one.perfect;
+                    perfect.stiffness_n_per_m = due;
                     found.sessions.push_back({&cell, algorithm.name, task,
                                               experiment.first_seed + seed,
-                                              scores_of(one.metrics, one.perfect)});
+                                              scores_of(one.metrics, perfect)});
                 }
+                next += experiment.seeds;
             }
         }
     }

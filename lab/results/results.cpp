@@ -116,6 +116,7 @@ constexpr std::array kinds{FileKind{"manifest.json", add_run},
                                         return append(r.trajectories, read_trajectories(f));
                                     }},
                            FileKind{"qos.csv", add_rows<&Results::qos>},
+                           FileKind{"claims.csv", add_rows<&Results::claims>},
                            FileKind{"real_time.csv", add_rows<&Results::real_time>}};
 
 constexpr FileKind replay_kind{"*.csv", add_replay};

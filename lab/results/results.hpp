@@ -5,6 +5,7 @@
 #include "lab/metrics/criteria.hpp"
 #include "lab/records/analysis.hpp"
 #include "lab/records/curves.hpp"
+#include "lab/results/claim_rows.hpp"
 #include "lab/results/demo.hpp"
 #include "lab/results/rows.hpp"
 #include "lab/results/session_rows.hpp"
@@ -49,6 +50,7 @@ struct Results {
     std::vector<TrajectoryRow> trajectories;
     std::vector<QosRow> qos;
     std::vector<RealTimeRow> real_time;
+    std::vector<ClaimRow> claims;
     std::vector<SessionRow> rows_of_sessions; // of the experiments of Table 1
     std::vector<AxisLimitRow> limits_by_axis;
     std::vector<PairedRow> paired;

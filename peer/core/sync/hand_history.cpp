@@ -97,7 +97,15 @@ HandSample HandHistory::between(std::int64_t tick, double tick_s) const
     return sample;
 }
 
-std::optional<std::int64_t> HeardHand::tick_of(const ReceivedState& received)
+std::optional<std::int64_t> answered_tick(const ReceivedState& received)
+{
+    const auto& echo = received.state.echo;
+    // An answer to a hello of before the start tells of no tick.
+    if (!echo || echo->of < received.start) return std::nullopt;
+    return static_cast<std::int64_t>((echo->of - received.start) / received.tick);
+}
+
+std::optional<std::int64_t> HeardHand::hear(const ReceivedState& received)
 {
     const auto delay = one_way_delay(received);
     if (!delay) return std::nullopt;
@@ -106,6 +114,13 @@ std::optional<std::int64_t> HeardHand::tick_of(const ReceivedState& received)
     const std::int64_t tick = ticks.number(count, since_start, received.tick);
     const base::Duration latest = received.arrived - received.start + SessionTicks::in_time;
     if (tick * received.tick > latest) return std::nullopt;
+    const wire::BodyState* const body = received.state.bodies.first();
+    if (received.taken && body != nullptr) {
+        told = RestAgreement::Word{.from = received.from,
+                                   .tick = tick,
+                                   .knows = answered_tick(received).value_or(-1),
+                                   .body = body->position};
+    }
     return tick;
 }
 
@@ -113,6 +128,7 @@ void HeardHand::forget()
 {
     history.clear();
     ticks.forget();
+    told.reset();
 }
 
 } // namespace hapnet::peer

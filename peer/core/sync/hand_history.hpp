@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/sync/presence.hpp"
+#include "peer/core/sync/rest_agreement.hpp"
 #include "peer/core/sync/session_ticks.hpp"
 #include "peer/core/sync/situation.hpp"
 
@@ -72,16 +72,22 @@ inline void says_grip(scene::HandTouch& touched, const HandSample& own)
     touched.touching = touched.touching || touched.holding;
 }
 
-/// The hand of another peer, by ticks of the session.
+/// The hand of another peer, by ticks of the session, and what its newest message tells of its
+/// copy.
 struct HeardHand {
     HandHistory history;
     SessionTicks ticks;
+    std::optional<RestAgreement::Word> told; // of the body; `knows`: this peer's hand
 
     /// The tick of which a message tells; nullopt while the clocks are unknown, or when that is
     /// still to come.
-    [[nodiscard]] std::optional<std::int64_t> tick_of(const ReceivedState& received);
+    [[nodiscard]] std::optional<std::int64_t> hear(const ReceivedState& received);
     void forget();
 };
+
+/// The tick of this peer's newest message that the sender of that one had; nullopt: none of the
+/// session.
+[[nodiscard]] std::optional<std::int64_t> answered_tick(const ReceivedState& received);
 
 /// The scene's hands by the ranks of their peers, so that all copies have them in the same order:
 /// equal inputs make equal bits.
@@ -92,14 +98,6 @@ struct HeardHand {
 [[nodiscard]] inline std::uint32_t hand_by_rank(std::size_t other, const Situation& situation)
 {
     return static_cast<std::uint32_t>(other < situation.lower_ids ? other : other + 1);
-}
-
-/// Whether the copy of another peer, at rest, is not this one but for rounding: messages were
-/// missing, and the hands between them were not quite as they are reckoned to have been.
-[[nodiscard]] inline bool differs(const Presence::Pose& there, base::Position here)
-{
-    constexpr double rounded_m = 1e-6;
-    return base::norm(there.position - here) > rounded_m;
 }
 
 } // namespace hapnet::peer

@@ -10,15 +10,12 @@ namespace hapnet::peer {
 void Lag::hear(const ReceivedState& received)
 {
     Other& other = others_[received.from];
-    const auto tick = other.heard.tick_of(received);
+    const auto tick = other.heard.hear(received);
     if (!tick) return;
     // What was overtaken is as good as any: it tells of another tick.
     if (!other.heard.history.add(*tick, HandSample::of(received.state))) return;
-    const auto& echo = received.state.echo;
-    // An answer to a hello of before the start tells of no tick.
-    if (!received.taken || !echo || echo->of < received.start) return;
-    const auto answered = static_cast<std::int64_t>((echo->of - received.start) / received.tick);
-    other.ages_there.add(*tick - answered);
+    if (!received.taken) return;
+    if (const auto answered = answered_tick(received)) other.ages_there.add(*tick - *answered);
 }
 
 void Lag::forget(std::size_t of)
@@ -76,6 +73,30 @@ void Lag::play(scene::World& world, const Situation& situation)
                        is_there ? sample.input() : scene::HandInput{.present = false});
     }
     world.tick();
+    if (rest_.play(played_, world, situation.body)) way_ticks_ = 0;
+    if (way_ticks_ > 0) {
+        world.shift(situation.body, way_a_tick_);
+        --way_ticks_;
+    }
+}
+
+/// Where messages were missing copies differ. The one that yields goes to where the other rests, in
+/// as many ticks as base does.
+void Lag::rest(const Situation& situation)
+{
+    const auto leader = yields_to(situation);
+    if (!leader || !others_[*leader].heard.told) return;
+    RestAgreement::Word word = *others_[*leader].heard.told;
+    // Of two, both know the same ages, and so have about the same lag.
+    constexpr std::int64_t about = 10; // ticks
+    const bool is_pair = others_.size() == 1;
+    word.knows = word.tick - (is_pair ? lag_ticks() + about : HandHistory::ticks_max);
+    rest_.hear(word);
+    const auto ticks = BaseOptions{}.settle_within / situation.tick;
+    const auto way = rest_.take_way(ticks);
+    if (!way) return;
+    way_a_tick_ = (1.0 / static_cast<double>(ticks)) * *way;
+    way_ticks_ = ticks;
 }
 
 Outcome Lag::tick(scene::World& world, const Situation& situation)
@@ -85,7 +106,7 @@ Outcome Lag::tick(scene::World& world, const Situation& situation)
     own_.add(now, HandSample::of(world.state().hands[own_hand]));
     note_ages(situation, now);
     follow(situation);
-    const std::int64_t due = now - static_cast<std::int64_t>(std::ceil(lag_));
+    const std::int64_t due = now - lag_ticks();
     if (!first_) first_ = now;
     if (!has_begun_ && is_ready(situation)) {
         has_begun_ = true;
@@ -102,7 +123,6 @@ Outcome Lag::tick(scene::World& world, const Situation& situation)
 Outcome Lag::outcome_of(scene::World& world, const Situation& situation, std::int64_t now)
 {
     Outcome outcome;
-    const Presence remote = presence_of(situation, BaseOptions{});
     if (has_begun_) outcome.touched = world.touch(own_hand_by_rank(situation));
     outcome.on_hand = outcome.touched.on_hand;
     outcome.late = has_begun_ ? (now - played_) * situation.tick : base::Duration{0};
@@ -113,12 +133,7 @@ Outcome Lag::outcome_of(scene::World& world, const Situation& situation, std::in
         outcome.remote_force += touch.on_body;
     }
     if (const auto& state = situation.remote.state()) outcome.remote_hip = state->hip;
-    if (outcome.touched.touching || outcome.remote_touching || remote.touching) {
-        at_rest_.interrupt();
-    } else if (const auto rest = at_rest_.pose(world.position(situation.body), remote, situation)) {
-        if (differs(*remote.pose, world.position(situation.body)))
-            world.place(situation.body, rest->position, rest->velocity);
-    }
+    rest(situation);
     return outcome;
 }
 

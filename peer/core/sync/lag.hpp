@@ -3,10 +3,10 @@
 #pragma once
 
 #include "peer/core/sync/age_quantile.hpp"
-#include "peer/core/sync/at_rest.hpp"
 #include "peer/core/sync/hand_history.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -72,6 +72,11 @@ private:
     void follow(const Situation& situation);
     [[nodiscard]] bool is_ready(const Situation& situation) const;
     void play(scene::World& world, const Situation& situation);
+    void rest(const Situation& situation);
+    [[nodiscard]] std::int64_t lag_ticks() const
+    {
+        return static_cast<std::int64_t>(std::ceil(lag_));
+    }
     [[nodiscard]] Outcome outcome_of(scene::World& world, const Situation& situation,
                                      std::int64_t now);
 
@@ -83,7 +88,9 @@ private:
     std::int64_t played_ = -1;
     std::optional<std::int64_t> first_; // tick of this peer
     bool has_begun_ = false;
-    AtRest at_rest_;
+    RestAgreement rest_;
+    base::Displacement way_a_tick_; // to where the other copy rests
+    std::int64_t way_ticks_ = 0;    // until it is there
 };
 
 } // namespace hapnet::peer

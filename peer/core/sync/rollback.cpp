@@ -21,7 +21,7 @@ void Rollback::prepare(std::size_t others, const scene::World& world)
 void Rollback::hear(const ReceivedState& received)
 {
     Other& other = others_[received.from];
-    const auto tick = other.heard.tick_of(received);
+    const auto tick = other.heard.hear(received);
     if (!tick) return;
     // What was overtaken fills a gap, unless the past is beyond it.
     if (*tick > confirmed_ && other.heard.history.add(*tick, HandSample::of(received.state)))
@@ -132,6 +132,7 @@ bool Rollback::confirm(const Situation& situation, std::int64_t now)
     while (confirmed_ < until) {
         set_past_hands(*past_, situation, ++confirmed_);
         past_->tick();
+        rest_.play(confirmed_, *past_, situation.body);
     }
     return moves;
 }
@@ -198,20 +199,25 @@ void Rollback::smooth(const glm::dvec3& jump, double tick_s)
     offset_ += tick_s * offset_speed_;
 }
 
-/// Where messages were missing the pasts differ. Once all hands are off the higher id's goes to the
-/// lower id's.
-void Rollback::rest(const Situation& situation, const Outcome& outcome, base::Position shown)
+/// Where messages were missing the pasts differ. The one that yields goes to where the other rests;
+/// the offset takes what is shown there.
+base::Displacement Rollback::rest(const Situation& situation, const Outcome& outcome)
 {
-    const Presence remote = presence_of(situation, BaseOptions{});
-    if (outcome.touched.touching || outcome.remote_touching || remote.touching) {
-        at_rest_.interrupt();
-        return;
-    }
-    const auto pose = at_rest_.pose(shown, remote, situation);
-    if (!pose || !differs(*remote.pose, shown)) return;
-    const base::Displacement way = pose->position - shown;
-    past_->shift(situation.body, way);
-    present_->shift(situation.body, way);
+    const auto leader = yields_to(situation);
+    if (!leader || !others_[*leader].heard.told) return {};
+    RestAgreement::Word word = *others_[*leader].heard.told;
+    // Of two, the other answers this hand's messages, by the clock. Of more, the age of a message
+    // between two others is not known.
+    word.knows = others_.size() == 1 ? word.knows - SessionTicks::in_time / situation.tick
+                                     : word.tick - resimulated_max;
+    rest_.hear(word);
+    if (outcome.touched.touching || outcome.remote_touching) return {};
+    const base::Duration rest = std::max(rests_for, 2 * options_.smoothing);
+    const auto way = rest_.take_way(rest / situation.tick);
+    if (!way) return {};
+    past_->shift(situation.body, *way);
+    present_->shift(situation.body, *way);
+    return *way;
 }
 
 void Rollback::show(scene::World& world, const Situation& situation)
@@ -238,8 +244,8 @@ Outcome Rollback::tick(scene::World& world, const Situation& situation)
         jump = (before - present_->position(situation.body)).value;
     }
     has_news_ = false;
+    jump -= rest(situation, outcome).value;
     smooth(jump, base::to_seconds(situation.tick));
-    rest(situation, outcome, present_->position(situation.body) + base::Displacement{offset_});
     show(world, situation);
     return outcome;
 }

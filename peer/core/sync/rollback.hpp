@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/sync/at_rest.hpp"
 #include "peer/core/sync/hand_history.hpp"
 #include "peer/core/sync/proxy_hand.hpp"
 #include "proto/base/ensure.hpp"
@@ -53,9 +52,8 @@ constexpr auto fields_of(base::Tag<RollbackOptions> /*struct*/)
 /// Two worlds in each copy (rollback and resimulation, as in games): one of the past, moved by the
 /// hands as they were, and one of the present, computed again from there with every message, in
 /// which a hand that touched is a hand that goes on as it means to. Where no
-/// message is missing all pasts are made of the same hands; what parts them is rest(). The present
-/// has no bound on its energy: this is a yardstick for the others. docs/design/algorithms.md has
-/// the equations.
+/// message is missing all pasts are the same to the bit. The present has no bound on its energy:
+/// this is a yardstick for the others. docs/design/algorithms.md has the equations.
 class Rollback {
 public:
     Rollback() : Rollback(RollbackOptions{}) {}
@@ -81,6 +79,8 @@ public:
     static constexpr base::Duration waits_for{std::chrono::seconds{1}};
     /// No more ticks than that are computed again.
     static constexpr std::int64_t resimulated_max = 1000;
+    /// So long a body rests before its places are compared, at least.
+    static constexpr base::Duration rests_for{std::chrono::milliseconds{100}};
 
 private:
     struct Other {
@@ -104,7 +104,7 @@ private:
     void predict(const Situation& situation, std::int64_t now);
     [[nodiscard]] Outcome feel(scene::World& world, const Situation& situation, std::int64_t now);
     void smooth(const glm::dvec3& jump, double tick_s);
-    void rest(const Situation& situation, const Outcome& outcome, base::Position shown);
+    base::Displacement rest(const Situation& situation, const Outcome& outcome);
     void show(scene::World& world, const Situation& situation);
 
     RollbackOptions options_;
@@ -118,7 +118,7 @@ private:
     glm::dvec3 offset_{0.0}; // of the body as it is shown, from the present
     glm::dvec3 offset_speed_{0.0};
     std::optional<base::Position> shown_;
-    AtRest at_rest_;
+    RestAgreement rest_;
 };
 
 } // namespace hapnet::peer

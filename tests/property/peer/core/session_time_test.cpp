@@ -113,34 +113,34 @@ std::string words(const Setting& setting)
                        setting.seed.value());
 }
 
+/// Of the body in a session: what is pressed from both sides stays about where it is.
+double least_way_m(device::Task task) { return task == device::Task::t2 ? 0.005 : 0.3; }
+
 class SessionTime : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(SessionTime, OfThePastIsWithinABoundInAllCopiesThatRollBackWhereNoMessageIsLost)
+TEST_P(SessionTime, OfThePastIsTheSameToTheBitInAllCopiesThatRollBackWhereNoMessageIsLost)
 {
-    if (test::is_sanitized && GetParam() > 0) GTEST_SKIP() << "takes minutes";
     const Setting setting = drawn(GetParam(), "rollback", 250ms, 25ms);
     const Played all = played(setting, [](const peer::Peer& peer, Course& course) {
         const auto& algorithm = std::get<peer::Rollback>(peer.algorithm());
         course[algorithm.past().ticks()] = algorithm.past().position(0);
     });
     const Apart found = apart(all.courses);
-    EXPECT_GT(all.way_m, 0.005) << words(setting);
+    EXPECT_GT(all.way_m, least_way_m(setting.task)) << words(setting);
     EXPECT_GT(found.compared, 50U) << words(setting); // jitter moves it on by many ticks at once
-    // 12.9 mm in the worst of sixteen seeds, measured before hands were rounded alike in all
-    // builds.
-    EXPECT_LE(found.most_m, 0.015) << words(setting);
+    EXPECT_EQ(found.most_m, 0.0) << words(setting);
 }
 
-TEST_P(SessionTime, OfCopiesThatLagIsTheSameInAllWhereEveryMessageIsAsOld)
+TEST_P(SessionTime, OfCopiesThatLagIsTheSameToTheBitInAllWhereEveryMessageIsAsOld)
 {
     const Setting setting = drawn(GetParam(), "lag", 200ms, 0ms);
     const Played all = played(setting, [](const peer::Peer& peer, Course& course) {
         course[peer.world().ticks()] = peer.position();
     });
     const Apart found = apart(all.courses);
-    EXPECT_GT(all.way_m, 0.01) << words(setting);
+    EXPECT_GT(all.way_m, least_way_m(setting.task)) << words(setting);
     EXPECT_GT(found.compared, 5000U) << words(setting);
-    EXPECT_LE(found.most_m, 1e-6) << words(setting); // 0.9 um in the worst, else the same bits
+    EXPECT_EQ(found.most_m, 0.0) << words(setting);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, SessionTime, testing::Range(std::uint64_t{0}, seeds(16)));

@@ -21,7 +21,7 @@ TEST(Report, HasASectionExactlyIfTheFolderHasItsData)
         {sample_curves(), "curves"},       {sample_conventions(), "trust"},
         {sample_trajectories(), "fig7"},   {sample_qos(), "qos"},
         {sample_real_time(), "real-time"}, {sample_replay(), "replay"},
-        {sample_manifest(), "runs"}};
+        {sample_claims(), "beyond"},       {sample_manifest(), "runs"}};
     const auto opening = [](const std::string& id) { return "<section id='" + id + "'"; };
     const std::string whole = page_of(whole_sample());
     for (const Expected& one : expected) {
@@ -54,6 +54,15 @@ TEST(Report, ShowsNumbersBesideThePapersWithTheirBandsAndMissesInRed)
     EXPECT_TRUE(holds(page, "<span class='badge calibrated'>calibrated</span>"));
     EXPECT_TRUE(holds(page, "fill='var(--missed)' font-weight='bold'>66.6</text>"));
     EXPECT_FALSE(holds(page, "fill='var(--missed)' font-weight='bold'>3.4</text>"));
+}
+
+TEST(Report, ShowsWhatIsClaimedBeyondThePaperAndWhatOfItIsMissed)
+{
+    const std::string page = page_of({sample_claims()});
+    EXPECT_TRUE(holds(page, "2 claims, made before the first run; 1 missed"));
+    EXPECT_TRUE(holds(page, "<td class='ours'>5.97, 5.42</td>"));
+    EXPECT_TRUE(holds(page, "<td class='ours missed'>0.98 to 1.46</td>"));
+    EXPECT_TRUE(holds(page, "<span class='badge missed'>missed</span>"));
 }
 
 TEST(Report, DrawsEachSeedOfEachTaskAndALineThroughTheMedians)

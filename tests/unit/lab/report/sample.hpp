@@ -116,11 +116,19 @@ inline results::File sample_replay()
             "0.01,1,0,0,-24,0,0,-0.5,-3,0,0,25,0,0,0.5\n"};
 }
 
+inline results::File sample_claims()
+{
+    return {"r/beat/claims.csv",
+            "claim,value,accept,verdict,quantile,seeds\n"
+            "\"mean discrepancy: P1, T1\",\"5.97, 5.42\",\"<= 6, <= 7\",met,\"5.97, 5.42\",40\n"
+            "stiffness at 100 ms,0.98 to 1.46,0.75 to 1.25,missed,0.98 to 1.32,40\n"};
+}
+
 inline std::vector<results::File> whole_sample()
 {
     return {sample_manifest(),    sample_table1(),    sample_tasks(),       sample_limits(),
             sample_loss_limits(), sample_curves(),    sample_conventions(), sample_trajectories(),
-            sample_qos(),         sample_real_time(), sample_replay()};
+            sample_qos(),         sample_real_time(), sample_replay(),      sample_claims()};
 }
 
 /// The files of the report of these; must be readable.

@@ -3,6 +3,7 @@
 #include "lab/results/claim_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 
 namespace hapnet::lab::results::claim_rows_test {
@@ -97,6 +98,27 @@ TEST(ClaimRows, OfAMeanMayHaveOneSeedBeyondIt)
     EXPECT_EQ(row_of(experiment, sessions, claim).verdict, ClaimVerdict::met); // 3.45 mm
     scores_in(sessions, "200ms", Task::t3, first_seed).discrepancy_m->mean = 7.0e-3;
     EXPECT_EQ(row_of(experiment, sessions, claim).verdict, ClaimVerdict::missed); // 3.55 mm
+}
+
+TEST(ClaimRows, HoldAStiffnessAgainstTheMedianOfWhatIsDueAndNotAgainstOneSession)
+{
+    const auto experiment = claims_of(3, 3);
+    constexpr std::array due{98.0, 200.0, 210.0};
+    std::vector<experiment::JobResult> results;
+    for (const experiment::ClaimCell& cell : experiment::claim_cells()) {
+        for (const Task task : cell.tasks) {
+            for (const double stiffness : due) {
+                experiment::SessionResult one;
+                one.metrics.task = one.perfect.task = task;
+                one.metrics.stiffness_n_per_m[metrics::judged_press] = {150.0, 170.0};
+                one.perfect.stiffness_n_per_m[metrics::judged_press] = {stiffness, stiffness};
+                results.emplace_back(one);
+            }
+        }
+    }
+    results.resize(results.size() + due.size(), experiment::SilenceResult{});
+    for (const ClaimSession& session : claim_sessions_of(experiment, results).sessions)
+        EXPECT_EQ(session.scores.stiffness_ratio[metrics::judged_press], 0.8);
 }
 
 TEST(ClaimRows, AreUndecidedWhereNothingWasMeasured)
