@@ -5,10 +5,10 @@
 # Installs what is missing to build Hapnet on Debian 12 and, with --test, to test it.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--test] [--programs] [--package]
+usage="usage: scripts/setup.sh [--test] [--programs] [--package] [--fleet]
 Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
 also those that scripts/test.sh needs, with --programs those that its kind programs needs, with
---package those that scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does
+--package those that scripts/package.sh needs, with --fleet those that its kind fleet needs. Runs as root or with sudo, asks nothing, and does
 nothing when nothing is missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
@@ -22,12 +22,16 @@ test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping l
 program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ngtcp2-client
     ngtcp2-server openssl passt python3 slirp4netns)
 
+# What runs the shards of a plan, and a cluster of one node.
+fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-wlm)
+
 package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian scdoc systemd)
 
 for argument in "$@"; do
     case $argument in
     --test) packages+=("${test_packages[@]}") ;;
     --programs) packages+=("${program_packages[@]}") ;;
+    --fleet) packages+=("${fleet_packages[@]}") ;;
     --package)
         packages+=("${package_packages[@]}")
         command -v npm >/dev/null || packages+=(npm) # which need not be Debian's
