@@ -19,8 +19,8 @@ rm -rf "$work"
 mkdir -p "$work"
 trap 'rm -rf "$work"' EXIT
 
-# 20 delays, 10 losses and 50 seeds of 2 algorithms in 2 tasks are 40000.
-seeds=$(((sessions + 799) / 800))
+# 25 delays and 10 losses of 2 algorithms in 2 tasks are 1000 for each seed.
+seeds=$(((sessions + 999) / 1000))
 lines() {
     python3 - "$1" "$2" "$3" <<'EOF'
 import sys
@@ -36,7 +36,7 @@ seeds = $seeds
 algorithms = ["base", "dead-reckoning"]
 tasks = ["T1", "T3"]
 [plane]
-delay = $(lines 5 20 ms)
+delay = $(lines 5 25 ms)
 jitter = ["0ms"]
 loss = $(lines 9 10 %)
 EOF
