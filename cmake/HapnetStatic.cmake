@@ -4,7 +4,8 @@
 # -DHAPNET_STATIC=ON: programs that need no shared library but those of the C library and libudev,
 # to run where Debian's packages are not. Nothing is compiled in another way; it is linked in
 # another. Packages are made without it: there the system's libraries get the system's updates.
-add_link_options(-static-libstdc++ -static-libgcc)
+add_link_options(-static-libstdc++ -static-libgcc
+    -Wl,--undefined=arc4random) # ours, of packaging/static, before that of the C library
 set(CMAKE_SKIP_RPATH ON)
 
 function(hapnet_link_archive target archive)

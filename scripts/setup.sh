@@ -5,19 +5,19 @@
 # Installs what is missing to build Hapnet on Debian 12 and, with --test, to test it.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--test] [--programs] [--web] [--package]
+usage="usage: scripts/setup.sh [--test] [--programs] [--web] [--package] [--fleet]
 Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
-also those that scripts/test.sh needs, with --programs those that its kind programs needs, with
---web those that its kind web needs (nodejs and npm only where there is no node), with --package
-those that scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does nothing when
-nothing is missing."
+also those that scripts/test.sh needs, with --programs, --web (nodejs and npm only where there is no
+node) and --fleet those that its kinds of these names need, with --package those that
+scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does nothing when nothing is
+missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
     libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
     libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping libbenchmark-dev
     libbullet-dev libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
-    passt python3-dissononce python3-transitions shellcheck slirp4netns tshark umockdev valgrind)
+    passt python3-dissononce python3-jsonschema python3-transitions shellcheck slirp4netns tshark umockdev valgrind)
 
 # Other people's programs, which run through the emulator.
 program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ngtcp2-client
@@ -26,6 +26,8 @@ program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ng
 # A node that did not come from Debian has its own npm, and Debian's would not go with it.
 web_packages=(chromium tshark)
 command -v node >/dev/null && command -v npm >/dev/null || web_packages+=(nodejs npm)
+# What runs the shards of a plan, and a cluster of one node.
+fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-wlm)
 
 package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian scdoc systemd)
 
@@ -34,6 +36,7 @@ for argument in "$@"; do
     --test) packages+=("${test_packages[@]}") ;;
     --programs) packages+=("${program_packages[@]}") ;;
     --web) packages+=("${web_packages[@]}") ;;
+    --fleet) packages+=("${fleet_packages[@]}") ;;
     --package)
         packages+=("${package_packages[@]}")
         command -v npm >/dev/null || packages+=(npm) # which need not be Debian's

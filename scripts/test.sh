@@ -15,7 +15,8 @@ devices: those are the workflow asan-e2e), and reads the sources with clang-tidy
 KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
 curl, dig, iperf, iperf3, mosh, ping, QUIC), ship (packages, made, installed in a bare root and
 removed; as root), web (the live page in Chromium; left out, with the reason, where node, npm or
-chromium is missing), fleet (many machines), which has no tests yet.
+chromium is missing), fleet (a plan in shards by GNU parallel, over ssh to this machine and as an
+array on a Slurm cluster of one node, which it starts and ends, as root; and a million sessions).
 What each step said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument, 3 when something that it needs cannot be installed."
 
@@ -32,8 +33,7 @@ case ${1-} in
 '') ;;
 --all) all=yes ;;
 -h | --help) echo "$usage" && exit 0 ;;
-programs | ship | web) kind=$1 ;;
-fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
+programs | ship | web | fleet) kind=$1 ;;
 -*) refuse "unknown argument '$1'" ;;
 *) refuse "unknown kind '$1': use web, programs, ship or fleet" ;;
 esac
@@ -42,6 +42,7 @@ case $kind in
 programs) scripts/setup.sh --test --programs ;;
 web) scripts/setup.sh --web ;;
 ship) scripts/setup.sh --package ;;
+fleet) scripts/setup.sh --test --fleet ;;
 *) scripts/setup.sh --test ;;
 esac
 logs=build/test-logs
@@ -182,6 +183,11 @@ test_web() {
         tests/web/page.test.mjs tests/web/virtual.test.mjs
 }
 
+build_fleet() {
+    cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
+        --target hapnet-lab made_sessions
+}
+
 # closing LOG...: what ctest said at the end of each.
 closing() {
     local run said
@@ -193,6 +199,14 @@ closing() {
 
 if [[ $kind == ship ]]; then
     step "ship" tests/ship/ship_test.sh "$PWD" "$PWD/build/ship" || true
+    runs=()
+elif [[ $kind == fleet ]]; then
+    bin=$PWD/build/release/bin
+    if step "build" build_fleet; then
+        step "fleet" tests/fleet/fleet_test.sh "$PWD" "$bin" "$PWD/build/fleet" || true
+        step "million" tests/fleet/million_test.sh "$bin" \
+            "$bin/made_sessions" "$PWD/build/fleet-million" 1000000 || true
+    fi
     runs=()
 elif [[ $kind == web ]]; then
     { step "build" build_web && step "web" test_web; } || true

@@ -138,7 +138,8 @@ base::Result<void> SessionStore::read_last(const FolderIdentity& identity)
             return;
         }
         const Json header = Json::parse(line, nullptr, false);
-        if (header != expected) other = header;
+        const bool is_expected = header == expected; // of what is no JSON != is false, too
+        if (!is_expected) other = header;
     });
     file.length = read.length;
     if (other) {

@@ -211,6 +211,45 @@ TEST_F(LabRun, PlaysOwnScenesOptionsAndRecordedHands)
     expect_refused(run_into("none", {"--set", "replay=[\"none.csv\", \"\"]"}), {"none.csv"});
 }
 
+TEST_F(LabRun, MergesTheShardsOfAPlanIntoTheSameBytesAlsoAfterOneWasKilled)
+{
+    const auto lab = [](std::vector<std::string> words) { return run("hapnet-lab", words, 60s); };
+    ASSERT_EQ(run_into("whole").exit, 0);
+    const auto sweep = folder.file("sweep");
+    ASSERT_EQ(lab({"plan", file, "--out", sweep}).exit, 0);
+    std::filesystem::rename(file, folder.file("elsewhere.toml")); // the plan has all it needs
+    ASSERT_EQ(lab({"run", sweep, "--shard", "0/2"}).exit, 0);
+    const auto early = lab({"merge", sweep});
+    EXPECT_EQ(early.exit, 1);
+    EXPECT_NE(early.err.find("not all shards have begun"), std::string::npos) << early.err;
+    EXPECT_FALSE(std::filesystem::exists(sweep + "/limits.csv"));
+    const auto sessions = sweep + "/shards/1-of-2.jsonl";
+    {
+        Process killed{"hapnet-lab", {"run", sweep, "--shard", "1/2", "--jobs", "1"}};
+        for (int i = 0; i < 500 && text_of(sessions).size() < 3000; ++i)
+            ASSERT_EQ(killed.wait_exit(10ms), std::nullopt) << killed.err();
+        killed.signal(SIGKILL);
+        ASSERT_NE(killed.wait_exit(1s), std::nullopt);
+    }
+    const auto unfinished = lab({"merge", sweep});
+    EXPECT_EQ(unfinished.exit, 1);
+    EXPECT_NE(unfinished.err.find("have not ended: 1/2"), std::string::npos) << unfinished.err;
+    const auto rest = lab({"run", sweep, "--shard", "1/2"});
+    ASSERT_EQ(rest.exit, 0) << rest.err;
+    EXPECT_EQ(rest.out.find(" 0 reused"), std::string::npos) << rest.out;
+    const auto merged = lab({"merge", sweep});
+    ASSERT_EQ(merged.exit, 0) << merged.err;
+    expect_same_csv("whole", "sweep");
+    EXPECT_EQ(result("sweep", "B2SUMS"), result("whole", "B2SUMS"));
+    EXPECT_EQ(manifest("sweep")["digest"], manifest("whole")["digest"]);
+    const auto compared = lab({"compare", sweep, folder.file("whole"), "--json"});
+    ASSERT_EQ(compared.exit, 0) << compared.err;
+    for (const auto& row : nlohmann::json::parse(compared.out)["compared"])
+        EXPECT_EQ(row["difference"], 0.0) << row;
+    expect_refused(lab({"run", sweep, "--shard", "0/2", "--seeds", "3"}), {"a plan says it all"});
+    expect_refused(lab({"run", "fig7", "--shard", "0/2", "--out", sweep}), {"needs a plan"});
+}
+
 TEST_F(LabRun, NamesBadInputAndWhatWouldBeRight)
 {
     const auto out = folder.file("none");

@@ -63,7 +63,7 @@ TEST(ComparedRows, LeaveOutWhatOneSideHasNot)
     b.text.resize(b.text.find('\n') + 1);
     const auto none = compare_sessions(a, b);
     ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().message, "a.csv and b.csv have no session in common");
+    EXPECT_EQ(none.error().message, "a.csv and a.csv have no session in common");
     EXPECT_EQ(compare_sessions({"x.csv", "a,b\n"}, a).error().message.find("x.csv:1: "), 0U);
     const auto row = a.text.substr(a.text.find('\n') + 1);
     const auto twice = compare_sessions({"a.csv", a.text + row}, a);
