@@ -19,12 +19,21 @@ const base::TimePoint begin{100s};
 
 record::TickRow tick(int ms)
 {
-    return {.tick = static_cast<std::uint64_t>(ms), .due = begin + ms * 1ms};
+    record::TickRow row;
+    row.tick = static_cast<std::uint64_t>(ms);
+    row.due = begin + ms * 1ms;
+    return row;
 }
 
 record::SessionRow terms(std::uint32_t session, std::uint16_t other)
 {
-    return {.start = begin, .length = 30s, .session = session, .other = other, .noted_at = begin};
+    record::SessionRow row;
+    row.start = begin;
+    row.length = 30s;
+    row.session = session;
+    row.other = other;
+    row.noted_at = begin;
+    return row;
 }
 
 std::vector<record::Row> rows_of(const std::string& text)
