@@ -7,11 +7,12 @@ set -euo pipefail
 
 usage="usage: scripts/bench.sh emulator|scene|lab|device|secure [--quick] [--json FILE]
                         [--plot FILE.svg]
+       scripts/bench.sh web [--quick] [--json FILE]
        scripts/bench.sh scene [... the same ...] [--csv FILE] [--markdown FILE]
        scripts/bench.sh lab   [... the same ...] [--csv FILE]
 Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
 the same numbers in FILE; of the scene --csv and --plot are its work-precision diagram, of the lab
-error against run time. --quick ends within a minute of measuring. Run the emulator's as root, or
+error against run time; of the web what ten who watch cost the daemons. --quick ends within a minute of measuring. Run the emulator's as root, or
 where SCHED_FIFO is allowed, to measure real-time scheduling too, and the lab's so that nothing else
 counts. Exits 0 when it has measured, also when a target was missed; 2 for an
 unknown subject or argument."
@@ -26,7 +27,7 @@ subject=$1
 shift
 case $subject in
 -h | --help) echo "$usage" && exit 0 ;;
-emulator | scene | lab | device | secure) ;;
+emulator | scene | lab | device | secure | web) ;;
 *) refuse "unknown subject '$subject'" ;;
 esac
 
@@ -44,9 +45,15 @@ while (($# > 0)); do
 done
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+targets=("bench_$subject")
+[[ $subject != web ]] || targets=(hapnet-web hapnet-emulator hapnet-peer hapnet-lab)
 {
     scripts/setup.sh --test
     cmake --preset release
-    cmake --build --preset release --target "bench_$subject"
+    cmake --build --preset release --target "${targets[@]}"
 } >&2
+if [[ $subject == web ]]; then
+    export HAPNET_BIN=$PWD/build/release/bin PYTHONDONTWRITEBYTECODE=1
+    exec python3 tests/bench/web/disturbance.py "${arguments[@]}"
+fi
 exec "build/release/bin/bench_$subject" "${arguments[@]}"

@@ -137,12 +137,12 @@ base::Duration Session::length() const
 
 void Session::play_to(base::Duration time)
 {
-    while (true) {
-        const base::Duration end = std::min(time, std::max(length(), at()));
+    // Its length is known for certain only once the session is agreed on.
+    while (at() < std::min(time, length())) {
+        const base::Duration end = std::min(time, length());
         const bool is_next = done_ < requests_.size() && requests_[done_].at <= end;
         run_to(World::start + (is_next ? requests_[done_].at : end));
-        if (!is_next) return;
-        static_cast<void>(apply(requests_[done_++].line));
+        if (is_next) static_cast<void>(apply(requests_[done_++].line));
     }
 }
 

@@ -39,7 +39,7 @@ const seek = async (seconds) => {
   const near = (value) => Math.abs(value - seconds) < length / 1000;
   await page.waitForFunction(([to, tolerance]) => {
     const { frame, state } = globalThis.hapnet.model;
-    return Math.abs(state.pace.at_s - to) < tolerance && Math.abs(frame.at_s - to) < tolerance
+    return Math.abs(state.pace.at_s - to) < tolerance && Math.abs(frame.at_s - to) < tolerance && frame.pairs[0].apart_mm !== null
       && frame.peers.every((peer) => Math.abs(peer.at_ns / 1e9 - 1000 - frame.at_s) < 0.01);
   }, [seconds, length / 1000], patience);
   const shown = await page.evaluate(() => {
@@ -99,4 +99,21 @@ test("what was set is saved as an experiment that repeats it to the bit", { skip
   const out = mkdtempSync(join(tmpdir(), "hapnet-web-run-"));
   execFileSync(lab, ["run", file, "--out", out], { stdio: "pipe" });
   rmSync(out, { recursive: true, force: true });
+});
+
+test("three peers in virtual time have a row of sliders for each link", { skip }, async () => {
+  await page.selectOption("#task", "T7");
+  await page.selectOption("#peers", "3");
+  await page.click("#start");
+  await page.waitForFunction(() => globalThis.hapnet.model.peers.length === 3
+    && globalThis.hapnet.model.paths.length === 3, undefined, patience);
+  const row = page.locator("#sliders tbody tr", { hasText: "A ⇄ C" });
+  await row.locator('.slider[data-setting="delay"] input[type="number"]').fill("70");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => {
+    const { conditions } = globalThis.hapnet.model;
+    return conditions["1-3.delay"] === "70ms" && conditions["3-1.delay"] === "70ms"
+      && conditions["1-2.delay"] !== "70ms";
+  }, undefined, patience);
+  await keepPicture(page, "three");
 });

@@ -97,11 +97,7 @@ void Feed::lose_peer(std::size_t place)
     tracks_[place].clear();
 }
 
-void Feed::forget()
-{
-    history_.clear();
-    for (Track& track : tracks_) track.clear();
-}
+void Feed::forget() { history_.clear(); }
 
 std::optional<std::uint64_t> Feed::generation() const
 {

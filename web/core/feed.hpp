@@ -39,7 +39,7 @@ public:
     /// Its frames have ended: live frames have null instead.
     void lose_peer(std::size_t place);
     void lose_emulator() { emulator_ = {}; }
-    /// Charts begin anew, as another run does.
+    /// Charts begin anew, as where virtual time goes back.
     void forget();
 
     /// All but the beginning, which is each page's own: `,"at_s":...}`. nullopt: nothing is

@@ -4,25 +4,23 @@
 // several peers. Both ways together, or each on its own.
 
 import { fillSelect, make, say } from "./dom.js";
-import { conditionsOf } from "./rows.js";
+import { conditionsOf, prefixOf } from "./rows.js";
 import { orders, settings } from "./settings.js";
 import { Slider } from "./slider.js";
 
 /** Rows of sliders: the key in front of a setting, what it holds for, and how people call it. */
 const targetsOf = (paths, linked, ends) => {
   const ways = (path, [a, b]) => {
-    const prefix = path === "" ? "" : `${path}.`;
-    if (linked) {
-      return [{ keys: [`${prefix}up.`, `${prefix}down.`], path, way: "up", label: `${a} ⇄ ${b}` }];
-    }
+    const [up, down] = [prefixOf(path, "up"), prefixOf(path, "down")];
+    if (linked) return [{ keys: [up, down], path, way: "up", label: `${a} ⇄ ${b}` }];
     return [
-      { keys: [`${prefix}up.`], path, way: "up", label: `${a} → ${b}` },
-      { keys: [`${prefix}down.`], path, way: "down", label: `${b} → ${a}` },
+      { keys: [up], path, way: "up", label: `${a} → ${b}` },
+      { keys: [down], path, way: "down", label: `${b} → ${a}` },
     ];
   };
   const targets = paths.flatMap((path) => ways(path, ends(path)));
   if (paths.length < 2) return targets;
-  const all = paths.flatMap((path) => [`${path}.up.`, `${path}.down.`]);
+  const all = paths.flatMap((path) => [prefixOf(path, "up"), prefixOf(path, "down")]);
   return [{ keys: all, path: paths[0], way: "up", label: "all links" }, ...targets];
 };
 

@@ -7,9 +7,17 @@ import { delayOf, jitterOf, lossOf } from "./units.js";
 const band = (figure) => (figure ? [figure.mean, figure.min, figure.max] : NaN);
 const sum = (counts) => Object.values(counts ?? {}).reduce((total, count) => total + count, 0);
 
+/** What stands in front of a setting of one direction: "up.", "wan.up."; a link between two peers
+ * is called as its ways are: "1-2." is from 1 to 2, "2-1." the way back. */
+export const prefixOf = (path, direction) => {
+  const pair = /^([0-9]+)-([0-9]+)$/.exec(path);
+  if (pair) return direction === "up" ? `${path}.` : `${pair[2]}-${pair[1]}.`;
+  return path === "" ? `${direction}.` : `${path}.${direction}.`;
+};
+
 /** The conditions of one direction by key, of `state.emulator.conditions`. */
 export const conditionsOf = (conditions, path, direction) => {
-  const prefix = path === "" ? `${direction}.` : `${path}.${direction}.`;
+  const prefix = prefixOf(path, direction);
   const found = {};
   for (const [key, value] of Object.entries(conditions ?? {})) {
     if (key.startsWith(prefix)) found[key.slice(prefix.length)] = value;

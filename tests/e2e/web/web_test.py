@@ -2,100 +2,33 @@
 # SPDX-License-Identifier: MIT
 """hapnet-web as a browser, and as somebody who is none, meets it: docs/formats/live.md."""
 
-import base64
-import http.client
+import gzip
 import json
 import os
-import signal
+import re
+import shutil
 import socket
-import struct
 import subprocess
 import tempfile
 import time
 import unittest
 
-PROGRAM = os.path.join(os.environ["HAPNET_BIN"], "hapnet-web")
+from served import PROGRAM, Live, Server, children_of
 
-
-def children_of(pid):
-    """Of all its threads: the stage starts them in one of its own."""
-    found = []
-    for thread in os.listdir(f"/proc/{pid}/task"):
-        with open(f"/proc/{pid}/task/{thread}/children", encoding="ascii") as file:
-            found += [int(word) for word in file.read().split()]
-    return found
-
-
-class Live:
-    """A WebSocket at /live, by hand."""
-
-    def __init__(self, port, token, receive_buffer=None):
-        self.socket = socket.socket()
-        if receive_buffer:
-            self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
-        self.socket.settimeout(20)
-        self.socket.connect(("127.0.0.1", port))
-        self.socket.sendall((
-            f"GET /live HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\n"
-            "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
-            f"{base64.b64encode(os.urandom(16)).decode()}\r\n"
-            f"Origin: http://127.0.0.1:{port}\r\n\r\n").encode())
-        self.file = self.socket.makefile("rb")
-        self.status = int(self.file.readline().split()[1])
-        while self.file.readline() not in (b"\r\n", b""):
-            pass
-        self.send({"token": token})
-
-    def send(self, message):
-        text = json.dumps(message).encode()
-        mask = os.urandom(4)
-        masked = bytes(byte ^ mask[i % 4] for i, byte in enumerate(text))
-        self.socket.sendall(bytes([0x81, 0x80 | len(text)]) + mask + masked)
-
-    def read_fragment(self):
-        kind, size = self.file.read(2)
-        if size == 126:
-            size = struct.unpack(">H", self.file.read(2))[0]
-        elif size == 127:
-            size = struct.unpack(">Q", self.file.read(8))[0]
-        return kind, self.file.read(size)
-
-    def read(self):
-        """A message, or the code with which the server closes."""
-        kind, body = self.read_fragment()
-        if kind & 15 == 8:
-            return struct.unpack(">H", body[:2])[0]
-        while not kind & 0x80:
-            kind, more = self.read_fragment()
-            body += more
-        message = json.loads(body)
-        if message["type"] == "frame":
-            self.send({"ack": message["n"]})
-        return message
-
-    def close(self):
-        self.file.close()
-        self.socket.close()
+PAGE_BYTES_MAX = 260_000  # packed: the page, its scripts, styles and modules
 
 
 class Web(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.server = subprocess.Popen(
-            [PROGRAM, "--stage", "--out", cls.folder.name, "--port", "0"],
-            stdout=subprocess.PIPE, text=True)
-        url = cls.server.stdout.readline().split()[1]
-        cls.port = int(url.split(":")[2].split("/")[0])
-        cls.token = url.split("#t=")[1]
-        cls.own = f"http://127.0.0.1:{cls.port}"
+        cls.server = Server("--stage", "--out", cls.folder.name)
+        cls.port, cls.token = cls.server.port, cls.server.token
 
     @classmethod
     def tearDownClass(cls):
-        children = children_of(cls.server.pid)
-        cls.server.send_signal(signal.SIGTERM)
-        code = cls.server.wait(timeout=20)
-        cls.server.stdout.close()
+        children = children_of(cls.server.process.pid)
+        code = cls.server.stop()
         cls.folder.cleanup()
         deadline = time.monotonic() + 10
         while any(os.path.exists(f"/proc/{child}") for child in children):
@@ -104,27 +37,7 @@ class Web(unittest.TestCase):
         assert code == 0 and children, (code, children)
 
     def ask(self, method, path, body=None, **changes):
-        headers = {"Host": f"127.0.0.1:{self.port}", "X-Hapnet-Token": self.token}
-        if method == "POST":
-            headers |= {"Origin": self.own, "Content-Type": "application/json"}
-        for name, value in changes.items():
-            headers[name.replace("_", "-")] = value
-        client = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
-        client.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
-        for name, value in headers.items():
-            if value is not None:
-                client.putheader(name, value)
-        text = b"" if body is None else json.dumps(body).encode()
-        client.putheader("Content-Length", str(len(text)))
-        client.endheaders()
-        try:
-            client.send(text)
-        except (BrokenPipeError, ConnectionResetError):
-            pass  # refused by its length
-        reply = client.getresponse()
-        found = reply.status, reply.read()
-        client.close()
-        return found
+        return self.server.ask(method, path, body, **changes)
 
     def wait_for_peers(self, live):
         deadline = time.monotonic() + 30
@@ -182,12 +95,115 @@ class Web(unittest.TestCase):
                 self.assertEqual(self.ask("GET", path)[0], 404)
 
     def test_says_what_it_does_not_have(self):
-        state = json.loads(self.ask("GET", "/api/state")[1])
-        self.assertFalse(state["trap"]["available"])
-        self.assertFalse(state["keep"]["available"])
-        self.assertIsNone(state["pace"])
-        self.assertEqual(self.ask("POST", "/api/keep", {})[0], 409)
+        self.assertIsNone(self.server.state()["pace"])
         self.assertEqual(self.ask("POST", "/api/pace", {"do": "play"})[0], 409)
+
+    def test_saves_the_last_seconds_of_all_three(self):
+        self.server.wait_for(lambda state: state["keep"]["available"] and len(state["peers"]) == 2
+                             and all(peer["state"] == "running" for peer in state["peers"]))
+        status, body = self.ask("POST", "/api/keep", {"name": "by-hand", "last": "1s"})
+        self.assertEqual(status, 200, body)
+        files = sorted(json.loads(body)["files"])
+        self.assertEqual(files, ["by-hand-peer-1.rec", "by-hand-peer-2.rec", "by-hand.pcapng"])
+        listed = {file["name"]: file for file in json.loads(self.ask("GET", "/api/files")[1])["files"]}
+        for name in files:
+            file = listed[f"kept/{name}"]
+            status, headers, text = self.server.send("GET", file["href"])
+            self.assertEqual((status, len(text)), (200, file["bytes"]))
+            self.assertIn("attachment", headers["Content-Disposition"])
+        self.assertEqual(self.ask("GET", file["href"], X_Hapnet_Token=None)[0], 401)
+        self.assertEqual(self.ask("POST", "/api/keep", {"name": "by-hand"})[0], 422, "it is there")
+        for name in ("../x", "A", "a b", "", "x" * 41):
+            self.assertEqual(self.ask("POST", "/api/keep", {"name": name})[0], 422, name)
+
+    def test_every_answer_forbids_what_a_page_does_not_need(self):
+        for path in ("/", "/api/state", "/metrics", "/nowhere"):
+            status, headers, _ = self.server.send("GET", path)
+            with self.subTest(path=path, status=status):
+                self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+                self.assertIn("frame-ancestors 'none'", headers["Content-Security-Policy"])
+                self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+                self.assertEqual(headers["Referrer-Policy"], "no-referrer")
+                self.assertEqual(headers["Cross-Origin-Resource-Policy"], "same-origin")
+                self.assertIsNone(headers["Access-Control-Allow-Origin"])
+
+    def test_nothing_but_a_wanted_file_needs_no_token(self):
+        for path in ("/api/state", "/api/history", "/api/files", "/f/0"):
+            self.assertEqual(self.ask("GET", path, X_Hapnet_Token=None)[0], 401, path)
+        self.assertEqual(self.ask("GET", "/", X_Hapnet_Token=None)[0], 200)
+        self.assertNotIn(self.token.encode(), self.ask("GET", "/")[1])
+
+    def test_the_stage_takes_nothing_out_of_its_sets(self):
+        for choice in ({"task": "P1; rm"}, {"preset": "/etc/passwd"}, {"algorithm": "./x.so"},
+                       {"mode": "real"}, {"device": "omni1394"}, {"peers": 9}):
+            status, body = self.ask("POST", "/api/stage", {"do": "restart"} | choice)
+            self.assertEqual(status, 400, (choice, body))
+
+    def test_eight_pages_look_and_one_more_is_told(self):
+        pages = []
+        try:
+            for _ in range(8):
+                pages.append(Live(self.port, self.token))
+                self.assertEqual(pages[-1].read()["type"], "hello")
+            pages.append(Live(self.port, self.token))
+            self.assertEqual(pages[-1].status, 429)
+        finally:
+            for page in pages:
+                page.close()
+
+    def test_idle_slow_and_malformed_clients_keep_nobody_out(self):
+        held = []
+        for i in range(60):
+            client = socket.create_connection(("127.0.0.1", self.port), timeout=20)
+            client.sendall((b"", b"GET /api/st", b"\x16\x03\x01\x02\x00\x01\r\n\r\n")[i % 3])
+            held.append(client)
+            if i % 10 == 9:
+                self.assertEqual(self.ask("GET", "/api/state")[0], 200)
+        slow = socket.create_connection(("127.0.0.1", self.port), timeout=20)
+        slow.sendall(b"GET / HTTP/1.1\r\nHost: ")
+        began = time.monotonic()
+        slow.recv(1)
+        self.assertLess(time.monotonic() - began, 10, "5 s to send a header")
+        for client in held + [slow]:
+            client.close()
+
+    def test_the_page_is_small_when_it_is_packed(self):
+        index = self.ask("GET", "/")[1]
+        known = set(re.findall(r'/a/[0-9a-f]+/[\w./-]+', index.decode()))
+        folder = re.match(r"/a/[0-9a-f]+/", sorted(known)[0]).group()
+        total, waiting, seen = len(gzip.compress(index)), sorted(known), set()
+        while waiting:
+            path = waiting.pop()
+            if path in seen or path.endswith(".txt"):  # licences are not loaded
+                continue
+            seen.add(path)
+            status, headers, packed = self.server.send("GET", path, Accept_Encoding="gzip")
+            if status == 404:
+                continue  # a build without modules
+            self.assertEqual((status, headers["Content-Encoding"]), (200, "gzip"), path)
+            total += len(packed)
+            if not path.endswith(".js"):
+                continue
+            text = gzip.decompress(packed).decode()
+            here = path.rsplit("/", 1)[0] + "/"
+            for name in re.findall(r'["\'](\.\.?/[\w./-]+\.js)["\']', text):
+                waiting.append(os.path.normpath(here + name))
+            waiting += [folder + name for name in re.findall(r'["\'](three\.\w+\.min\.js)', text)]
+        self.assertGreater(len(seen), 30)
+        self.assertLessEqual(total, PAGE_BYTES_MAX)
+
+    def test_metrics_are_text_for_prometheus(self):
+        self.server.wait_for(lambda state: state["peers"] and state["emulator"]["attached"])
+        status, headers, text = self.server.send("GET", "/metrics", X_Hapnet_Token=None)
+        self.assertEqual(status, 200)
+        self.assertIn("version=0.0.4", headers["Content-Type"])
+        self.assertIn(b"hapnet_emulator_", text)
+        promtool = shutil.which("promtool")
+        if promtool is None:
+            self.skipTest("promtool is not there (Debian package prometheus)")
+        done = subprocess.run([promtool, "check", "metrics"], input=text, capture_output=True,
+                              timeout=20, check=False)
+        self.assertEqual((done.returncode, done.stdout + done.stderr), (0, b""))
 
     def test_a_chosen_port_that_is_taken_ends_it_with_3(self):
         done = subprocess.run([PROGRAM, "--port", str(self.port)], capture_output=True,

@@ -164,6 +164,41 @@ TEST_F(RecorderFiles, OfACaptureHoldEveryPacketWholeWithItsComment)
     EXPECT_EQ(blocks_of(text("capture.pcapng")).without_times, blocks_of(expected).without_times);
 }
 
+TEST_F(RecorderFiles, OfTheLastSecondsHoldWhatCameSinceAndAppearWhileItRuns)
+{
+    std::filesystem::create_directory(path("kept"));
+    Recorder recorder{{.kept = 10s, .keep_in = path("kept")}};
+    EXPECT_EQ(recorder.held(), 10s);
+    const std::vector<std::byte> payload(40, std::byte{0x5a});
+    std::string expected;
+    append_capture_head(expected, base::version_line("hapnet-emulator"),
+                        std::array{CaptureNames{}});
+    for (int second = 1; second <= 30; ++second) {
+        const CapturedPacket came{CaptureSide::a, false, base::TimePoint{second * 1s}, {}, {},
+                                  payload};
+        recorder.lane().on_arrival(came, fate_of(4));
+        if (second >= 26) append_packet(expected, came, 0s, "delayed 4 us");
+    }
+    const auto file = recorder.keep("trap-1", base::TimePoint{26s});
+    ASSERT_EQ(file, path("kept/trap-1.pcapng"));
+    for (int i = 0; i < 500 && !std::filesystem::exists(*file); ++i) {
+        std::this_thread::sleep_for(10ms);
+    }
+    EXPECT_EQ(blocks_of(text("kept/trap-1.pcapng")).without_times,
+              blocks_of(expected).without_times);
+    EXPECT_FALSE(recorder.keep("trap-1", base::TimePoint{26s})) << "it is there";
+    EXPECT_FALSE(recorder.keep_trouble());
+    recorder.finish();
+    EXPECT_EQ(names(), std::vector<std::string>{"kept"});
+}
+
+TEST_F(RecorderFiles, HoldNothingUnlessToldTo)
+{
+    Recorder recorder{{{}, path("capture.pcapng")}};
+    EXPECT_FALSE(recorder.held());
+    EXPECT_FALSE(recorder.keep("trap-1", {}));
+}
+
 TEST_F(RecorderFiles, LackExactlyWhatWasCountedAsLost)
 {
     Recorder recorder{{{}, path("capture.pcapng")}};

@@ -52,6 +52,28 @@ struct TalkWithAPeer : testing::Test {
     control::Conversation conversation{line_max};
 };
 
+TEST_F(TalkWithAPeer, SavesWhatItHoldsUnderPlainNamesOnly)
+{
+    EXPECT_EQ(ask({{"command", "keep"}, {"name", "trap-1"}, {"last", "5s"}}),
+              (json{{"ok", true},
+                    {"file", "/there/trap-1.rec"},
+                    {"from_ns", (opening - 5s).time_since_epoch().count()},
+                    {"to_ns", opening.time_since_epoch().count()}}));
+    EXPECT_EQ(fake.kept_from, opening - 5s);
+    EXPECT_EQ(ask({{"command", "keep"}, {"name", "all"}})["ok"], true);
+    EXPECT_EQ(fake.kept_from, opening - 20s) << "as much as is held";
+    fake.kept.clear();
+    for (const char* name : {"", "../x", "a/b", "A", "a.b", "a b",
+                             "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"}) {
+        EXPECT_NE(refused({{"command", "keep"}, {"name", name}}), "") << name;
+    }
+    EXPECT_NE(refused({{"command", "keep"}}), "");
+    EXPECT_NE(refused({{"command", "keep"}, {"name", "a"}, {"last", "21s"}}), "");
+    EXPECT_NE(refused({{"command", "keep"}, {"name", "a"}, {"in", "/etc"}}), "");
+    EXPECT_EQ(fake.kept, "");
+    EXPECT_EQ(refused({{"command", "keep"}, {"name", "full"}}), "it is full");
+}
+
 TEST_F(TalkWithAPeer, ShowsAndGivesStatisticsAsTheyAre)
 {
     EXPECT_EQ(ask({{"command", "show"}}),
@@ -79,7 +101,7 @@ TEST_F(TalkWithAPeer, RefusesWhatWouldChangeItSayingWhatThereIs)
         const auto error = refused({{"command", command}, {"profile", ""}, {"settings", 1}});
         EXPECT_NE(error.find("cannot be changed"), std::string::npos) << error;
         EXPECT_NE(error.find(command), std::string::npos) << error;
-        EXPECT_NE(error.find("show, scene, stats, watch, wait, stop or estop"), std::string::npos)
+        EXPECT_NE(error.find("show, scene, stats, watch, wait, keep, stop or estop"), std::string::npos)
             << error;
     }
     EXPECT_NE(refused({{"command", "shwo"}}).find("must be one of show"), std::string::npos);

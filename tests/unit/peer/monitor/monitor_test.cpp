@@ -59,7 +59,8 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
     {
         loop::Journal journal;
         net::TextQueue screen{STDERR_FILENO};
-        Monitor monitor{journal, screen, record::Writer{path, nlohmann::json::object()}, {1}};
+        Monitor monitor{
+            journal, screen, {.writer = record::Writer{path, nlohmann::json::object()}}, {1}};
         was_whole_at_first = monitor.record_failure() == nullptr;
         const FileSizeLimit limit{16'384};
         ASSERT_TRUE(limit.is_in_force());
@@ -89,7 +90,7 @@ TEST(Monitor, NoLongerWaitsForAPeerThatAnswered)
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, {1}};
+    Monitor monitor{journal, screen, {}, {1}};
     base::TimePoint now{1s};
     const auto said_so_far = [&] {
         while (!screen.is_done()) std::this_thread::yield();
@@ -118,7 +119,7 @@ TEST(Monitor, ShowsTheShortestRoundTripSinceTheLineBeforeToTheMicrosecond)
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, {1}};
+    Monitor monitor{journal, screen, {}, {1}};
     base::TimePoint now{100s};
     const auto hear = [&](base::Duration round_trip) {
         wire::State state;
@@ -159,7 +160,7 @@ TEST(Monitor, NamesThePeersOfACircle)
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, {1, {2, 3, 4}}};
+    Monitor monitor{journal, screen, {}, {1, {2, 3, 4}}};
     base::TimePoint now{1s};
     const auto line_with = [&](const loop::TimedEvent& event) {
         journal.put(record::Row{record::TickRow{}});
@@ -192,7 +193,7 @@ TEST(Monitor, CallsTheSharedBodiesByTheirNames)
         testing::internal::CaptureStderr();
         loop::Journal journal;
         net::TextQueue screen{STDERR_FILENO};
-        Monitor monitor{journal, screen, std::nullopt, named};
+        Monitor monitor{journal, screen, {}, named};
         base::TimePoint now{1s};
         monitor.show(now);
         journal.put(record::Row{record::SessionRow{.start = now, .length = 10s}});
@@ -224,7 +225,7 @@ TEST(Monitor, LetsNoFloodOfEventsFillALog)
     testing::internal::CaptureStderr();
     loop::Journal journal;
     net::TextQueue screen{STDERR_FILENO};
-    Monitor monitor{journal, screen, std::nullopt, {1}};
+    Monitor monitor{journal, screen, {}, {1}};
     const base::TimePoint start{1h};
     for (int i = 0; i < 3000; ++i) { // a thousand a second
         journal.put(loop::TimedEvent{Event::restarted, start + i * 1ms});
@@ -248,7 +249,7 @@ TEST(Monitor, WaitsForNobodyWhoDoesNotReadWhatItSays)
     ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
     loop::Journal journal;
     net::TextQueue screen{ends[1]};
-    Monitor monitor{journal, screen, std::nullopt, {1}};
+    Monitor monitor{journal, screen, {}, {1}};
     base::TimePoint now{1h};
     for (int i = 0; i < 10'000; ++i) { // 1 MB: more than a pipe and the queue hold
         journal.put(record::Row{record::TickRow{}});

@@ -10,7 +10,7 @@
 namespace hapnet::web {
 namespace {
 
-const StageFolders folders{"/bin", "/sockets", "/out"};
+const StageFolders folders{"/bin", "/sockets", "/out", "/kept"};
 
 TEST(StagePlan, StartsSimulatedPeersByClosedSetsOnly)
 {
@@ -24,6 +24,10 @@ TEST(StagePlan, StartsSimulatedPeersByClosedSetsOnly)
                                          "127.0.0.1:0",
                                          "--remote",
                                          "127.0.0.1:2",
+                                         "--keep",
+                                         "20s",
+                                         "--keep-in",
+                                         "/kept",
                                          "--device",
                                          "sim",
                                          "--task",
@@ -46,6 +50,10 @@ TEST(StagePlan, StartsSimulatedPeersByClosedSetsOnly)
                                             "127.0.0.1:0",
                                             "--listen-b",
                                             "127.0.0.1:0",
+                                            "--keep",
+                                            "20s",
+                                            "--keep-in",
+                                            "/kept",
                                             "--profile",
                                             "paper-delay-160",
                                             "--seed",
@@ -58,11 +66,28 @@ TEST(StagePlan, StartsSimulatedPeersByClosedSetsOnly)
     EXPECT_FALSE(places_in("ready a=127.0.0.1:1", 2));
 }
 
+TEST(StagePlan, StartsVirtualTimeWithTheOtherAlgorithmsBesideTheChosenOne)
+{
+    const Choices choices = all_choices({"ideal", "paper-delay-160"});
+    Choice choice{.mode = "virtual", .algorithm = "sep"};
+    const std::vector<std::string> words{
+        "/bin/hapnet-lab", "play",      "--task",           "P1",          "--algorithm",
+        "sep",             "--algorithm", "base",           "--algorithm", "dead-reckoning",
+        "--profile",       "paper-delay-160", "--seed",     "1",           "--duration",
+        "30s",             "--peers",   "2",                "--control",   "/sockets/lab.sock",
+        "--out",           "/out"};
+    EXPECT_EQ(lab_start(choice, folders, choices).words, words);
+    EXPECT_EQ(lab_peer_sockets("/sockets/lab.sock", 2),
+              (std::vector<std::string>{"/sockets/lab.sock.peer-1", "/sockets/lab.sock.peer-2"}));
+    EXPECT_FALSE(choice_of({{"mode", "virtual"}, {"seed", 1'000'000'001}}, Choice{}, choices));
+    EXPECT_TRUE(choice_of({{"mode", "live"}, {"seed", 1'000'000'001}}, Choice{}, choices));
+}
+
 TEST(StagePlan, RefusesWhatIsNotInItsSets)
 {
     const Choices choices = all_choices({"ideal", "paper-delay-160"});
     for (const char* request :
-         {R"({"mode":"virtual"})", R"({"task":"P1 --insecure"})", R"({"algorithm":"/tmp/x.so"})",
+         {R"({"mode":"real"})", R"({"task":"P1 --insecure"})", R"({"algorithm":"/tmp/x.so"})",
           R"({"preset":"../../etc/passwd"})", R"({"peers":1})", R"({"peers":9})",
           R"({"seconds":4})", R"({"seconds":"30"})", R"({"seed":0})", R"({"loop":1})",
           R"({"device":"sim"})", R"({"peers":3})"}) {

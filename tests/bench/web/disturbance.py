@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+"""What those who watch cost the daemons: sessions of P1 at 160 ms with ten WebSocket readers and
+without, in turn. The readers are of two hapnet-web, which take eight pages each."""
+
+import argparse
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../e2e/web"))
+from served import BIN, Live, Server  # noqa: E402  pylint: disable=wrong-import-position
+
+READERS = 10
+SHARE_MAX = 1.05
+LATER_MAX_US = 5.0
+
+
+def program(name):
+    return os.path.join(BIN, name)
+
+
+class Readers:
+    """Live sockets that take every frame, in threads."""
+
+    def __init__(self, sockets):
+        arguments = ["--emulator", sockets[0], "--peer", sockets[1], "--peer", sockets[2]]
+        self.servers = [Server(*arguments) for _ in range(2)]
+        self.frames = 0
+        self.is_over = False
+        self.threads = [threading.Thread(target=self.read, args=(self.servers[i % 2],))
+                        for i in range(READERS)]
+        for thread in self.threads:
+            thread.start()
+
+    def read(self, server):
+        live = Live(server.port, server.token)
+        while not self.is_over:
+            message = live.read()
+            if isinstance(message, dict) and message["type"] == "frame":
+                self.frames += 1
+        live.close()
+
+    def stop(self):
+        self.is_over = True
+        for thread in self.threads:
+            thread.join()
+        for server in self.servers:
+            server.stop()
+
+
+def session(seconds, is_watched):
+    """Lateness (p99, us) and missed ticks of one session; frames that were read."""
+    with tempfile.TemporaryDirectory() as folder:
+        sockets = [f"{folder}/{name}.sock" for name in ("emulator", "peer-1", "peer-2")]
+        records = [f"{folder}/{i}.rec" for i in (1, 2)]
+        emulator = subprocess.Popen(
+            [program("hapnet-emulator"), "--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0",
+             "--delay", "160ms", "--control", sockets[0], "--stats", f"{folder}/emulator.json"],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        words = dict(word.split("=", 1) for word in emulator.stdout.readline().split()
+                     if "=" in word)
+        peers = [subprocess.Popen(
+            [program("hapnet-peer"), "--id", str(i), "--remote", words[side], "--task", "P1",
+             "--duration", f"{seconds}s", "--control", sockets[i], "--record", records[i - 1]],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for i, side in ((1, "a"), (2, "b"))]
+        readers = Readers(sockets) if is_watched else None
+        for peer in peers:
+            peer.wait()
+        frames = readers.frames if readers else 0
+        if readers:
+            readers.stop()
+        emulator.terminate()
+        emulator.wait()
+        emulator.stdout.close()
+        analysis = json.loads(subprocess.run(
+            [program("hapnet-lab"), "analyse", *records, "--json"], check=True,
+            capture_output=True).stdout)
+        with open(f"{folder}/emulator.json", encoding="utf8") as file:
+            stats = json.load(file)
+    return {"peer": max(analysis[side]["tick"]["late_us"]["p99"] for side in ("a", "b")),
+            "emulator": max(stats[way]["lateness_us"]["p99"] for way in ("up", "down")),
+            "missed": sum(analysis[side]["tick"]["missed"] for side in ("a", "b")),
+            "frames": frames}
+
+
+def row(subject, metric, value, baseline, target):
+    return {"case": f"P1 at 160 ms, {READERS} readers", "subject": subject,
+            "baseline": "no readers", "metric": metric, "value": value, "baseline_value": baseline,
+            "ratio": baseline / value if value else None, "target": target, "direction": "max",
+            "met": value <= target}
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("--quick", action="store_true", help="two short sessions of each kind")
+    options.add_argument("--json", metavar="FILE", help="write the rows there")
+    chosen = options.parse_args()
+    seconds, rounds = (8, 2) if chosen.quick else (30, 6)
+    found = {False: [], True: []}
+    for _ in range(rounds):
+        for is_watched in (False, True):
+            found[is_watched].append(session(seconds, is_watched))
+            time.sleep(0.2)
+
+    def median(name, is_watched):
+        return statistics.median(one[name] for one in found[is_watched])
+
+    rows = []
+    for subject in ("peer", "emulator"):
+        baseline = median(subject, False)
+        target = max(SHARE_MAX * baseline, baseline + LATER_MAX_US)
+        rows.append(row(subject, "late_p99_us", median(subject, True), baseline, target))
+    rows.append(row("peers", "missed_ticks", median("missed", True), median("missed", False),
+                    median("missed", False)))
+    frames = median("frames", True) / READERS / seconds
+    for one in rows:
+        print(f"{one['subject']:9} {one['metric']:13} {one['value']:9.1f}  without readers "
+              f"{one['baseline_value']:9.1f}  at most {one['target']:9.1f}  "
+              f"{'met' if one['met'] else 'MISSED'}")
+    print(f"each reader took {frames:.0f} frames a second; median of {rounds} sessions of {seconds} "
+          "s each way, in turn")
+    if chosen.json:
+        host = {"machine": platform.platform(), "processors": os.cpu_count(),
+                "load": os.getloadavg()[0]}
+        with open(chosen.json, "w", encoding="utf8") as file:
+            json.dump({"host": host, "rows": rows}, file, indent=1)
+            file.write("\n")
+
+
+if __name__ == "__main__":
+    main()

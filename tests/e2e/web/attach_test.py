@@ -1,0 +1,202 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+"""hapnet-web beside daemons that run already, in virtual time, elsewhere than on loopback, and
+with more than two peers."""
+
+import json
+import os
+import signal
+import stat
+import subprocess
+import tempfile
+import time
+import unittest
+
+from served import BIN, PROGRAM, Live, Server
+
+
+def program(name):
+    return os.path.join(BIN, name)
+
+
+class Daemons:
+    """An emulator and two peers with simulated hands, that nobody else has started."""
+
+    def __init__(self, folder, seconds, *more):
+        self.sockets = [f"{folder}/{name}.sock" for name in ("emulator", "peer-1", "peer-2")]
+        self.records = [f"{folder}/peer-{i}.rec" for i in (1, 2)]
+        self.emulator = subprocess.Popen(
+            [program("hapnet-emulator"), "--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0",
+             "--delay", "20ms", "--control", self.sockets[0], *more],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        words = dict(word.split("=", 1) for word in self.emulator.stdout.readline().split()
+                     if "=" in word)
+        self.peers = [subprocess.Popen(
+            [program("hapnet-peer"), "--id", str(i), "--remote", words[side], "--duration",
+             f"{seconds}s", "--control", self.sockets[i], "--record", self.records[i - 1], *more],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            for i, side in ((1, "a"), (2, "b"))]
+
+    def arguments(self):
+        return ["--emulator", self.sockets[0], "--peer", self.sockets[1], "--peer",
+                self.sockets[2]]
+
+    def finish(self):
+        codes = [peer.wait(timeout=40) for peer in self.peers]
+        self.stop()
+        return codes
+
+    def stop(self):
+        for process in self.peers + [self.emulator]:
+            if process.poll() is None:
+                process.terminate()
+        for process in self.peers + [self.emulator]:
+            process.wait(timeout=20)
+        self.emulator.stdout.close()
+
+
+class Attach(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def serve(self, *arguments, **more):
+        server = Server(*arguments, **more)
+        self.addCleanup(lambda: server.process.poll() is None and server.stop())
+        return server
+
+    def test_shows_daemons_that_run_and_killing_it_changes_nothing_for_them(self):
+        daemons = Daemons(self.folder, 8)
+        self.addCleanup(daemons.stop)
+        server = self.serve(*daemons.arguments())
+        state = server.wait_for(lambda now: len(now["peers"]) == 2 and now["emulator"]["attached"]
+                                and all(peer["state"] == "running" for peer in now["peers"]))
+        self.assertEqual([peer["letter"] for peer in state["peers"]], ["A", "B"])
+        self.assertFalse(state["stage"]["available"])
+        self.assertFalse(state["keep"]["available"], "they hold nothing")
+        self.assertIn("--keep", state["keep"]["says"])
+        self.assertEqual(server.ask("POST", "/api/keep", {})[0], 409)
+        self.assertEqual(server.ask("POST", "/api/stage", {"do": "start"})[0], 409)
+        status, body = server.ask("POST", "/api/emulator",
+                                  {"command": "set", "settings": {"both.delay": "30ms"}})
+        self.assertEqual((status, json.loads(body)["generation"]), (200, 2))
+        self.assertEqual(server.stop(signal.SIGKILL), -signal.SIGKILL)
+        again = self.serve(*daemons.arguments())
+        again.wait_for(lambda now: now["emulator"]["conditions"]
+                       and now["emulator"]["conditions"]["up.delay"] == "30ms")
+        again.stop(signal.SIGKILL)
+        self.assertEqual(daemons.finish(), [0, 0])
+        done = subprocess.run([program("hapnet-lab"), "analyse", *daemons.records, "--json"],
+                              capture_output=True, check=True)
+        analysis = json.loads(done.stdout)
+        # A gap at the kill would be longer than a second.
+        for side in ("a", "b"):
+            self.assertGreater(analysis[side]["tick"]["rate_hz"], 900)
+        for way in ("a_to_b", "b_to_a"):
+            self.assertEqual(analysis[way]["loss"], 0)
+
+    def test_saves_by_daemons_of_others_and_sees_them_go_and_come(self):
+        kept = f"{self.folder}/kept"
+        os.mkdir(kept)
+        daemons = Daemons(self.folder, 6, "--keep", "5s", "--keep-in", kept)
+        self.addCleanup(daemons.stop)
+        server = self.serve(*daemons.arguments())
+        server.wait_for(lambda now: now["keep"]["available"] and len(now["peers"]) == 2
+                        and all(peer["state"] == "running" for peer in now["peers"]))
+        time.sleep(1)
+        status, body = server.ask("POST", "/api/keep", {"name": "other", "last": "1s"})
+        self.assertEqual(status, 200, body)
+        self.assertEqual(sorted(os.listdir(kept)),
+                         ["other-peer-1.rec", "other-peer-2.rec", "other.pcapng"])
+        self.assertEqual(json.loads(server.ask("GET", "/api/files")[1])["files"], [],
+                         "files of others are theirs")
+        self.assertEqual(server.ask("POST", "/api/keep", {"last": "6s"})[0], 422, "5 s are held")
+        daemons.finish()
+        gone = server.wait_for(lambda now: not now["emulator"]["attached"])
+        self.assertIn("start hapnet-emulator", gone["help"])
+        self.assertEqual(server.ask("POST", "/api/emulator", {"command": "show"})[0], 503)
+
+    def test_listens_elsewhere_by_name_and_with_a_token_of_ones_own(self):
+        token = f"{self.folder}/token"
+        with open(token, "w", encoding="ascii") as file:
+            file.write("0123456789abcdef0123456789abcdef\n")
+        url = f"{self.folder}/url"
+        refused = subprocess.run([PROGRAM, "--token-file", token, "--port", "0"],
+                                 capture_output=True, timeout=20, check=False)
+        self.assertEqual(refused.returncode, 2, "others may read it")
+        os.chmod(token, 0o600)
+        for missing in (["--token-file", token], ["--host", "lab.example"], []):
+            done = subprocess.run([PROGRAM, "--listen", "127.0.0.2", *missing],
+                                  capture_output=True, timeout=20, check=False)
+            self.assertEqual(done.returncode, 2)
+        port = 18461
+        server = self.serve("--listen", "127.0.0.2", "--host", "lab.example", "--token-file", token,
+                            "--url-file", url, "--port", str(port))
+        self.assertEqual(server.token, "0123456789abcdef0123456789abcdef")
+        self.assertEqual(stat.S_IMODE(os.stat(url).st_mode), 0o600)
+        self.assertEqual(server.ask("GET", "/", Host=f"lab.example:{port}")[0], 200)
+        self.assertEqual(server.ask("POST", "/api/mark", {"text": "x"}, Host=f"lab.example:{port}",
+                                    Origin=f"http://lab.example:{port}")[0], 200)
+        self.assertEqual(server.ask("GET", "/", Host=f"other.example:{port}")[0], 403)
+
+    def test_nothing_attached_says_what_to_run(self):
+        server = self.serve()
+        self.assertIn("--stage", server.state()["help"])
+        self.assertEqual(server.ask("POST", "/api/keep", {})[0], 409)
+
+    def test_a_stage_of_three_has_a_link_for_every_two(self):
+        server = self.serve("--stage", "--stopped", "--out", self.folder)
+        status, body = server.ask("POST", "/api/stage",
+                                  {"do": "start", "task": "T7", "peers": 3, "preset": "lan"})
+        self.assertEqual(status, 200, body)
+        state = server.wait_for(lambda now: len(now["peers"]) == 3
+                                and all(peer["state"] == "running" for peer in now["peers"]))
+        self.assertEqual([peer["letter"] for peer in state["peers"]], ["A", "B", "C"])
+        self.assertEqual(state["emulator"]["paths"], ["1-2", "1-3", "2-3"])
+        status, body = server.ask("POST", "/api/emulator",
+                                  {"command": "set", "settings": {"1-3.delay": "70ms"}})
+        self.assertEqual(status, 200, body)
+        server.wait_for(
+            lambda now: now["emulator"]["conditions"].get("1-3.delay") == "70ms"
+            and now["emulator"]["conditions"].get("1-2.delay") != "70ms")
+        live = Live(server.port, server.token)
+        while (frame := live.read())["type"] != "frame" or not all(frame["peers"]):
+            pass
+        self.assertEqual([(pair["a"], pair["b"]) for pair in frame["pairs"]],
+                         [(1, 2), (1, 3), (2, 3)])
+        live.close()
+
+    def test_virtual_time_of_a_lab_is_sought_and_gives_equal_numbers(self):
+        control = f"{self.folder}/lab.sock"
+        lab = subprocess.Popen([program("hapnet-lab"), "play", "--delay", "160ms", "--control",
+                                control, "--out", self.folder, "--pace", "paused"],
+                               stdout=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (lab.terminate(), lab.wait(timeout=20), lab.stdout.close()))
+        self.assertIn("ready", lab.stdout.readline())
+        server = self.serve("--lab", control)
+        server.wait_for(lambda now: now["mode"] == "virtual" and len(now["peers"]) == 2
+                        and all(peer["attached"] for peer in now["peers"]))
+
+        def pace(**request):
+            status, body = server.ask("POST", "/api/pace", request)
+            self.assertEqual(status, 200, body)
+            return json.loads(body)["pace"]
+
+        first = pace(do="seek", to_s=10)
+        pace(do="seek", to_s=3)
+        second = pace(do="seek", to_s=10)
+        self.assertEqual((first["at_s"], first["digest"]), (10.0, second["digest"]))
+        self.assertEqual(server.ask("POST", "/api/pace", {"do": "seek", "to_s": "x"})[0], 422)
+        self.assertEqual(server.ask("POST", "/api/pace", {"do": "show", "command": "stop"})[0], 400)
+        self.assertEqual(server.ask("POST", "/api/keep", {})[0], 409)
+        status, body = server.ask("POST", "/api/emulator",
+                                  {"command": "set", "settings": {"both.delay": "80ms"}})
+        self.assertEqual(status, 200, body)
+        self.assertEqual(pace(do="seek", to_s=12)["steps"][0]["settings"]["up.delay"], "80ms")
+        status, body = server.ask("POST", "/api/pace", {"do": "save"})
+        self.assertEqual((status, json.loads(body)["file"]), (200, "experiment-1.toml"))
+
+
+if __name__ == "__main__":
+    unittest.main()
