@@ -281,16 +281,15 @@ nlohmann::ordered_json Hub::state() const
     for (const Preset& preset : presets_built_in()) presets.push_back({{"name", preset.name}});
     Json stage{{"available", false}, {"state", "stopped"}, {"says", "start hapnet-web --stage"}};
     if (stage_) stage = stage_->json();
-    return state_json(
-        at_s(), emulator_state_, peers,
-        {{"presets", std::move(presets)},
-         {"stage", std::move(stage)},
-         {"mode", is_virtual() ? "virtual" : "live"},
-         {"pace", is_virtual() ? emulator_state_.shown["pace"] : Json(nullptr)},
-         {"trap", std::move(trap)},
-         {"keep", {{"available", why_not.empty()}, {"says", why_not}}},
-         {"events", events_.kept()},
-         {"help", help_for(emulator_state_, peers, stage_ != nullptr)}});
+    return state_json(at_s(), emulator_state_, peers,
+                      {{"presets", std::move(presets)},
+                       {"stage", std::move(stage)},
+                       {"mode", is_virtual() ? "virtual" : "live"},
+                       {"pace", is_virtual() ? emulator_state_.shown["pace"] : Json(nullptr)},
+                       {"trap", std::move(trap)},
+                       {"keep", {{"available", why_not.empty()}, {"says", why_not}}},
+                       {"events", events_.kept()},
+                       {"help", help_for(emulator_state_, peers, stage_ != nullptr)}});
 }
 
 void Hub::note(const std::string& kind, const std::string& text)

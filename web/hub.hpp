@@ -126,7 +126,7 @@ private:
     std::uint64_t moves_told_ = 0; // of the feed, in virtual time
     double at_s_told_ = 0.0;
     bool finds_lab_peers_ = false; // --lab: once it says how many there are
-    int saved_ = 0; // for names
+    int saved_ = 0;                // for names
     MetricsPage metrics_;
 };
 

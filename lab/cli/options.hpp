@@ -100,8 +100,9 @@ struct RunCommand {
     std::string command; // what was typed
 };
 
-using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
-                             PlayCommand, RealTimeCommand, ReplayCommand, ReportCommand, RunCommand>;
+using Command =
+    std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand, PlayCommand,
+                 RealTimeCommand, ReplayCommand, ReportCommand, RunCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

@@ -33,14 +33,14 @@ const takeStill = async () => {
   await web.stop();
 };
 
-const pictures = 24;
+const pictures = 16;
 const begin = 10; // s
-const apart = 0.1; // s
+const apart = 0.15; // s
 
 const takeAnimated = async () => {
   const web = await startWeb("--virtual");
   const context = await browser.newContext({
-    viewport: { width: 760, height: 900 }, colorScheme: "light",
+    viewport: { width: 900, height: 900 }, colorScheme: "light", deviceScaleFactor: 0.6,
   });
   const page = await openPage(context, web.address);
   const ask = (request) => page.evaluate(async (wanted) => {
@@ -49,6 +49,7 @@ const takeAnimated = async () => {
     await post("/api/pace", wanted);
   }, request);
   await ask({ do: "pause" });
+  const clip = await page.locator("#worlds").boundingBox();
   const taken = [];
   for (let i = 0; i < pictures; i += 1) {
     const to = begin + i * apart;
@@ -61,7 +62,7 @@ const takeAnimated = async () => {
     await page.evaluate(() => new Promise((done) => {
       requestAnimationFrame(() => requestAnimationFrame(done));
     }));
-    taken.push(await page.locator("#worlds").screenshot());
+    taken.push(await page.screenshot({ clip }));
   }
   writeFileSync(animated, animationOf(taken, 1000 * apart));
   await context.close();
