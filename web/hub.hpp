@@ -99,8 +99,7 @@ private:
     void answer_keep(const Json& request, const OnReply& on_reply);
     [[nodiscard]] std::vector<Daemon*> attached_peers() const;
     [[nodiscard]] Daemon* attached_emulator() const; // null: it is not
-    /// Why the daemons cannot save their last seconds; "" when they can.
-    [[nodiscard]] std::string why_nothing_is_held() const;
+    [[nodiscard]] std::vector<PeerState> peer_states() const;
     void save(const std::string& name, base::Duration last, Saving::OnSaved on_saved);
     [[nodiscard]] std::string free_name(const std::string& stem);
 
