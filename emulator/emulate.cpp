@@ -230,10 +230,8 @@ private:
                 .stop = [this] { is_stopped_ = true; },
                 .netem = netem_profile,
                 .held = recorder_.held(),
-                .keep =
-                    [this](const std::string& name, base::TimePoint from) {
-                        return recorder_.keep(name, from);
-                    }};
+                .keep = [this](const std::string& name,
+                               base::TimePoint from) { return recorder_.keep(name, from); }};
     }
 
     /// Reads the profile again. One that is wrong changes nothing.

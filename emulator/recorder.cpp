@@ -195,7 +195,8 @@ void Recorder::Capture::flush()
 /// Writes what was ordered of the last packets.
 void Recorder::Capture::save_ordered()
 {
-    if (const auto order = keeper.take()) keeper.save(order->path, section + held->since(order->from));
+    if (const auto order = keeper.take())
+        keeper.save(order->path, section + held->since(order->from));
 }
 
 /// A packet whose chunks do not all come was lost: the next one begins instead.

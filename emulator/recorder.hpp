@@ -37,8 +37,8 @@ public:
     struct Files {
         std::optional<std::string> fates{};
         std::optional<std::string> capture{};
-        std::optional<base::Duration> kept{}; // of the capture's last packets, in memory
-        std::string keep_in{};                // the folder for them
+        std::optional<base::Duration> kept{};            // of the capture's last packets, in memory
+        std::string keep_in{};                           // the folder for them
         std::vector<CaptureNames> pairs{CaptureNames{}}; // of interfaces of the capture
         bool has_several_paths = false;                  // the fates say of which path they are
         std::size_t lanes = 1;                           // threads that hand over
@@ -159,7 +159,7 @@ private:
         void save_ordered();
 
         std::optional<net::ResultFile> file; // of the whole run
-        std::string section; // that every capture begins with
+        std::string section;                 // that every capture begins with
         std::optional<base::Duration> span;
         std::optional<base::RollingBytes> held; // of so much
         net::Keeper keeper;

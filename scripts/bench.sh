@@ -12,7 +12,8 @@ usage="usage: scripts/bench.sh emulator|scene|lab|device|secure [--quick] [--jso
        scripts/bench.sh lab   [... the same ...] [--csv FILE]
 Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
 the same numbers in FILE; of the scene --csv and --plot are its work-precision diagram, of the lab
-error against run time; of the web what ten who watch cost the daemons. --quick ends within a minute of measuring. Run the emulator's as root, or
+error against run time; of the web what ten who watch cost the daemons. --quick ends within a minute
+of measuring. Run the emulator's as root, or
 where SCHED_FIFO is allowed, to measure real-time scheduling too, and the lab's so that nothing else
 counts. Exits 0 when it has measured, also when a target was missed; 2 for an
 unknown subject or argument."

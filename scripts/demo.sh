@@ -15,9 +15,9 @@ each way, and prints what was measured beside the paper's Table 1. Writes everyt
 instead (T7), for 20 s or --duration SECONDS through an emulator with a link for every two, 40 ms
 each way; their analysis is printed. With --scene turning, two hands or N turn a cube (T8) that
 way. --web shows sessions on a page instead, with the network under your fingers, until Ctrl-C;
-with --virtual in virtual time, without any UDP. --programs DIR takes the programs in DIR and builds nothing. Exits 0 when it went well, 1 when
-a program failed or the measurement misses, 2 for an unknown argument, 3 when something that it
-needs cannot be installed."
+with --virtual in virtual time, without any UDP. --programs DIR takes the programs in DIR and builds
+nothing. Exits 0 when it went well, 1 when a program failed or the measurement misses, 2 for an
+unknown argument, 3 when something that it needs cannot be installed."
 
 command_line="scripts/demo.sh${*:+ $*}"
 refuse() {

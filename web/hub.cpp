@@ -52,10 +52,7 @@ std::size_t characters_in(std::string_view text)
 
 Hub::Hub(boost::asio::io_context& io) : io_{io}, begun_{net::monotonic_now()} {}
 
-bool Hub::is_virtual() const
-{
-    return emulator_state_.shown.is_object() && emulator_state_.shown.contains("pace");
-}
+bool Hub::is_virtual() const { return emulator_state_.is_virtual(); }
 
 double Hub::at_s() const
 {
@@ -271,26 +268,24 @@ void Hub::ask_for_scene(const std::shared_ptr<PeerDaemon>& peer)
 
 nlohmann::ordered_json Hub::state() const
 {
-    std::vector<PeerState> peers;
-    for (const auto& peer : peers_) peers.push_back(peer->state);
+    const std::vector<PeerState> peers = peer_states();
     Json trap = trap_.json();
-    const auto why_not = why_nothing_is_held();
+    const auto why_not = why_nothing_is_held(emulator_state_, peers);
     trap["available"] = why_not.empty();
     trap["keys"] = feed_.names();
     Json presets = Json::array();
     for (const Preset& preset : presets_built_in()) presets.push_back({{"name", preset.name}});
     Json stage{{"available", false}, {"state", "stopped"}, {"says", "start hapnet-web --stage"}};
     if (stage_) stage = stage_->json();
-    return state_json(
-        at_s(), emulator_state_, peers,
-        {{"presets", std::move(presets)},
-         {"stage", std::move(stage)},
-         {"mode", is_virtual() ? "virtual" : "live"},
-         {"pace", is_virtual() ? emulator_state_.shown["pace"] : Json(nullptr)},
-         {"trap", std::move(trap)},
-         {"keep", {{"available", why_not.empty()}, {"says", why_not}}},
-         {"events", events_.kept()},
-         {"help", help_for(emulator_state_, peers, stage_ != nullptr)}});
+    return state_json(at_s(), emulator_state_, peers,
+                      {{"presets", std::move(presets)},
+                       {"stage", std::move(stage)},
+                       {"mode", is_virtual() ? "virtual" : "live"},
+                       {"pace", is_virtual() ? emulator_state_.shown["pace"] : Json(nullptr)},
+                       {"trap", std::move(trap)},
+                       {"keep", {{"available", why_not.empty()}, {"says", why_not}}},
+                       {"events", events_.kept()},
+                       {"help", help_for(emulator_state_, peers, stage_ != nullptr)}});
 }
 
 void Hub::note(const std::string& kind, const std::string& text)
@@ -516,7 +511,7 @@ void Hub::on_pace(const Json& reply, const OnReply& on_reply)
 
 void Hub::answer_keep(const Json& request, const OnReply& on_reply)
 {
-    if (const auto why = why_nothing_is_held(); !why.empty()) {
+    if (const auto why = why_nothing_is_held(emulator_state_, peer_states()); !why.empty()) {
         return on_reply(error_reply(409, why));
     }
     const auto last = request.contains("last") ? base::parse_duration(text_member(request, "last"))
@@ -527,25 +522,6 @@ void Hub::answer_keep(const Json& request, const OnReply& on_reply)
         if (!files) return on_reply(error_reply(422, files.error().message));
         on_reply(fine_reply("files", *files));
     });
-}
-
-std::string Hub::why_nothing_is_held() const
-{
-    const auto holds = [](const Json& shown) {
-        return shown.is_object() && shown.contains("held_s") && shown["held_s"].is_number();
-    };
-    if (is_virtual()) return "virtual time plays again from its seed: save it as an experiment";
-    bool is_any = false;
-    bool are_all = true;
-    const auto look_at = [&](bool is_attached, const Json& shown) {
-        if (!is_attached || !shown.is_object()) return;
-        is_any = true;
-        are_all = are_all && holds(shown);
-    };
-    look_at(emulator_state_.is_attached, emulator_state_.shown);
-    for (const auto& peer : peers_) look_at(peer->state.is_attached, peer->state.shown);
-    if (!is_any) return "nothing is attached";
-    return are_all ? "" : "start the daemons with --keep 20s --keep-in DIR";
 }
 
 /// "trap-2": one that nothing was saved under.
@@ -587,6 +563,13 @@ void Hub::answer_mark(const Json& request, const OnReply& on_reply)
     }
     note("mark", text);
     on_reply({.body = R"({"ok":true})"});
+}
+
+std::vector<PeerState> Hub::peer_states() const
+{
+    std::vector<PeerState> states;
+    for (const auto& peer : peers_) states.push_back(peer->state);
+    return states;
 }
 
 std::vector<Daemon*> Hub::attached_peers() const

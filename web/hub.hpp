@@ -99,8 +99,7 @@ private:
     void answer_keep(const Json& request, const OnReply& on_reply);
     [[nodiscard]] std::vector<Daemon*> attached_peers() const;
     [[nodiscard]] Daemon* attached_emulator() const; // null: it is not
-    /// Why the daemons cannot save their last seconds; "" when they can.
-    [[nodiscard]] std::string why_nothing_is_held() const;
+    [[nodiscard]] std::vector<PeerState> peer_states() const;
     void save(const std::string& name, base::Duration last, Saving::OnSaved on_saved);
     [[nodiscard]] std::string free_name(const std::string& stem);
 
@@ -126,7 +125,7 @@ private:
     std::uint64_t moves_told_ = 0; // of the feed, in virtual time
     double at_s_told_ = 0.0;
     bool finds_lab_peers_ = false; // --lab: once it says how many there are
-    int saved_ = 0; // for names
+    int saved_ = 0;                // for names
     MetricsPage metrics_;
 };
 

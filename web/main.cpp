@@ -39,7 +39,7 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-constexpr std::string_view program = "hapnet-web";
+constexpr std::string_view program_name = "hapnet-web";
 constexpr int ports_tried = 20;
 constexpr int niceness = 10; // the loops come first
 constexpr std::size_t token_digits_least = 32;
@@ -95,7 +95,8 @@ tcp::acceptor listening_on_loopback(asio::io_context& io, const Options& options
         const auto port = static_cast<unsigned short>(options.port + i);
         if (auto acceptor = listening(io, {asio::ip::address_v4::loopback(), port})) {
             if (i > 0) {
-                net::say(program, fmt::format("port {} is taken: {} instead", options.port, port));
+                net::say(program_name,
+                         fmt::format("port {} is taken: {} instead", options.port, port));
             }
             return std::move(*acceptor);
         }
@@ -127,9 +128,9 @@ void listen_besides(asio::io_context& io, const Options& options, std::uint16_t 
         throw std::system_error{EADDRINUSE, std::generic_category(), "--listen " + options.listen};
     }
     server.accept_from(std::move(*acceptor));
-    net::say(program, fmt::format("{}:{} speaks plain HTTP: whoever sees the traffic has the "
-                                  "token; ssh -L is safer",
-                                  options.listen, port));
+    net::say(program_name, fmt::format("{}:{} speaks plain HTTP: whoever sees the traffic has the "
+                                       "token; ssh -L is safer",
+                                       options.listen, port));
 }
 
 /// Where this program is, and the others beside it.
@@ -223,7 +224,7 @@ base::Result<int> run(const Options& options)
 
 int main_program(std::span<char*> words)
 {
-    return net::run_program(program, parse_options(words), run);
+    return net::run_program(program_name, parse_options(words), run);
 }
 
 } // namespace hapnet::web

@@ -8,8 +8,7 @@ namespace hapnet::web {
 
 std::string text_of(const nlohmann::ordered_json& json)
 {
-    using Json = nlohmann::ordered_json;
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 Reply error_reply(int status, std::string_view error)

@@ -45,14 +45,13 @@ Reply Results::list() const
         const File& file = files_[i];
         struct stat status {};
         if (stat((out_ + "/" + file.name).c_str(), &status) != 0) continue;
-        list.push_back(
-            {{"name", file.name},
-             {"bytes", status.st_size},
-             {"kind", file.kind},
-             {"run", file.run},
-             {"modified_unix_ms",
-              std::int64_t{status.st_mtim.tv_sec} * 1000 + status.st_mtim.tv_nsec / 1'000'000},
-             {"href", fmt::format("/f/{}", i)}});
+        list.push_back({{"name", file.name},
+                        {"bytes", status.st_size},
+                        {"kind", file.kind},
+                        {"run", file.run},
+                        {"modified_unix_ms", std::int64_t{status.st_mtim.tv_sec} * 1000 +
+                                                 status.st_mtim.tv_nsec / 1'000'000},
+                        {"href", fmt::format("/f/{}", i)}});
     }
     return fine_reply("files", std::move(list));
 }

@@ -20,8 +20,8 @@ void Saving::begin(const std::vector<Daemon*>& daemons, const std::string& name,
     pending->awaited = daemons.size();
     pending->on_saved = std::move(on_saved);
     pending_ = pending;
-    const std::string request = text_of(
-        Daemon::Json{{"command", "keep"}, {"name", name}, {"last", base::to_text(last)}});
+    const std::string request =
+        text_of(Daemon::Json{{"command", "keep"}, {"name", name}, {"last", base::to_text(last)}});
     for (Daemon* daemon : daemons) {
         daemon->ask(request, [pending](const base::Result<Daemon::Json>& reply) {
             --pending->awaited;
@@ -41,9 +41,8 @@ void Saving::tick(base::TimePoint now)
 {
     if (!pending_ || pending_->awaited > 0) return;
     if (!pending_->until) pending_->until = now + patience;
-    const bool are_there = std::ranges::all_of(pending_->files, [](const std::string& file) {
-        return access(file.c_str(), F_OK) == 0;
-    });
+    const bool are_there = std::ranges::all_of(
+        pending_->files, [](const std::string& file) { return access(file.c_str(), F_OK) == 0; });
     if (!are_there && !base::is_due(pending_->until, now)) return;
     const auto done = std::exchange(pending_, nullptr);
     if (done->files.empty()) return done->on_saved(base::fail(done->refused));

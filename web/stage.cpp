@@ -163,7 +163,8 @@ void Stage::begin_peers()
 void Stage::begin_watching_lab()
 {
     const std::string socket = sockets_ + "/lab.sock";
-    change(State::running, fmt::format("virtual time: task {}, {}", choice_.task, choice_.algorithm));
+    change(State::running,
+           fmt::format("virtual time: task {}, {}", choice_.task, choice_.algorithm));
     handlers_.on_event(fmt::format("a session in virtual time begins: task {}, algorithm {}",
                                    choice_.task, choice_.algorithm));
     handlers_.on_daemons(socket, lab_peer_sockets(socket, choice_.peers));

@@ -66,8 +66,8 @@ Request request_of(std::string_view command, Members& members, std::optional<bas
 
 base::Result<Request> parse_request(std::string_view line, std::optional<base::Duration> held)
 {
-    constexpr std::array<std::string_view, 10> commands{
-        "show", "set", "apply", "diff", "reset", "stats", "wait", "watch", "keep", "stop"};
+    constexpr std::array<std::string_view, 10> commands{"show",  "set",  "apply", "diff", "reset",
+                                                        "stats", "wait", "watch", "keep", "stop"};
     const auto json =
         control::parse_object(line); // settings count in the order in which they stand
     if (!json) return tl::unexpected{json.error()};

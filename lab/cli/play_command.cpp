@@ -103,8 +103,8 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
             experiment.path);
         const auto trace = virtual_time::play(spec.setting);
         if (!trace) return tl::unexpected{trace.error()};
-        json["sessions"].push_back({{"algorithm", algorithm.name},
-                                    {"metrics", to_json(metrics::metrics_of(*trace))}});
+        json["sessions"].push_back(
+            {{"algorithm", algorithm.name}, {"metrics", to_json(metrics::metrics_of(*trace))}});
     }
     if (command.json) {
         fmt::print("{}\n", json.dump(2));
@@ -169,8 +169,8 @@ int play_live(const PlayCommand& command, live::Session& session, base::Duration
     const live::Controlled controlled{
         session, pace, [&saved](const std::string& text) { return saved.save(text); }};
     std::vector<Served> all;
-    all.push_back({std::make_unique<control::Server>(command.control, limits),
-                   live::subject_of(controlled)});
+    all.push_back(
+        {std::make_unique<control::Server>(command.control, limits), live::subject_of(controlled)});
     for (std::size_t seat = 0; seat < session.peers(); ++seat) {
         all.push_back({std::make_unique<control::Server>(
                            fmt::format("{}.peer-{}", command.control, seat + 1), limits),

@@ -68,9 +68,8 @@ std::string to_text(const Experiment& experiment)
         out += line + '\n';
     }
     const Written kind = written_kind(experiment.kind);
-    out += kind.lines +
-           emulator::to_text(emulator::Profile{
-                           {}, {}, experiment.path, experiment.timeline, experiment.links});
+    out += kind.lines + emulator::to_text(emulator::Profile{
+                            {}, {}, experiment.path, experiment.timeline, experiment.links});
     out += kind.tables;
     for (const NamedAlgorithm& named : experiment.algorithms) {
         out += fmt::format("\n[algorithm.{}]\n{}", base::quoted(named.name),

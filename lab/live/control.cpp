@@ -20,10 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using control::Members;
 
-Json factor_json(const Pace& pace)
-{
-    return pace.factor() ? Json(*pace.factor()) : Json("max");
-}
+Json factor_json(const Pace& pace) { return pace.factor() ? Json(*pace.factor()) : Json("max"); }
 
 Json pace_json(const Controlled& controlled)
 {
@@ -163,17 +160,16 @@ control::Subject subject_of(const Controlled& controlled)
 
 control::Subject peer_subject(Session& session, std::size_t seat)
 {
-    return peer::subject_of(
-        {.show = [&session, seat] { return session.show_peer(seat); },
-         .statistics =
-             [&session] {
-                 return Json{{"program", "hapnet-lab"},
-                             {"elapsed_s", base::to_seconds(session.at())}};
-             },
-         .stop = [] {},
-         .stop_in_emergency = [] {},
-         .scene = [&session] { return peer::scene_json(session.scene()); },
-         .frames = [&session, seat] { return session.watch_peer(seat); }});
+    return peer::subject_of({.show = [&session, seat] { return session.show_peer(seat); },
+                             .statistics =
+                                 [&session] {
+                                     return Json{{"program", "hapnet-lab"},
+                                                 {"elapsed_s", base::to_seconds(session.at())}};
+                                 },
+                             .stop = [] {},
+                             .stop_in_emergency = [] {},
+                             .scene = [&session] { return peer::scene_json(session.scene()); },
+                             .frames = [&session, seat] { return session.watch_peer(seat); }});
 }
 
 } // namespace hapnet::lab::live

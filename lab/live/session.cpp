@@ -304,8 +304,8 @@ nlohmann::ordered_json Session::steps() const
                 for (const auto& [key, value] : emulator::texts_of(way, *patch, name))
                     settings[key] = value;
             }
-            steps.push_back({{"at_s", base::to_seconds(change.elapsed)},
-                             {"settings", std::move(settings)}});
+            steps.push_back(
+                {{"at_s", base::to_seconds(change.elapsed)}, {"settings", std::move(settings)}});
         }
     }
     return steps;

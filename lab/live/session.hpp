@@ -24,14 +24,14 @@ namespace hapnet::lab::live {
 
 /// A session in virtual time that is watched while it plays: it goes on as far as it is told, its
 /// conditions change as those of a running emulator do, and it may be sought, back and forth: it is
-/// played again from its seed, with all that was set. Further algorithms play beside the first, each
-/// in a session of its own, under the same network, datagram for datagram. Reads no clock.
+/// played again from its seed, with all that was set. Further algorithms play beside the first,
+/// each in a session of its own, under the same network, datagram for datagram. Reads no clock.
 class Session {
 public:
     static constexpr std::size_t algorithms_max = 3;
 
-    /// The first task and seed of the experiment, and up to three of its algorithms. `presets` gives
-    /// the text of a built-in profile.
+    /// The first task and seed of the experiment, and up to three of its algorithms. `presets`
+    /// gives the text of a built-in profile.
     using Presets = std::function<base::Result<std::string>(const std::string& name)>;
     [[nodiscard]] static base::Result<std::unique_ptr<Session>>
     make(const experiment::Experiment& experiment, Presets presets);

@@ -91,9 +91,8 @@ base::Result<std::vector<KeptRecord>> play_and_keep(const virtual_time::Setting&
     for (std::size_t side = 0; side < world.sides(); ++side) {
         const VirtualPlayer& player = world.side(side);
         kept[side].config = kept_config(setting, side, player.rig.governor().limits());
-        journals.emplace_back(player, [&record = kept[side]](const record::Row& row) {
-            record.rows.push_back(row);
-        });
+        journals.emplace_back(
+            player, [&record = kept[side]](const record::Row& row) { record.rows.push_back(row); });
         if (journals.back().has_bodies()) kept[side].layout = kept[side].layout.with_bodies();
     }
     world.intercept([&](const VirtualWorld::Arrival& arrival) {

@@ -14,8 +14,8 @@
 
 namespace hapnet::peer {
 
-/// Makes frames for those who watch, from the rows of a peer's record: the loop does nothing for it.
-/// While nobody watches it keeps only what the sessions agreed on, a row a second.
+/// Makes frames for those who watch, from the rows of a peer's record: the loop does nothing for
+/// it. While nobody watches it keeps only what the sessions agreed on, a row a second.
 class FrameTap {
 public:
     explicit FrameTap(std::uint16_t peer_id) : peer_id_{peer_id} {}

@@ -3,8 +3,8 @@
 #include "peer/monitor/control_session.hpp"
 
 #include "peer/control/answer.hpp"
-#include "peer/monitor/report.hpp"
 #include "peer/control/scene_report.hpp"
+#include "peer/monitor/report.hpp"
 
 #include <utility>
 
@@ -24,22 +24,21 @@ control::Subject ControlSession::subject()
         return Run{parts_.options, *status_, parts_.device, parts_.monitor.is_record_whole(),
                    parts_.monitor.rows_lost()};
     };
-    return subject_of({.show = [this, run] { return show_json(run(), parts_.recovery); },
-                       .statistics =
-                           [this, run] {
-                               nlohmann::ordered_json json = statistics_json(run());
-                               json["elapsed_s"] = base::to_seconds(status_->elapsed);
-                               return json;
-                           },
-                       .stop = [this] { parts_.stop.request(); },
-                       .stop_in_emergency = [this] { parts_.gate.stop_in_emergency(); },
-                       .scene = [this] { return scene_json(parts_.options.scene); },
-                       .frames = [this] { return parts_.monitor.watch_frames(); },
-                       .held = parts_.monitor.held(),
-                       .keep =
-                           [this](const std::string& name, base::TimePoint from) {
-                               return parts_.monitor.keep(name, from);
-                           }});
+    return subject_of(
+        {.show = [this, run] { return show_json(run(), parts_.recovery); },
+         .statistics =
+             [this, run] {
+                 nlohmann::ordered_json json = statistics_json(run());
+                 json["elapsed_s"] = base::to_seconds(status_->elapsed);
+                 return json;
+             },
+         .stop = [this] { parts_.stop.request(); },
+         .stop_in_emergency = [this] { parts_.gate.stop_in_emergency(); },
+         .scene = [this] { return scene_json(parts_.options.scene); },
+         .frames = [this] { return parts_.monitor.watch_frames(); },
+         .held = parts_.monitor.held(),
+         .keep = [this](const std::string& name,
+                        base::TimePoint from) { return parts_.monitor.keep(name, from); }});
 }
 
 void ControlSession::serve(base::TimePoint now)

@@ -164,8 +164,8 @@ std::string describe_in_circle(Event event, std::string_view shared, std::uint16
     }
 }
 
-Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
-                 Recorder::Setup recording, Named named)
+Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen, Recorder::Setup recording,
+                 Named named)
     : journal_{journal},
       screen_{screen},
       frames_{named.peer_id},

@@ -11,8 +11,8 @@
 #include <atomic>
 #include <chrono>
 #include <optional>
-#include <spdlog/fmt/fmt.h>
 #include <readerwriterqueue/readerwritercircularbuffer.h>
+#include <spdlog/fmt/fmt.h>
 #include <system_error>
 #include <utility>
 

@@ -447,8 +447,8 @@ Ordered show_json(const Run& run, const Recovery& recovery)
             {"force_limit_n", status.force_limit_n},
             {"tick_rate_hz", 1000},
             {"boot_id", net::boot_id()},
-            {"held_s", options.keep.span ? Ordered(base::to_seconds(*options.keep.span))
-                                         : Ordered(nullptr)},
+            {"held_s",
+             options.keep.span ? Ordered(base::to_seconds(*options.keep.span)) : Ordered(nullptr)},
             {"elapsed_s", base::to_seconds(status.elapsed)},
             {"state", state_of(status)},
             {"says", says(status, recovery)},

@@ -63,10 +63,10 @@ inline void require_stdout()
 }
 
 /// The life of every program: prints what is to be printed, runs, and turns each kind of trouble
-/// into a message and an exit code. `run` gives its own exit code, or says what was bad input.
-template <typename Options>
-[[nodiscard]] int run_program(std::string_view program, const CommandLine<Options>& line,
-                              base::Result<int> (*run)(const Options&))
+/// into a message and an exit code. `run` takes the Options and gives a base::Result<int>: its own
+/// exit code, or what was bad input.
+template <typename Options, typename Run>
+[[nodiscard]] int run_program(std::string_view program, const CommandLine<Options>& line, Run run)
 {
     try {
         if (!line) {
@@ -78,7 +78,7 @@ template <typename Options>
             require_stdout();
             return 0;
         }
-        const auto code = run(std::get<Options>(*line));
+        const base::Result<int> code = run(std::get<Options>(*line));
         if (!code) say(program, code.error().message);
         require_stdout();
         return code.value_or(exit_usage);

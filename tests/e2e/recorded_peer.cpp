@@ -190,7 +190,7 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     peer::loop::Journal journal;
     std::optional<record::Writer> writer;
     if (!asked.record.empty()) writer.emplace(asked.record, nlohmann::json::object());
-    peer::monitor::Monitor monitor{journal, screen, std::move(writer), {1}};
+    peer::monitor::Monitor monitor{journal, screen, {.writer = std::move(writer)}, {1}};
     peer::loop::ForceGate gate{stop, asked.needs_button
                                          ? peer::loop::DeadMan{peer::loop::DeviceButton{}}
                                          : peer::loop::DeadMan{}};

@@ -72,6 +72,7 @@ export const openPage = async (context, address, before = async () => {}) => {
   page.on("pageerror", (error) => page.complaints.push(error.message));
   await before(page);
   await page.goto(address);
-  await page.waitForFunction(() => globalThis.hapnet?.model.frame && document.body.dataset.view);
+  await page.waitForFunction(() => globalThis.hapnet?.model.frame && document.body.dataset.view,
+    undefined, { timeout: 90_000 });
   return page;
 };

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// picture.mjs FILE: a picture of the live page, 1440 pixels wide, while the copies are apart.
+// picture.mjs FILE ANIMATED: a picture of the live page, 1440 pixels wide, while the copies are
+// apart; and both worlds as they move, in virtual time so that it is the same every time.
 
+import { writeFileSync } from "node:fs";
+
+import { animationOf } from "./animation.mjs";
 import { missing, openPage, startBrowser, startWeb } from "./browser.mjs";
 
 const reason = missing();
@@ -9,17 +13,62 @@ if (reason) {
   console.error(`picture: ${reason}`);
   process.exit(3);
 }
-const web = await startWeb();
+const [still, animated] = process.argv.slice(2);
+const patience = { timeout: 90_000 };
 const browser = await startBrowser();
-const context = await browser.newContext({
-  viewport: { width: 1440, height: 900 }, colorScheme: "light",
-});
-const page = await openPage(context, web.address);
-await page.waitForFunction(() => {
-  const { model } = globalThis.hapnet;
-  const apart = model.frame.pairs[0]?.apart_mm;
-  return model.frame.peers[0]?.session?.at_s > 12 && apart > 10 && apart < 25;
-}, undefined, { timeout: 90_000 });
-await page.screenshot({ path: process.argv[2] });
+
+const takeStill = async () => {
+  const web = await startWeb();
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 }, colorScheme: "light",
+  });
+  const page = await openPage(context, web.address);
+  await page.waitForFunction(() => {
+    const { model } = globalThis.hapnet;
+    const apart = model.frame.pairs[0]?.apart_mm;
+    return model.frame.peers[0]?.session?.at_s > 12 && apart > 10 && apart < 25;
+  }, undefined, patience);
+  await page.screenshot({ path: still });
+  await context.close();
+  await web.stop();
+};
+
+const pictures = 16;
+const begin = 10; // s
+const apart = 0.15; // s
+
+const takeAnimated = async () => {
+  const web = await startWeb("--virtual");
+  const context = await browser.newContext({
+    viewport: { width: 900, height: 900 }, colorScheme: "light", deviceScaleFactor: 0.6,
+  });
+  const page = await openPage(context, web.address);
+  const ask = (request) => page.evaluate(async (wanted) => {
+    const { post } = await import(document.querySelector("script[type=module]").src
+      .replace("app.js", "api.js"));
+    await post("/api/pace", wanted);
+  }, request);
+  await ask({ do: "pause" });
+  const clip = await page.locator("#worlds").boundingBox();
+  const taken = [];
+  for (let i = 0; i < pictures; i += 1) {
+    const to = begin + i * apart;
+    await ask({ do: "seek", to_s: to });
+    await page.waitForFunction((time) => {
+      const { frame } = globalThis.hapnet.model;
+      return Math.abs(frame.at_s - time) < 1e-3 && frame.pairs[0].apart_mm !== null
+        && frame.peers.every((peer) => Math.abs(peer.at_ns / 1e9 - 1000 - time) < 2e-3);
+    }, to, patience);
+    await page.evaluate(() => new Promise((done) => {
+      requestAnimationFrame(() => requestAnimationFrame(done));
+    }));
+    taken.push(await page.screenshot({ clip }));
+  }
+  writeFileSync(animated, animationOf(taken, 1000 * apart));
+  await context.close();
+  await web.stop();
+};
+
+await takeStill();
+await takeAnimated();
 await browser.close();
-await web.stop();

@@ -39,7 +39,8 @@ const seek = async (seconds) => {
   const near = (value) => Math.abs(value - seconds) < length / 1000;
   await page.waitForFunction(([to, tolerance]) => {
     const { frame, state } = globalThis.hapnet.model;
-    return Math.abs(state.pace.at_s - to) < tolerance && Math.abs(frame.at_s - to) < tolerance && frame.pairs[0].apart_mm !== null
+    return Math.abs(state.pace.at_s - to) < tolerance && Math.abs(frame.at_s - to) < tolerance
+      && frame.pairs[0].apart_mm !== null
       && frame.peers.every((peer) => Math.abs(peer.at_ns / 1e9 - 1000 - frame.at_s) < 0.01);
   }, [seconds, length / 1000], patience);
   const shown = await page.evaluate(() => {

@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::int64_t virtual_seed_max = 1'000'000'000; // of an experiment
-constexpr const char* held_for = "20s"; // as much as a trap may ask for
+constexpr std::int64_t virtual_seed_max = 1'000'000'000;       // of an experiment
+constexpr const char* held_for = "20s";                        // as much as a trap may ask for
 constexpr std::int64_t seed_max = (std::int64_t{1} << 53) - 1; // that JavaScript counts exactly
 
 /// Reads the members of a request onto a choice; the first trouble is remembered.
@@ -135,8 +135,8 @@ base::Result<Choice> choice_of(const nlohmann::ordered_json& request, const Choi
                                       choice.task, choice.peers));
     }
     if (choice.mode == "virtual" && choice.seed > virtual_seed_max) {
-        return base::fail(fmt::format("\"seed\" must be at most {} in virtual time",
-                                      virtual_seed_max));
+        return base::fail(
+            fmt::format("\"seed\" must be at most {} in virtual time", virtual_seed_max));
     }
     return choice;
 }
@@ -157,9 +157,9 @@ Start emulator_start(const Choice& choice, const StageFolders& folders)
             }
         }
     }
-    words.insert(words.end(),
-                 {"--keep", held_for, "--keep-in", folders.kept, "--profile", choice.preset, "--seed", std::to_string(choice.seed), "--control",
-                  start.socket, "--stats", folders.results + "/emulator.json"});
+    words.insert(words.end(), {"--keep", held_for, "--keep-in", folders.kept, "--profile",
+                               choice.preset, "--seed", std::to_string(choice.seed), "--control",
+                               start.socket, "--stats", folders.results + "/emulator.json"});
     return start;
 }
 
@@ -238,12 +238,16 @@ Start peer_start(int id, const Choice& choice, const StageFolders& folders, cons
             words.push_back(fmt::format("{}={}", other, places.at(pair_name(id, other))));
         }
     }
-    words.insert(words.end(),
-                 {"--keep", held_for, "--keep-in", folders.kept, "--device", "sim", "--task", choice.task, "--algorithm", choice.algorithm,
-                  "--seed", std::to_string(choice.seed), "--duration",
-                  fmt::format("{}s", choice.seconds), "--control", start.socket, "--record",
-                  fmt::format("{}/{}.rec", folders.results, name), "--stats",
-                  fmt::format("{}/{}.json", folders.results, name)});
+    words.insert(words.end(), {"--keep",      held_for,
+                               "--keep-in",   folders.kept,
+                               "--device",    "sim",
+                               "--task",      choice.task,
+                               "--algorithm", choice.algorithm,
+                               "--seed",      std::to_string(choice.seed),
+                               "--duration",  fmt::format("{}s", choice.seconds),
+                               "--control",   start.socket,
+                               "--record",    fmt::format("{}/{}.rec", folders.results, name),
+                               "--stats",     fmt::format("{}/{}.json", folders.results, name)});
     return start;
 }
 

@@ -110,4 +110,22 @@ nlohmann::ordered_json help_for(const EmulatorState& emulator, const std::vector
     return "nothing answers on the sockets: start hapnet-emulator and hapnet-peer with --control";
 }
 
+std::string why_nothing_is_held(const EmulatorState& emulator, const std::vector<PeerState>& peers)
+{
+    if (emulator.is_virtual()) {
+        return "virtual time plays again from its seed: save it as an experiment";
+    }
+    bool is_any = false;
+    bool are_all = true;
+    const auto look_at = [&](bool is_attached, const Json& shown) {
+        if (!is_attached || !shown.is_object()) return;
+        is_any = true;
+        are_all = are_all && member(shown, "held_s").is_number();
+    };
+    look_at(emulator.is_attached, emulator.shown);
+    for (const PeerState& peer : peers) look_at(peer.is_attached, peer.shown);
+    if (!is_any) return "nothing is attached";
+    return are_all ? "" : "start the daemons with --keep 20s --keep-in DIR";
+}
+
 } // namespace hapnet::web

@@ -16,6 +16,9 @@ struct EmulatorState {
     nlohmann::ordered_json shown = nullptr; // its last reply to show
     std::vector<std::string> paths{};
     std::string error{};
+
+    /// Whether it plays in virtual time.
+    [[nodiscard]] bool is_virtual() const { return shown.is_object() && shown.contains("pace"); }
 };
 
 /// What is known of a peer.
@@ -40,5 +43,9 @@ struct PeerState {
 /// What a person can do who sees nothing: null while something is attached.
 [[nodiscard]] nlohmann::ordered_json help_for(const EmulatorState& emulator,
                                               const std::vector<PeerState>& peers, bool has_stage);
+
+/// Why the daemons that are attached cannot save their last seconds; "" when they can.
+[[nodiscard]] std::string why_nothing_is_held(const EmulatorState& emulator,
+                                              const std::vector<PeerState>& peers);
 
 } // namespace hapnet::web

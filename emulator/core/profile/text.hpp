@@ -28,7 +28,8 @@ inline constexpr std::size_t checks_max = 100;
 /// matrix and those of single paths. Sets `path` and `paths` of the profile.
 void read_conditions(TableReader& table, const PathNames& names, Profile& profile);
 
-/// What changes while it runs: [[at]], among other tables. Sets `timeline`, after read_conditions().
+/// What changes while it runs: [[at]], among other tables. Sets `timeline`, after
+/// read_conditions().
 void read_timeline(TableReader& table, const PathNames& names, Profile& profile);
 
 /// The profile as TOML, in canonical form: it reads back as the same profile.

@@ -69,7 +69,8 @@ def session(seconds, is_watched):
         peers = [subprocess.Popen(
             [program("hapnet-peer"), "--id", str(i), "--remote", words[side], "--task", "P1",
              "--duration", f"{seconds}s", "--control", sockets[i], "--record", records[i - 1]],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for i, side in ((1, "a"), (2, "b"))]
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            for i, side in ((1, "a"), (2, "b"))]
         readers = Readers(sockets) if is_watched else None
         for peer in peers:
             peer.wait()

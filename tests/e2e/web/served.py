@@ -81,9 +81,9 @@ class Server:
     """hapnet-web with these arguments, at a port of its own."""
 
     def __init__(self, *arguments, host="127.0.0.1"):
-        self.process = subprocess.Popen([PROGRAM, *([] if "--port" in arguments else ["--port", "0"]),
-                                         *arguments],
-                                        stdout=subprocess.PIPE, text=True)
+        port = [] if "--port" in arguments else ["--port", "0"]
+        self.process = subprocess.Popen([PROGRAM, *port, *arguments], stdout=subprocess.PIPE,
+                                        text=True)
         url = self.process.stdout.readline().split()[1]
         self.port = int(url.split(":")[2].split("/")[0])
         self.token = url.split("#t=")[1]

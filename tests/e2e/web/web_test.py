@@ -105,7 +105,8 @@ class Web(unittest.TestCase):
         self.assertEqual(status, 200, body)
         files = sorted(json.loads(body)["files"])
         self.assertEqual(files, ["by-hand-peer-1.rec", "by-hand-peer-2.rec", "by-hand.pcapng"])
-        listed = {file["name"]: file for file in json.loads(self.ask("GET", "/api/files")[1])["files"]}
+        listed = {file["name"]: file
+                  for file in json.loads(self.ask("GET", "/api/files")[1])["files"]}
         for name in files:
             file = listed[f"kept/{name}"]
             status, headers, text = self.server.send("GET", file["href"])

@@ -191,8 +191,10 @@ public:
             auto& due = arriving.at(static_cast<std::size_t>(ms) % 512);
             for (const wire::State& heard : std::exchange(due, {})) {
                 const bool taken = remote.update(heard, now);
-                reckoning.hear(
-                    {.state = heard, .arrived = now, .taken = taken, .clock = ClockEstimate{}});
+                reckoning.hear({.state = heard,
+                                .arrived = now,
+                                .taken = taken,
+                                .clock = RemoteClock{ClockEstimate{}}});
             }
             const auto place = reckoning.predicted(now);
             const double x = place ? place->x() : 0.0;

@@ -21,10 +21,11 @@ using namespace std::chrono_literals;
 
 experiment::Experiment of_text(const std::string& more = "algorithms = [\"base\"]")
 {
-    const auto read = experiment::parse_experiment(
-        "kind = \"trajectories\"\nseeds = 1\nfirst_seed = 3\nduration = \"8s\"\ntasks = [\"P1\"]\n" +
-            more + "\n[both]\ndelay = \"20ms\"\nloss = \"10%\"\n",
-        "test");
+    const auto read =
+        experiment::parse_experiment("kind = \"trajectories\"\nseeds = 1\nfirst_seed = 3\nduration "
+                                     "= \"8s\"\ntasks = [\"P1\"]\n" +
+                                         more + "\n[both]\ndelay = \"20ms\"\nloss = \"10%\"\n",
+                                     "test");
     EXPECT_TRUE(read) << (read ? "" : read.error().message);
     return *read;
 }
@@ -81,7 +82,8 @@ std::string bits_of(const virtual_time::Trace& trace)
     std::string bits;
     for (const auto& side : trace.sides) {
         for (const virtual_time::Sample& sample : side) {
-            for (const glm::dvec3& v : {sample.body.value, sample.hip.value, sample.on_hand.value}) {
+            for (const glm::dvec3& v :
+                 {sample.body.value, sample.hip.value, sample.on_hand.value}) {
                 bits.append(reinterpret_cast<const char*>(&v), sizeof v); // NOLINT
             }
         }
@@ -105,10 +107,10 @@ TEST(LiveSession, SavedAsAnExperimentPlaysTheSameToTheBit)
     session->play_to(2500ms);
     ASSERT_TRUE(ask(*session, more_delay)["ok"]);
     session->play_to(3s);
-    ASSERT_TRUE(
-        ask(*session,
-            R"({"command":"set","settings":{"up.loss":"{ law = \"every\", every = 7 }"},"for":"1s"})")
-            ["ok"]);
+    ASSERT_TRUE(ask(
+        *session,
+        R"({"command":"set","settings":{"up.loss":"{ law = \"every\", every = 7 }"},"for":"1s"})")
+                    ["ok"]);
     session->play_to(5s);
     ASSERT_TRUE(ask(*session, R"({"command":"apply","preset":"any"})")["ok"]);
     session->play_to(20s);
@@ -156,7 +158,8 @@ TEST(LiveSession, PlaysAsPlayDoes)
 
 TEST(LiveSession, PlaysOtherAlgorithmsUnderTheSameNetwork)
 {
-    const auto session = session_of(of_text("algorithms = [\"base\", \"sep\", \"dead-reckoning\"]"));
+    const auto session =
+        session_of(of_text("algorithms = [\"base\", \"sep\", \"dead-reckoning\"]"));
     const auto frames = session->watch();
     session->play_to(3s);
     ASSERT_TRUE(ask(*session, more_delay)["ok"]);
@@ -190,10 +193,11 @@ TEST(LiveControl, PausesSeeksAndSaves)
     const auto session = session_of(of_text());
     Pace pace{1.0, true};
     std::string saved;
-    const auto subject = subject_of({*session, pace, [&](const std::string& text) {
-                                         saved = text;
-                                         return base::Result<std::string>{"/there/experiment-1.toml"};
-                                     }});
+    const auto subject =
+        subject_of({*session, pace, [&](const std::string& text) {
+                        saved = text;
+                        return base::Result<std::string>{"/there/experiment-1.toml"};
+                    }});
     const auto said = [&](const std::string& line) {
         return nlohmann::json::parse(std::get<std::string>(subject.answer(line, {})));
     };

@@ -63,8 +63,8 @@ TEST_F(TalkWithAPeer, SavesWhatItHoldsUnderPlainNamesOnly)
     EXPECT_EQ(ask({{"command", "keep"}, {"name", "all"}})["ok"], true);
     EXPECT_EQ(fake.kept_from, opening - 20s) << "as much as is held";
     fake.kept.clear();
-    for (const char* name : {"", "../x", "a/b", "A", "a.b", "a b",
-                             "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"}) {
+    for (const char* name :
+         {"", "../x", "a/b", "A", "a.b", "a b", "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"}) {
         EXPECT_NE(refused({{"command", "keep"}, {"name", name}}), "") << name;
     }
     EXPECT_NE(refused({{"command", "keep"}}), "");
@@ -101,7 +101,8 @@ TEST_F(TalkWithAPeer, RefusesWhatWouldChangeItSayingWhatThereIs)
         const auto error = refused({{"command", command}, {"profile", ""}, {"settings", 1}});
         EXPECT_NE(error.find("cannot be changed"), std::string::npos) << error;
         EXPECT_NE(error.find(command), std::string::npos) << error;
-        EXPECT_NE(error.find("show, scene, stats, watch, wait, keep, stop or estop"), std::string::npos)
+        EXPECT_NE(error.find("show, scene, stats, watch, wait, keep, stop or estop"),
+                  std::string::npos)
             << error;
     }
     EXPECT_NE(refused({{"command", "shwo"}}).find("must be one of show"), std::string::npos);

@@ -20,24 +20,24 @@ struct FakePeerControl {
     int stops = 0;
     int emergency_stops = 0;
     nlohmann::ordered_json scene{{"name", "paper"}, {"bodies", nlohmann::json::array()}};
-    int frames = 0; // that were made
+    int frames = 0;   // that were made
     std::string kept; // what was to be saved last
     base::TimePoint kept_from{};
-    control::Subject subject = subject_of({.show = [this] { return shown; },
-                                           .statistics = [this] { return statistics; },
-                                           .stop = [this] { ++stops; },
-                                           .stop_in_emergency = [this] { ++emergency_stops; },
-                                           .scene = [this] { return scene; },
-                                           .frames = [this] { return frame_source(); },
-                                           .held = std::chrono::seconds{20},
-                                           .keep =
-                                               [this](const std::string& name, base::TimePoint from)
-                                               -> base::Result<std::string> {
-                                               kept = name;
-                                               kept_from = from;
-                                               if (name == "full") return base::fail("it is full");
-                                               return "/there/" + name + ".rec";
-                                           }});
+    control::Subject subject =
+        subject_of({.show = [this] { return shown; },
+                    .statistics = [this] { return statistics; },
+                    .stop = [this] { ++stops; },
+                    .stop_in_emergency = [this] { ++emergency_stops; },
+                    .scene = [this] { return scene; },
+                    .frames = [this] { return frame_source(); },
+                    .held = std::chrono::seconds{20},
+                    .keep = [this](const std::string& name,
+                                   base::TimePoint from) -> base::Result<std::string> {
+                        kept = name;
+                        kept_from = from;
+                        if (name == "full") return base::fail("it is full");
+                        return "/there/" + name + ".rec";
+                    }});
 
     control::FrameSource frame_source()
     {

@@ -39,7 +39,8 @@ TEST(RollingBytes, NeverHoldsMoreThanItsBytesAndKeepsPiecesWholeAcrossItsEnd)
     RollingBytes rolling{1h, 10};
     std::string newest;
     for (int i = 0; i < 1000; ++i) {
-        const std::string piece(static_cast<std::size_t>(1 + i % 4), static_cast<char>('a' + i % 26));
+        const std::string piece(static_cast<std::size_t>(1 + i % 4),
+                                static_cast<char>('a' + i % 26));
         rolling.add(at(i), piece);
         newest += piece;
         const std::string held = rolling.since(at(0));

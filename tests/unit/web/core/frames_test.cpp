@@ -37,8 +37,8 @@ TEST(WebFrames, RefuseNonsenseFromADaemon)
          {std::string{}, std::string{"{}"}, std::string{"[1]"}, std::string(70'000, ' ') + good,
           good.substr(0, good.size() / 2), good + "x", with("\"at_ns\":1000", "\"at_ns\":\"now\""),
           with("1000", "1e300"), with("\"paths\":[", "\"paths\":[7,"),
-          with("\"random_loss\":1", "\"random_loss\":\"many\""), with("\"name\":\"\"", "\"name\":7"),
-          with("\"elapsed_s\":2.5", "\"elapsed_s\":1e300"),
+          with("\"random_loss\":1", "\"random_loss\":\"many\""),
+          with("\"name\":\"\"", "\"name\":7"), with("\"elapsed_s\":2.5", "\"elapsed_s\":1e300"),
           std::string(100, '[') + std::string(100, ']'),
           R"({"ok":false,"error":"no frames here"})" + std::string{}}) {
         EXPECT_FALSE(parse_emulator_frame(line)) << line.substr(0, 200);

@@ -70,12 +70,17 @@ TEST(StagePlan, StartsVirtualTimeWithTheOtherAlgorithmsBesideTheChosenOne)
 {
     const Choices choices = all_choices({"ideal", "paper-delay-160"});
     Choice choice{.mode = "virtual", .algorithm = "sep"};
-    const std::vector<std::string> words{
-        "/bin/hapnet-lab", "play",      "--task",           "P1",          "--algorithm",
-        "sep",             "--algorithm", "base",           "--algorithm", "dead-reckoning",
-        "--profile",       "paper-delay-160", "--seed",     "1",           "--duration",
-        "30s",             "--peers",   "2",                "--control",   "/sockets/lab.sock",
-        "--out",           "/out"};
+    const std::vector<std::string> words{"/bin/hapnet-lab", "play",
+                                         "--task",          "P1",
+                                         "--algorithm",     "sep",
+                                         "--algorithm",     "base",
+                                         "--algorithm",     "dead-reckoning",
+                                         "--profile",       "paper-delay-160",
+                                         "--seed",          "1",
+                                         "--duration",      "30s",
+                                         "--peers",         "2",
+                                         "--control",       "/sockets/lab.sock",
+                                         "--out",           "/out"};
     EXPECT_EQ(lab_start(choice, folders, choices).words, words);
     EXPECT_EQ(lab_peer_sockets("/sockets/lab.sock", 2),
               (std::vector<std::string>{"/sockets/lab.sock.peer-1", "/sockets/lab.sock.peer-2"}));
