@@ -99,11 +99,12 @@ base::Result<ExportRows> parse_export_rows(const std::string& text)
 
 void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
 {
-    command.describe("Prints the rows of a record as CSV, or all poses and forces as MCAP. Times of "
-                     "CSV count from the start of its "
-                     "session. Of the records of both peers it prints the ticks of their last "
-                     "common session on one time axis: each tick of the first with the last tick "
-                     "of the other that is not later.");
+    command.describe(
+        "Prints the rows of a record as CSV, or all poses and forces as MCAP. Times of "
+        "CSV count from the start of its "
+        "session. Of the records of both peers it prints the ticks of their last "
+        "common session on one time axis: each tick of the first with the last tick "
+        "of the other that is not later.");
     command.add_exit_codes(exit_codes_without_run);
     command.positional("RECORD", "The record of one peer", cli::into(exported.record))
         .required("a.rec");
@@ -220,10 +221,10 @@ void add_jobs(cli::Command& command, std::optional<unsigned>& jobs)
 void add_experiment(cli::Command& command, RunCommand& run, const std::string& what)
 {
     command
-        .positional("EXPERIMENT",
-                    fmt::format("{}, or one of {}", what,
-                                names_of(experiment::built_in_experiments())),
-                    cli::into(run.experiment))
+        .positional(
+            "EXPERIMENT",
+            fmt::format("{}, or one of {}", what, names_of(experiment::built_in_experiments())),
+            cli::into(run.experiment))
         .required("table1 --out results/table1");
     command
         .option("--set", "KEY=VALUE",

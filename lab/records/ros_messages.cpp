@@ -132,8 +132,7 @@ public:
             write_pose(hip_, time_ns, tick.hip, {1.0, 0.0, 0.0, 0.0});
             write_force(contact_, time_ns, tick.contact);
             write_force(device_, time_ns, tick.device);
-            if (source_.bodies.empty())
-                write_pose(body_, time_ns, tick.cube, {1.0, 0.0, 0.0, 0.0});
+            if (source_.bodies.empty()) write_pose(body_, time_ns, tick.cube, {1.0, 0.0, 0.0, 0.0});
             while (body != source_.bodies.end() && body->tick < tick.tick) ++body;
             for (; body != source_.bodies.end() && body->tick == tick.tick; ++body)
                 write_pose(bodies_.at(body->body), time_ns, body->position, body->orientation);
@@ -170,8 +169,8 @@ void write_sources(const std::vector<Source>& sources,
                    const std::function<void(std::string_view)>& take)
 {
     McapWriter writer{take};
-    const auto pose_schema =
-        writer.add_schema("geometry_msgs/msg/PoseStamped", fmt::format("{}{}", pose, header_and_time));
+    const auto pose_schema = writer.add_schema("geometry_msgs/msg/PoseStamped",
+                                               fmt::format("{}{}", pose, header_and_time));
     const auto wrench_schema = writer.add_schema("geometry_msgs/msg/WrenchStamped",
                                                  fmt::format("{}{}", wrench, header_and_time));
     std::vector<PeerTopics> topics;
@@ -198,10 +197,10 @@ void write_mcap(const Session& session, const std::function<void(std::string_vie
     const auto bodies_of = [](const Side& side) -> std::span<const record::BodyRow> {
         const auto ticks = side.ticks;
         if (ticks.empty()) return {};
-        const auto first = std::ranges::lower_bound(side.bodies, ticks.front().tick, {},
-                                                    &record::BodyRow::tick);
-        const auto last = std::ranges::upper_bound(side.bodies, ticks.back().tick, {},
-                                                   &record::BodyRow::tick);
+        const auto first =
+            std::ranges::lower_bound(side.bodies, ticks.front().tick, {}, &record::BodyRow::tick);
+        const auto last =
+            std::ranges::upper_bound(side.bodies, ticks.back().tick, {}, &record::BodyRow::tick);
         return {first, last};
     };
     const Clock& clock = session.clock;
