@@ -23,8 +23,8 @@ base::Result<results::File> sessions_of(const std::string& folder)
             return results::File{path, text};
         });
     }
-    return base::fail(fmt::format("{} has no sessions.csv: compare takes two folders of results",
-                                  folder));
+    return base::fail(
+        fmt::format("{} has no sessions.csv: compare takes two folders of results", folder));
 }
 
 std::string to_table(const std::vector<results::ComparedRow>& rows)
@@ -35,8 +35,7 @@ std::string to_table(const std::vector<results::ComparedRow>& rows)
     for (const results::ComparedRow& row : rows) {
         if (!row.conditions.empty() && row.conditions != results::all_conditions) continue;
         const auto number = [](double value) { return records::number_text(value, 4); };
-        const auto name =
-            fmt::format("{} {} {}", row.algorithm, row.task, row.measure);
+        const auto name = fmt::format("{} {} {}", row.algorithm, row.task, row.measure);
         table.rows.push_back({name,
                               {fmt::format("{}", row.sessions), number(row.median_a),
                                number(row.median_b), number(row.difference), number(row.ci_low),

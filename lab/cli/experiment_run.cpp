@@ -51,8 +51,8 @@ void write_text(const fs::path& path, const std::string& text)
 void tell_of_damage(const runner::SessionStore& store, const std::string& where)
 {
     if (store.damaged_lines() == 0) return;
-    net::say(program_name, fmt::format("{} lines of {} are damaged and left out",
-                                       store.damaged_lines(), where));
+    net::say(program_name,
+             fmt::format("{} lines of {} are damaged and left out", store.damaged_lines(), where));
 }
 
 /// records/[VALUE/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed.
@@ -177,8 +177,7 @@ public:
     void add(const LoadedExperiment::Part& part, const ShardRun::Results& found)
     {
         if (part.experiment.record) write_records(out_, part);
-        const auto files =
-            results::make_result_files(part.experiment, experiment_.criteria, found);
+        const auto files = results::make_result_files(part.experiment, experiment_.criteria, found);
         if (!files) throw std::runtime_error{files.error().message};
         for (const results::File& file : *files) add(part, file);
     }
@@ -265,7 +264,8 @@ std::string stem_of(const experiment::Shard& shard)
 /// The files of sessions in a folder, and in its shards/.
 void collect_sessions(const fs::path& folder, std::vector<std::string>& paths)
 {
-    if (fs::exists(folder / "sessions.jsonl")) paths.push_back((folder / "sessions.jsonl").string());
+    if (fs::exists(folder / "sessions.jsonl"))
+        paths.push_back((folder / "sessions.jsonl").string());
     if (!fs::is_directory(folder / "shards")) return;
     for (const auto& entry : fs::directory_iterator{folder / "shards"}) {
         if (entry.path().extension() == ".jsonl") paths.push_back(entry.path().string());
@@ -303,7 +303,8 @@ base::Result<int> run_whole(const LoadedExperiment& experiment, const RunPlace& 
     tell_of_damage(**store, path);
     ResultFolder folder{experiment, place};
     ShardRun run{experiment, {}, {**store, runner::play_in_virtual_time, place.threads, {}}};
-    const auto done = run.run([&](const auto& part, const auto& found) { folder.add(part, found); });
+    const auto done =
+        run.run([&](const auto& part, const auto& found) { folder.add(part, found); });
     const auto counts = (*store)->counts();
     if (!done) throw std::runtime_error{done.error().message};
     if (!*done) {
@@ -360,7 +361,8 @@ base::Result<int> merge_shards(const LoadedExperiment& experiment,
         return base::fail(fmt::format("nobody has played '{}'", key_of(spec, "")));
     };
     ShardRun run{experiment, {}, {**store, play, place.threads, {}}};
-    const auto done = run.run([&](const auto& part, const auto& found) { folder.add(part, found); });
+    const auto done =
+        run.run([&](const auto& part, const auto& found) { folder.add(part, found); });
     if (!done) {
         const auto unfinished = unfinished_among(files);
         net::say(program_name,

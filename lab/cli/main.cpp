@@ -12,6 +12,7 @@
 #include "lab/records/analysis_report.hpp"
 #include "lab/records/csv.hpp"
 #include "lab/records/replay.hpp"
+#include "lab/records/ros_messages.hpp"
 #include "lab/runner/freed_memory.hpp"
 #include "lab/scenes/explain.hpp"
 #include "peer/core/sync/text.hpp"
@@ -34,7 +35,7 @@ namespace {
 
 constexpr std::string_view program = "hapnet-lab";
 
-void print(const std::string& text)
+void print(std::string_view text)
 {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
         throw std::system_error{errno, std::generic_category(), "cannot write the result"};
@@ -86,6 +87,10 @@ base::Result<int> run_join(const ExportCommand& command)
         return base::fail("cannot join " + command.record + " (A) with " + command.other +
                           " (B): " + session.error().message);
     }
+    if (command.as_mcap) {
+        records::write_mcap(*session, print);
+        return 0;
+    }
     print(records::joined_csv_header() + '\n');
     records::for_each_joined_csv_line(*session,
                                       [](const std::string& line) { print(line + '\n'); });
@@ -97,6 +102,10 @@ base::Result<int> run(const ExportCommand& command)
     if (!command.other.empty()) return run_join(command);
     const auto record = read_record(command.record);
     if (!record) return tl::unexpected{record.error()};
+    if (command.as_mcap) {
+        records::write_mcap(*record, print);
+        return 0;
+    }
     const auto zero = records::csv_zero(*record);
     if (command.rows == ExportRows::messages) {
         const auto sessions = records::newest_sessions(*record);

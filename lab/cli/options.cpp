@@ -42,6 +42,7 @@ constexpr const char* footer =
   hapnet-lab analyse 1.rec 2.rec 3.rec
   hapnet-lab export a.rec > a.csv
   hapnet-lab export a.rec b.rec > both.csv
+  hapnet-lab export a.rec b.rec --mcap > both.mcap
   hapnet-lab replay a.rec --algorithm dead-reckoning
   hapnet-lab explain paper)";
 
@@ -100,16 +101,22 @@ base::Result<ExportRows> parse_export_rows(const std::string& text)
 
 void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
 {
-    command.describe("Prints the rows of a record as CSV. Times count from the start of its "
-                     "session. Of the records of both peers it prints the ticks of their last "
-                     "common session on one time axis: each tick of the first with the last tick "
-                     "of the other that is not later.");
+    command.describe(
+        "Prints the rows of a record as CSV, or all poses and forces as MCAP. Times of "
+        "CSV count from the start of its "
+        "session. Of the records of both peers it prints the ticks of their last "
+        "common session on one time axis: each tick of the first with the last tick "
+        "of the other that is not later.");
     command.add_exit_codes(exit_codes_without_run);
     command.positional("RECORD", "The record of one peer", cli::into(exported.record))
         .required("a.rec");
     command.positional("OTHER", "The record of the other peer, to join the two",
                        cli::into(exported.other));
-    command.flag("--csv", "As CSV: the only format, and the default", as_csv);
+    command.flag("--csv", "As CSV: the default", as_csv);
+    command.flag("--mcap",
+                 "As MCAP with messages of ROS 2, PoseStamped and WrenchStamped, for Foxglove, "
+                 "Lichtblick and PlotJuggler; of the records of both peers both are in it",
+                 exported.as_mcap);
     command.option(
         "--rows", "ticks|messages|bodies",
         "Ticks of the haptic loop, messages received, or where each tick left the shared "
@@ -216,10 +223,10 @@ void add_jobs(cli::Command& command, std::optional<unsigned>& jobs)
 void add_experiment(cli::Command& command, RunCommand& run, const std::string& what)
 {
     command
-        .positional("EXPERIMENT",
-                    fmt::format("{}, or one of {}", what,
-                                names_of(experiment::built_in_experiments())),
-                    cli::into(run.experiment))
+        .positional(
+            "EXPERIMENT",
+            fmt::format("{}, or one of {}", what, names_of(experiment::built_in_experiments())),
+            cli::into(run.experiment))
         .required("table1 --out results/table1");
     command
         .option("--set", "KEY=VALUE",
@@ -446,6 +453,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     if ((replay.json && replay.csv) || (compare.json && compare.csv)) {
         return base::fail("--json and --csv exclude each other: give one of them");
     }
+    if (exported.as_mcap && (export_command.is_given("--rows") || export_command.is_given("--csv")))
+        return base::fail("--mcap has all that ticks and bodies hold: leave --csv and --rows out");
     if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
         return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
                           "or give one record");

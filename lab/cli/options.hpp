@@ -43,11 +43,12 @@ struct PlayCommand {
 
 enum class ExportRows : std::uint8_t { ticks, messages, bodies };
 
-/// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages|bodies]`
+/// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages|bodies] | --mcap`
 struct ExportCommand {
     std::string record;
     std::string other; // of the other peer: the ticks of both are joined; empty: of one alone
     ExportRows rows = ExportRows::ticks;
+    bool as_mcap = false; // instead of CSV
 };
 
 /// `hapnet-lab demo-report FOLDER`: the end of scripts/demo.sh.

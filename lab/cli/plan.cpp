@@ -42,13 +42,11 @@ base::Result<Plan> read_plan(const std::string& path)
 
 void write_plan(const Plan& plan, const std::string& path)
 {
-    const nlohmann::ordered_json json{{"format", plan_format},
-                                      {"experiment", plan.experiment},
-                                      {"quick", plan.overrides.quick},
-                                      {"settings", plan.overrides.settings},
-                                      {"criteria", plan.criteria},
-                                      {"files", plan.files},
-                                      {"program", plan.program}};
+    const nlohmann::ordered_json json{
+        {"format", plan_format},         {"experiment", plan.experiment},
+        {"quick", plan.overrides.quick}, {"settings", plan.overrides.settings},
+        {"criteria", plan.criteria},     {"files", plan.files},
+        {"program", plan.program}};
     net::ResultFile{path}.commit(json.dump(2) + '\n');
 }
 

@@ -18,7 +18,7 @@ struct Plan {
     experiment::Overrides overrides{};
     std::string criteria;                       // likewise
     std::map<std::string, std::string> files{}; // the texts of all files that were read, by name
-    std::string program; // who made it: another program may play otherwise
+    std::string program;                        // who made it: another program may play otherwise
 };
 
 inline constexpr const char* plan_name = "plan.json";

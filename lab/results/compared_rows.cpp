@@ -108,8 +108,8 @@ using Cells = std::vector<std::string>;
 using CommonSessions = std::vector<std::pair<const Cells*, const Cells*>>;
 
 /// Nothing where neither file has numbers.
-void add_rows(const ComparedRow& named, const CommonSessions& pairs, const Sessions& a, const Sessions& b,
-              std::vector<ComparedRow>& rows)
+void add_rows(const ComparedRow& named, const CommonSessions& pairs, const Sessions& a,
+              const Sessions& b, std::vector<ComparedRow>& rows)
 {
     for (const std::string_view measure : measures) {
         const auto in_a = place_of(a.measured, measure), in_b = place_of(b.measured, measure);

@@ -19,8 +19,9 @@ inline constexpr const char* all_conditions = "all";
 struct ComparedRow {
     std::string algorithm;
     std::string task;
-    std::string conditions; // what else differs among the sessions: "delay_ms=40"; or all_conditions
-    std::string measure;    // with its unit
+    std::string
+        conditions;      // what else differs among the sessions: "delay_ms=40"; or all_conditions
+    std::string measure; // with its unit
     std::uint32_t sessions = 0;
     double median_a = 0.0;
     double median_b = 0.0;
@@ -33,23 +34,19 @@ constexpr auto fields_of(base::Tag<ComparedRow>)
 {
     using Row = ComparedRow;
     constexpr base::Decimals four{4};
-    return base::fields("compared", base::field("algorithm", &Row::algorithm),
-                        base::field("task", &Row::task),
-                        base::field("conditions", &Row::conditions),
-                        base::field("measure", &Row::measure),
-                        base::field("sessions", &Row::sessions),
-                        base::field("median_a", &Row::median_a, four),
-                        base::field("median_b", &Row::median_b, four),
-                        base::field("difference", &Row::difference, four),
-                        base::field("ci_low", &Row::ci_low, four),
-                        base::field("ci_high", &Row::ci_high, four),
-                        base::field("sign_test_p", &Row::sign_test_p));
+    return base::fields(
+        "compared", base::field("algorithm", &Row::algorithm), base::field("task", &Row::task),
+        base::field("conditions", &Row::conditions), base::field("measure", &Row::measure),
+        base::field("sessions", &Row::sessions), base::field("median_a", &Row::median_a, four),
+        base::field("median_b", &Row::median_b, four),
+        base::field("difference", &Row::difference, four),
+        base::field("ci_low", &Row::ci_low, four), base::field("ci_high", &Row::ci_high, four),
+        base::field("sign_test_p", &Row::sign_test_p));
 }
 
 /// Pairs the sessions of two files of sessions (sessions.csv, sessions_by_axis.csv) that are alike
 /// in every column but those that a session is measured by. Conditions together have a row "all"
 /// where there are several. The error: a file is none, or they have no session in common.
-[[nodiscard]] base::Result<std::vector<ComparedRow>> compare_sessions(const File& a,
-                                                                      const File& b);
+[[nodiscard]] base::Result<std::vector<ComparedRow>> compare_sessions(const File& a, const File& b);
 
 } // namespace hapnet::lab::results

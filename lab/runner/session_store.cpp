@@ -65,8 +65,8 @@ LinesRead for_each_line(const auto& file, const auto& use)
     while (true) {
         const auto kept = text.size();
         text.resize(kept + block);
-        const auto count = ::pread(file.descriptor, text.data() + kept, block,
-                                   static_cast<off_t>(read.length));
+        const auto count =
+            ::pread(file.descriptor, text.data() + kept, block, static_cast<off_t>(read.length));
         if (count < 0 && errno != EINTR) refuse_file("read", file.path);
         text.resize(kept + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
         if (count == 0) break;
@@ -185,12 +185,12 @@ experiment::PlayedSession SessionStore::read_at(const Place& place, const std::s
 {
     const File& file = files_[place.file];
     std::string text(place.length, '\0');
-    const auto count = ::pread(file.descriptor, text.data(), text.size(),
-                               static_cast<off_t>(place.offset));
+    const auto count =
+        ::pread(file.descriptor, text.data(), text.size(), static_cast<off_t>(place.offset));
     if (count < 0) refuse_file("read", file.path);
     const Json line = Json::parse(text, nullptr, false);
-    auto played = line.is_object() && line.value("key", Json{}) == key ? played_from(line)
-                                                                       : std::nullopt;
+    auto played =
+        line.is_object() && line.value("key", Json{}) == key ? played_from(line) : std::nullopt;
     if (!played) throw std::runtime_error{file.path + " was changed by something else"};
     return *std::move(played);
 }

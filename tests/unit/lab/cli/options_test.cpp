@@ -30,9 +30,9 @@ TEST(LabOptions, HaveACompleteHelp)
     EXPECT_EQ(prints({"report", "--help"})
                   ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B] [MORE ...]\n", 0),
               0U);
-    EXPECT_EQ(
-        prints({"help", "plan"})->rfind("Usage: hapnet-lab plan EXPERIMENT --out DIR [OPTIONS]\n", 0),
-        0U);
+    EXPECT_EQ(prints({"help", "plan"})
+                  ->rfind("Usage: hapnet-lab plan EXPERIMENT --out DIR [OPTIONS]\n", 0),
+              0U);
 }
 
 TEST(LabOptions, HoldWhatWasTyped)

@@ -29,7 +29,10 @@ loss = ["0%", "50%"]
 
 std::string label(const Job& job) { return key_of(std::get<SessionJob>(job).spec, ""); }
 
-std::string twin(const Job& job) { return key_of(perfect_twin(std::get<SessionJob>(job).spec), ""); }
+std::string twin(const Job& job)
+{
+    return key_of(perfect_twin(std::get<SessionJob>(job).spec), "");
+}
 
 /// The labels of the jobs that each shard takes, part after part.
 std::vector<std::vector<std::string>> dealt(const Experiment& experiment, std::uint32_t count)

@@ -99,8 +99,7 @@ TEST_F(SessionFile, GivesTheSameResultsForAnyNumberOfJobsAndPlaysNoSessionTwice)
     for (const unsigned jobs : {1U, 2U, 5U}) {
         std::filesystem::remove(path);
         const auto store = open();
-        const auto findings =
-            run_whole(experiment, runner_of(*store, jobs), stop);
+        const auto findings = run_whole(experiment, runner_of(*store, jobs), stop);
         ASSERT_TRUE(findings && *findings);
         const auto limits = limits_of(experiment, **findings);
         if (jobs == 1) {
@@ -118,8 +117,7 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 {
     const auto run = [&](const experiment::Experiment& experiment) {
         const auto store = open();
-        const auto findings =
-            run_whole(experiment, runner_of(*store, 2), stop);
+        const auto findings = run_whole(experiment, runner_of(*store, 2), stop);
         EXPECT_TRUE(findings && *findings);
         return store->counts();
     };
@@ -134,8 +132,7 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 
 TEST_F(SessionFile, DoesNotReuseTheSessionsOfAnotherProgram)
 {
-    std::ignore =
-        run_whole(known_limits(), runner_of(*open(), 1), stop);
+    std::ignore = run_whole(known_limits(), runner_of(*open(), 1), stop);
     const auto store = open("that");
     std::ignore = run_whole(known_limits(), runner_of(*store, 1), stop);
     EXPECT_EQ(store->counts().reused, 0U);
@@ -143,16 +140,14 @@ TEST_F(SessionFile, DoesNotReuseTheSessionsOfAnotherProgram)
 
 TEST_F(SessionFile, LosesOnlyTheLineThatWasCutOff)
 {
-    std::ignore =
-        run_whole(known_limits(), runner_of(*open(), 1), stop);
+    std::ignore = run_whole(known_limits(), runner_of(*open(), 1), stop);
     const auto whole = text();
     const auto lines = static_cast<std::size_t>(std::count(whole.begin(), whole.end(), '\n'));
     std::filesystem::resize_file(path, whole.size() - 20);
     for (const std::size_t played : {std::size_t{1}, std::size_t{0}}) {
         const auto store = open();
         EXPECT_EQ(store->damaged_lines(), 1U);
-        const auto findings =
-            run_whole(known_limits(), runner_of(*store, 1), stop);
+        const auto findings = run_whole(known_limits(), runner_of(*store, 1), stop);
         ASSERT_TRUE(findings && *findings);
         EXPECT_EQ(store->counts().played, played);
         EXPECT_EQ(store->counts().reused, lines - 1 - played); // the first is a header
@@ -200,8 +195,7 @@ TEST_F(SessionFile, PassesOnWhatAThreadHasThrown)
                      const std::atomic<bool>&) -> base::Result<experiment::PlayedSession> {
         throw std::runtime_error{"disk full"};
     };
-    EXPECT_THROW(std::ignore = run_whole(known_limits(), runner, stop),
-                 std::runtime_error);
+    EXPECT_THROW(std::ignore = run_whole(known_limits(), runner, stop), std::runtime_error);
 }
 
 TEST_F(SessionFile, ReadsTheSessionsOfSeveralFilesAndKeepsNoOther)

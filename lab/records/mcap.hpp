@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hapnet::lab::records {
+
+/// Writes MCAP (https://mcap.dev/spec), version 0, profile ros2: messages in chunks with an index,
+/// neither compressed nor with checksums.
+class McapWriter {
+public:
+    /// Takes the bytes of the file in their order.
+    using Take = std::function<void(std::string_view)>;
+
+    explicit McapWriter(Take take);
+
+    /// Adds a schema of encoding ros2msg; all schemas and channels come before the first message.
+    [[nodiscard]] std::uint16_t add_schema(std::string_view name, std::string_view text);
+    /// Adds a channel whose messages are encoded as CDR.
+    [[nodiscard]] std::uint16_t add_channel(std::uint16_t schema, std::string_view topic);
+
+    /// `time_ns`: of logging and of publishing, in nanoseconds since whatever the file's times
+    /// count from.
+    void write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
+
+    /// Ends the file.
+    void finish();
+
+private:
+    /// Where the messages of a chunk stand in it: time and offset, by channel.
+    using Index = std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>>;
+    /// The first and the last of some messages.
+    struct Times {
+        std::uint64_t first = 0;
+        std::uint64_t last = 0;
+        std::uint64_t messages = 0;
+
+        void add(std::uint64_t time_ns);
+    };
+
+    void emit(std::string_view bytes);
+    void end_chunk();
+
+    Take take_;
+    std::uint64_t offset_ = 0;
+    std::string schemas_;  // records
+    std::string channels_; // records
+    std::uint16_t schemas_count_ = 0;
+    std::map<std::uint16_t, std::uint64_t> messages_by_channel_;
+    Times times_;
+
+    std::string chunk_; // records of messages
+    Index index_;
+    Times chunk_times_;
+    std::string chunk_indexes_; // records
+    std::uint32_t chunks_ = 0;
+};
+
+} // namespace hapnet::lab::records
