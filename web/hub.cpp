@@ -302,7 +302,7 @@ void Hub::note(Event event)
 
 void Hub::tell_all(const Viewer::Text& text)
 {
-    const auto viewers = viewers_; // telling one may make it leave
+    const auto viewers = *viewers_; // telling one may make it leave
     for (const auto& [id, viewer] : viewers) viewer.tell(text);
 }
 
@@ -311,7 +311,7 @@ void Hub::tell_state(base::TimePoint now)
     if (!has_news_ || (next_state_ && !base::is_due(next_state_, now))) return;
     has_news_ = false;
     next_state_ = now + state_every;
-    if (viewers_.empty()) return;
+    if (viewers_->empty()) return;
     tell_all(shared(text_of(Json{{"type", "state"}, {"state", state()}})));
 }
 
@@ -344,7 +344,7 @@ void Hub::tell_frame(base::TimePoint now)
     }
     const auto body = feed_.next(at_s(), now);
     if (!body) return;
-    const auto viewers = viewers_;
+    const auto viewers = *viewers_;
     for (const auto& [id, viewer] : viewers) viewer.frame(*body);
     step_trap(now);
 }
@@ -362,7 +362,7 @@ void Hub::step_trap(base::TimePoint now)
     }
 }
 
-std::optional<std::uint64_t> Hub::join(Viewer viewer)
+std::optional<Membership> Hub::join(Viewer viewer)
 {
     if (is_full()) return std::nullopt;
     viewer.tell(shared(text_of(Json{{"type", "hello"},
@@ -372,8 +372,8 @@ std::optional<std::uint64_t> Hub::join(Viewer viewer)
                                     {"state", state()}})));
     viewer.tell(shared(feed_.history().fine_json()));
     const auto id = next_viewer_++;
-    viewers_.emplace(id, std::move(viewer));
-    return id;
+    viewers_->emplace(id, std::move(viewer));
+    return Membership{viewers_, id};
 }
 
 void Hub::answer(std::string_view path, const std::string& body, const OnReply& on_reply)

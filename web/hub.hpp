@@ -21,6 +21,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hapnet::web {
@@ -31,6 +32,28 @@ struct Viewer {
     std::function<void(Text)> tell;
     /// A live frame without its beginning, which has the page's own numbers.
     std::function<void(const std::string& body)> frame;
+};
+
+using Viewers = std::map<std::uint64_t, Viewer>;
+
+/// A place among the viewers, as long as it lives. It may outlive them: connections end last.
+class Membership {
+public:
+    Membership(std::weak_ptr<Viewers> viewers, std::uint64_t id)
+        : viewers_{std::move(viewers)}, id_{id}
+    {}
+    ~Membership()
+    {
+        if (const auto viewers = viewers_.lock()) viewers->erase(id_);
+    }
+    Membership(Membership&& other) noexcept
+        : viewers_{std::exchange(other.viewers_, {})}, id_{other.id_}
+    {}
+    Membership& operator=(Membership&&) = delete;
+
+private:
+    std::weak_ptr<Viewers> viewers_;
+    std::uint64_t id_;
 };
 
 /// Between daemons, stage and pages: joins frames, passes requests on, tells everybody what has
@@ -53,9 +76,8 @@ public:
     void tick(base::TimePoint now);
 
     /// nullopt: too many look already. Tells it what has been so far.
-    [[nodiscard]] std::optional<std::uint64_t> join(Viewer viewer);
-    void leave(std::uint64_t id) { viewers_.erase(id); }
-    [[nodiscard]] bool is_full() const { return viewers_.size() >= viewers_max; }
+    [[nodiscard]] std::optional<Membership> join(Viewer viewer);
+    [[nodiscard]] bool is_full() const { return viewers_->size() >= viewers_max; }
 
     /// Of a request that the gate has let in. `path` is without query.
     void answer(std::string_view path, const std::string& body, const OnReply& on_reply);
@@ -115,7 +137,7 @@ private:
     std::uint64_t shown_generation_ = 0;
     bool is_showing_ = false;
     std::vector<std::shared_ptr<PeerDaemon>> peers_; // in the order of the feed
-    std::map<std::uint64_t, Viewer> viewers_;
+    std::shared_ptr<Viewers> viewers_ = std::make_shared<Viewers>();
     std::uint64_t next_viewer_ = 1;
     bool has_news_ = true; // of the state
     std::optional<base::TimePoint> next_state_;

@@ -40,14 +40,8 @@ base::Result<std::uint16_t> port_of(const std::string& text)
     return static_cast<std::uint16_t>(*port);
 }
 
-} // namespace
-
-net::CommandLine<Options> parse_options(std::span<char*> words)
+void add_options(cli::Command& program, Options& options)
 {
-    Options options;
-    cli::Command program{"hapnet-web", description};
-    program.add_footer(footer);
-    program.add_exit_codes(exit_codes);
     program.option("--emulator", "SOCKET", "The control socket of an emulator",
                    cli::into(options.emulator));
     program
@@ -80,8 +74,11 @@ net::CommandLine<Options> parse_options(std::span<char*> words)
                    cli::into(options.token_file));
     program.option("--url-file", "FILE", "Write the address with its token there (mode 0600)",
                    cli::into(options.url_file));
-    if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
-    options.is_port_chosen = program.is_given("--port");
+}
+
+/// Whether they go together.
+base::Result<void> check(const Options& options)
+{
     const bool attaches = !options.emulator.empty() || !options.peers.empty();
     if (options.stage && (attaches || !options.lab.empty())) {
         return base::fail("--stage starts its own programs: leave --emulator, --peer and --lab "
@@ -100,6 +97,21 @@ net::CommandLine<Options> parse_options(std::span<char*> words)
         return base::fail("--listen needs --token-file FILE and --host NAME; or stay on loopback "
                           "and use ssh -L");
     }
+    return {};
+}
+
+} // namespace
+
+net::CommandLine<Options> parse_options(std::span<char*> words)
+{
+    Options options;
+    cli::Command program{"hapnet-web", description};
+    program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
+    add_options(program, options);
+    if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    options.is_port_chosen = program.is_given("--port");
+    if (auto fine = check(options); !fine) return tl::unexpected{fine.error()};
     for (std::string& host : options.hosts) {
         if (host.find(':') == std::string::npos) host += fmt::format(":{}", options.port);
     }

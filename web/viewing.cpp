@@ -52,10 +52,7 @@ public:
     Viewing(asio::ip::tcp::socket socket, Hub& hub, const Gate& gate)
         : stream_{std::move(socket)}, timer_{stream_.get_executor()}, hub_{hub}, gate_{gate}
     {}
-    ~Viewing()
-    {
-        if (id_) hub_.leave(*id_);
-    }
+    ~Viewing() = default;
     Viewing(const Viewing&) = delete;
     Viewing& operator=(const Viewing&) = delete;
 
@@ -113,15 +110,17 @@ private:
         is_in_ = true;
         timer_.cancel();
         const std::weak_ptr<Viewing> weak = shared_from_this();
-        id_ = hub_.join({.tell =
-                             [weak](const Viewer::Text& message_text) {
-                                 if (const auto self = weak.lock()) self->push(message_text);
-                             },
-                         .frame =
-                             [weak](const std::string& body) {
-                                 if (const auto self = weak.lock()) self->push_frame(body);
-                             }});
-        if (!id_) close(close_too_many, "too many pages look already");
+        auto joined = hub_.join({.tell =
+                                     [weak](const Viewer::Text& message_text) {
+                                         if (const auto self = weak.lock())
+                                             self->push(message_text);
+                                     },
+                                 .frame =
+                                     [weak](const std::string& body) {
+                                         if (const auto self = weak.lock()) self->push_frame(body);
+                                     }});
+        if (!joined) return close(close_too_many, "too many pages look already");
+        membership_.emplace(*std::move(joined));
     }
 
     void push_frame(const std::string& body)
@@ -179,7 +178,7 @@ private:
     {
         is_closing_ = true;
         timer_.cancel();
-        if (const auto id = std::exchange(id_, std::nullopt)) hub_.leave(*id);
+        membership_.reset();
     }
 
     /// It does not read: there is nobody to say anything to.
@@ -200,7 +199,7 @@ private:
     std::uint64_t sent_ = 0; // live frames
     std::uint64_t acknowledged_ = 0;
     std::uint64_t left_out_ = 0;
-    std::optional<std::uint64_t> id_; // at the hub
+    std::optional<Membership> membership_; // of the hub
     bool is_in_ = false;
     bool is_closing_ = false;
     std::optional<websocket::close_reason> close_later_;

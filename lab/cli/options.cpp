@@ -321,6 +321,20 @@ void add_play(cli::Command& command, PlayCommand& play)
                    pace_into(play));
 }
 
+/// After the command line was read.
+base::Result<void> complete(PlayCommand& play, const cli::Command& command)
+{
+    if (play.algorithms.empty()) play.algorithms = {"base"};
+    if (play.control.empty() && (!play.out.empty() || command.is_given("--pace"))) {
+        return base::fail("play: --out and --pace go with --control");
+    }
+    if (!play.control.empty() && play.json) {
+        return base::fail("play: --json is for a session that plays to its end: leave --control "
+                          "out");
+    }
+    return {};
+}
+
 void add_run(cli::Command& command, RunCommand& run)
 {
     command.describe("Runs an experiment in virtual time and writes its results as CSV. Run again "
@@ -459,14 +473,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
                           "or give one record");
     }
-    if (play.algorithms.empty()) play.algorithms = {"base"};
-    if (play.control.empty() && (!play.out.empty() || play_command.is_given("--pace"))) {
-        return base::fail("play: --out and --pace go with --control");
-    }
-    if (!play.control.empty() && play.json) {
-        return base::fail("play: --json is for a session that plays to its end: leave --control "
-                          "out");
-    }
+    if (auto fine = complete(play, play_command); !fine) return tl::unexpected{fine.error()};
     explain.sleeping = !no_sleeping;
     run.command = merge.command = fmt::format("{}", fmt::join(words, " "));
     if (analyse_command.is_chosen()) return Command{analyse};

@@ -45,7 +45,10 @@ export const startWeb = async (...more) => {
       if (found) resolve(found[1]);
     });
   });
+  const last = () => child.kill("SIGTERM"); // whatever ends this program
+  process.on("exit", last);
   const stop = async () => {
+    process.off("exit", last);
     child.kill("SIGTERM");
     await ended;
     rmSync(out, { recursive: true, force: true });

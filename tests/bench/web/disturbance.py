@@ -125,8 +125,8 @@ def main():
         print(f"{one['subject']:9} {one['metric']:13} {one['value']:9.1f}  without readers "
               f"{one['baseline_value']:9.1f}  at most {one['target']:9.1f}  "
               f"{'met' if one['met'] else 'MISSED'}")
-    print(f"each reader took {frames:.0f} frames a second; median of {rounds} sessions of {seconds} "
-          "s each way, in turn")
+    print(f"each reader took {frames:.0f} frames a second; median of {rounds} sessions of "
+          f"{seconds} s each way, in turn")
     if chosen.json:
         host = {"machine": platform.platform(), "processors": os.cpu_count(),
                 "load": os.getloadavg()[0]}

@@ -145,6 +145,15 @@ class Attach(unittest.TestCase):
         self.assertIn("--stage", server.state()["help"])
         self.assertEqual(server.ask("POST", "/api/keep", {})[0], 409)
 
+    def test_ends_cleanly_while_pages_look(self):
+        server = self.serve()
+        pages = [Live(server.port, server.token) for _ in range(8)]
+        for page in pages:
+            self.assertEqual(page.read()["type"], "hello")
+        self.assertEqual(server.stop(), 0)
+        for page in pages:
+            page.close()
+
     def test_a_stage_of_three_has_a_link_for_every_two(self):
         server = self.serve("--stage", "--stopped", "--out", self.folder)
         status, body = server.ask("POST", "/api/stage",
