@@ -358,7 +358,7 @@ base::Result<int> merge_shards(const LoadedExperiment& experiment,
     ResultFolder folder{experiment, place};
     const auto play = [](const experiment::SessionSpec& spec,
                          const auto&) -> base::Result<experiment::PlayedSession> {
-        return base::fail(fmt::format("nobody has played '{}'", key_of(spec, "")));
+        return base::fail(fmt::format("'{}' was not played", key_of(spec, "")));
     };
     ShardRun run{experiment, {}, {**store, play, place.threads, {}}};
     const auto done =
