@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/handshake.hpp"
 
+#include "tests/support/seeds.hpp"
 #include "tests/unit/peer/core/meeting.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ void expect_agreement(Meeting& meeting, std::uint64_t seed)
 // 20 s has a probability below 1e-30. The states settle the rest.
 TEST(Handshake, EndsInAgreementUnderLossReorderingAndDuplication)
 {
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    for (std::uint64_t seed = 0; seed < test::seeds(100); ++seed) {
         Meeting meeting{path_of(base::Seed{seed}), base::Seed{seed}};
         meeting.ahead[1] = base::from_seconds(1000.0 * base::Seed{seed}.stream("clock").uniform(0));
         meeting.run_for(20s);
@@ -47,7 +48,7 @@ TEST(Handshake, EndsInAgreementUnderLossReorderingAndDuplication)
 TEST(Handshake, TellsTheStartWithinASecondAndAHalfAlsoAt97PercentLoss)
 {
     const Path path{.delay_min = 200ms, .delay_max = 230ms, .loss = 0.97};
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    for (std::uint64_t seed = 0; seed < test::seeds(100); ++seed) {
         Meeting meeting{path, base::Seed{seed}};
         while (!meeting.sides[0]->session()) meeting.step();
         while (!meeting.sides[1]->session()) meeting.step();
@@ -57,7 +58,7 @@ TEST(Handshake, TellsTheStartWithinASecondAndAHalfAlsoAt97PercentLoss)
 
 TEST(Handshake, EndsInAgreementAfterAnyRestarts)
 {
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    for (std::uint64_t seed = 0; seed < test::seeds(100); ++seed) {
         const auto draw = base::Seed{seed}.stream("restarts");
         Meeting meeting{path_of(base::Seed{seed}), base::Seed{seed}};
         for (std::uint64_t restart = 0; restart < 4; ++restart) {

@@ -3,6 +3,7 @@
 //
 // Random scenes under the laws of SceneLaws. Millions of them: scripts/soak.sh scene.
 #include "tests/support/scene/scene_laws.hpp"
+#include "tests/support/seeds.hpp"
 
 #include <gtest/gtest.h>
 #include <optional>
@@ -12,7 +13,7 @@ namespace {
 
 TEST(RandomPlay, KeepsEveryLawAndItsFutureAfterASnapshot)
 {
-    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    for (std::uint64_t seed = 0; seed < seeds(300); ++seed) {
         const PlayOutcome outcome = judge(random_play(seed), seed);
         EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
     }
@@ -20,7 +21,7 @@ TEST(RandomPlay, KeepsEveryLawAndItsFutureAfterASnapshot)
 
 TEST(RandomPlay, OfRoundBodiesKeepsEveryLaw)
 {
-    for (std::uint64_t seed = round_plays_from; seed < round_plays_from + 300; ++seed) {
+    for (std::uint64_t seed = round_plays_from; seed < round_plays_from + seeds(300); ++seed) {
         const PlayOutcome outcome = judge(random_play(seed), seed);
         EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
     }
@@ -28,7 +29,7 @@ TEST(RandomPlay, OfRoundBodiesKeepsEveryLaw)
 
 TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
 {
-    for (std::uint64_t seed = elements_from; seed < elements_from + 300; ++seed) {
+    for (std::uint64_t seed = elements_from; seed < elements_from + seeds(300); ++seed) {
         const PlayOutcome outcome = judge(random_play(seed), seed);
         EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
     }
@@ -36,7 +37,7 @@ TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
 
 TEST(RandomPlay, OfBodiesOfSeveralPartsKeepsEveryLaw)
 {
-    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    for (std::uint64_t seed = 0; seed < seeds(300); ++seed) {
         const PlayOutcome outcome = judge(random_play(seed, {.compounds = true}), seed);
         EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
     }
@@ -51,7 +52,7 @@ TEST(RandomPlay, IsTheSameEveryTime)
 
 TEST(RandomPlay, WithJointsKeepsTheLaws)
 {
-    for (std::uint64_t seed = 900'020'000; seed < 900'020'200; ++seed) {
+    for (std::uint64_t seed = 900'020'000; seed < 900'020'000 + seeds(200); ++seed) {
         const PlayOutcome outcome = judge(random_play(seed, {.joints = true}), seed);
         EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
     }
@@ -60,7 +61,7 @@ TEST(RandomPlay, WithJointsKeepsTheLaws)
 /// Few hostile scenes with joints break a law (docs/results/limitations.md), but never these.
 TEST(RandomPlay, WithJointsStaysFiniteAndHasTheSameFutureAfterASnapshot)
 {
-    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    for (std::uint64_t seed = 0; seed < seeds(200); ++seed) {
         const RandomPlay play = random_play(seed, {.joints = true});
         auto world = scene::World::freeze(play.description, play.options);
         ASSERT_TRUE(world) << seed << world.error().message;
