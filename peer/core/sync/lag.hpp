@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/sync/age_quantile.hpp"
+#include "peer/core/sync/base_options.hpp"
 #include "peer/core/sync/hand_history.hpp"
 
 #include <chrono>
