@@ -8,15 +8,16 @@ set -euo pipefail
 usage="usage: scripts/setup.sh [--test] [--programs] [--package] [--fleet]
 Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
 also those that scripts/test.sh needs, with --programs those that its kind programs needs, with
---package those that scripts/package.sh needs, with --fleet those that its kind fleet needs. Runs as root or with sudo, asks nothing, and does
-nothing when nothing is missing."
+--package those that scripts/package.sh needs, with --fleet those that its kind fleet needs. Runs as
+root or with sudo, asks nothing, and does nothing when nothing is missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
     libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
     libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping libbenchmark-dev
     libbullet-dev libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
-    passt python3-dissononce python3-jsonschema python3-transitions shellcheck slirp4netns tshark umockdev valgrind)
+    passt python3-dissononce python3-jsonschema python3-transitions shellcheck slirp4netns
+    tshark umockdev valgrind)
 
 # Other people's programs, which run through the emulator.
 program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ngtcp2-client

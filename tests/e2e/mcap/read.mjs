@@ -58,7 +58,8 @@ for (const peer of peers) {
   }
   assert([...topics.keys()].some((topic) => topic.startsWith(`/peer_${peer}/body`)));
 }
-const [head, ...rows] = readFileSync(csv, "utf8").trimEnd().split("\n").map((row) => row.split(","));
+const lines = readFileSync(csv, "utf8").trimEnd().split("\n");
+const [head, ...rows] = lines.map((row) => row.split(","));
 const column = (name) => {
   const index = head.indexOf(name);
   assert(index >= 0, `a column ${name} among ${head}`);
