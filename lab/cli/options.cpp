@@ -319,6 +319,14 @@ std::string list_of_names()
            line("tasks", fmt::format("{}", fmt::join(base::names_of_enum<device::Task>, ", ")));
 }
 
+void describe_program(cli::Command& program)
+{
+    program.describe(description);
+    program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
+    program.require_command();
+}
+
 base::Result<void> check(const ExportCommand& exported, bool says_how)
 {
     if (exported.as_mcap && says_how)
@@ -348,11 +356,7 @@ Command chosen_of(std::tuple<cli::Command&, Options&>... offers)
 net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
     cli::Command program{"hapnet-lab"};
-    program.describe(description);
-    program.add_footer(footer);
-    program.add_exit_codes(exit_codes);
-    program.require_command();
-
+    describe_program(program);
     const auto& list_command = program.command("list", "Prints the names of what is built in");
     RunCommand run;
     auto& run_command = program.command("run", "Runs an experiment in virtual time");
@@ -394,9 +398,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (list_command.is_chosen()) return net::Answer{list_of_names()};
-    if ((replay.json && replay.csv) || (compare.json && compare.csv)) {
+    if ((replay.json && replay.csv) || (compare.json && compare.csv))
         return base::fail("--json and --csv exclude each other: give one of them");
-    }
     const bool says_how = export_command.is_given("--rows") || export_command.is_given("--csv");
     if (auto good = check(exported, says_how); !good) return tl::unexpected{good.error()};
     explain.sleeping = !no_sleeping;
