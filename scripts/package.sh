@@ -9,7 +9,8 @@ usage="usage: scripts/package.sh --out DIR [--only emulator]
 Installs what is missing, builds the programs, and leaves in DIR the packages hapnet-emulator (with
 hapnet-ctl and no library of devices) and hapnet (hapnet-peer, hapnet-lab), each with manual pages,
 completions for bash, zsh and fish, and a unit of systemd; hapnet-web, whose page draws with
-modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; and a tarball of the programs that runs from any folder and needs no package.
+modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; and a tarball of the
+programs that runs from any folder and needs no package.
 --only emulator makes the first alone, and a tarball with its programs.
 Install them with: apt-get install ./DIR/hapnet-emulator_*.deb
 Exits 0 when they are there, 1 when something failed, 2 for an unknown argument, 3 when something
@@ -52,7 +53,8 @@ make() {
 make -DHAPNET_STATIC=OFF
 rm -rf "$build/packages"
 cpack --config "$build/CPackConfig.cmake" -B "$build/packages"
-rm -f "$out"/{hapnet,hapnet-emulator,hapnet-web,hapnet-dev,python3-hapnet}_*.deb "$out"/hapnet-*.tar.gz
+rm -f "$out"/{hapnet,hapnet-emulator,hapnet-web,hapnet-dev,python3-hapnet}_*.deb \
+    "$out"/hapnet-*.tar.gz
 cp "$build"/packages/*.deb "$out"
 
 # The same objects, linked with archives.

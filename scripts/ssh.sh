@@ -7,9 +7,10 @@ set -euo pipefail
 
 usage="usage: scripts/ssh.sh DIR --shards N [--hosts FILE] [--jobs N] [-- PARALLEL_OPTION ...]
 DIR is what hapnet-lab plan wrote; hapnet-lab is the one in PATH, or in the folder that HAPNET_BIN
-names. FILE has a line for each machine, as GNU parallel's --sshloginfile: [USER@]HOST, or a whole command
-of ssh. Without --hosts this machine plays. Program and plan are copied there, and what was played
-comes back: the machines share no disk, and need rsync and the libraries of the program (that of the
+names. FILE has a line for each machine, as GNU parallel's --sshloginfile: [USER@]HOST, or a whole
+command of ssh. Without --hosts this machine plays. Program and plan are copied there, and what was
+played comes back: the machines share no disk, and need rsync and the libraries of the program
+(that of the
 tarball needs none). --jobs is how many shards a machine plays at a time (default 1), each on all
 processors. Run it again after something died: it plays what is missing.
 Exits 0 when all is merged, 1 when something failed, 2 for a wrong argument."

@@ -7,6 +7,7 @@
 #include "lab/experiment/text.hpp"
 #include "lab/live/pace.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
@@ -17,6 +18,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -410,16 +412,44 @@ std::string list_of_names()
            line("tasks", fmt::format("{}", fmt::join(base::names_of_enum<device::Task>, ", ")));
 }
 
+void describe_program(cli::Command& program)
+{
+    program.describe(description);
+    program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
+    program.require_command();
+}
+
+base::Result<void> check(const ExportCommand& exported, bool says_how)
+{
+    if (exported.as_mcap && says_how)
+        return base::fail("--mcap has all that ticks and bodies hold: leave --csv and --rows out");
+    if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
+        return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
+                          "or give one record");
+    }
+    return {};
+}
+
+/// Of commands and what their options went into, the one that was chosen.
+template <typename... Options>
+Command chosen_of(std::tuple<cli::Command&, Options&>... offers)
+{
+    std::optional<Command> chosen;
+    const auto take = [&](const cli::Command& command, auto& options) {
+        if (command.is_chosen()) chosen = Command{std::move(options)};
+    };
+    (std::apply(take, offers), ...);
+    base::ensure(chosen.has_value());
+    return *std::move(chosen);
+}
+
 } // namespace
 
 net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
     cli::Command program{"hapnet-lab"};
-    program.describe(description);
-    program.add_footer(footer);
-    program.add_exit_codes(exit_codes);
-    program.require_command();
-
+    describe_program(program);
     const auto& list_command = program.command("list", "Prints the names of what is built in");
     RunCommand run;
     auto& run_command = program.command("run", "Runs an experiment in virtual time");
@@ -464,30 +494,19 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (list_command.is_chosen()) return net::Answer{list_of_names()};
-    if ((replay.json && replay.csv) || (compare.json && compare.csv)) {
+    if ((replay.json && replay.csv) || (compare.json && compare.csv))
         return base::fail("--json and --csv exclude each other: give one of them");
-    }
-    if (exported.as_mcap && (export_command.is_given("--rows") || export_command.is_given("--csv")))
-        return base::fail("--mcap has all that ticks and bodies hold: leave --csv and --rows out");
-    if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
-        return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
-                          "or give one record");
-    }
+    const bool says_how = export_command.is_given("--rows") || export_command.is_given("--csv");
+    if (auto good = check(exported, says_how); !good) return tl::unexpected{good.error()};
     if (auto fine = complete(play, play_command); !fine) return tl::unexpected{fine.error()};
     explain.sleeping = !no_sleeping;
     run.command = merge.command = fmt::format("{}", fmt::join(words, " "));
-    if (analyse_command.is_chosen()) return Command{analyse};
-    if (demo_command.is_chosen()) return Command{demo};
-    if (real_time_command.is_chosen()) return Command{real_time};
-    if (play_command.is_chosen()) return Command{std::move(play)};
-    if (replay_command.is_chosen()) return Command{replay};
-    if (report_command.is_chosen()) return Command{report};
-    if (explain_command.is_chosen()) return Command{explain};
-    if (run_command.is_chosen()) return Command{std::move(run)};
-    if (plan_command.is_chosen()) return Command{std::move(plan)};
-    if (merge_command.is_chosen()) return Command{std::move(merge)};
-    if (compare_command.is_chosen()) return Command{std::move(compare)};
-    return Command{exported};
+    return chosen_of(std::tie(analyse_command, analyse), std::tie(export_command, exported),
+                     std::tie(demo_command, demo), std::tie(real_time_command, real_time),
+                     std::tie(play_command, play), std::tie(replay_command, replay),
+                     std::tie(report_command, report), std::tie(explain_command, explain),
+                     std::tie(run_command, run), std::tie(plan_command, plan),
+                     std::tie(merge_command, merge), std::tie(compare_command, compare));
 }
 
 } // namespace hapnet::lab

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// libstdc++'s archive draws std::random_device from a function that the C library has since 2.36.
+// libstdc++'s archive draws at random by a function that the C library has since 2.36.
 // With this one in its place the programs also run where that is 2.35.
 #include <cstdint>
 #include <cstdlib>

@@ -197,4 +197,5 @@ EOF
     cp "$work/array/slurm/merge.log" "$work/array.log"
     same array "$begin"
 fi
-"$lab" compare "$work/one" "$work/one" >"$work/compare.log" || fail "compare: $(cat "$work/compare.log")"
+"$lab" compare "$work/one" "$work/one" >"$work/compare.log" ||
+    fail "compare: $(cat "$work/compare.log")"

@@ -45,13 +45,14 @@ limited() {
     local name=$1
     shift
     local begin=$SECONDS
-    python3 - "$work/$name.kb" "$@" <<'EOF' >"$work/$name.log" || fail "$name failed: $(cat "$work/$name.log")"
+    python3 - "$work/$name.kb" "$@" <<'EOF' >"$work/$name.log" ||
 import resource, subprocess, sys
 code = subprocess.call(sys.argv[2:])
 with open(sys.argv[1], "w") as out:
     out.write(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss))
 sys.exit(code)
 EOF
+        fail "$name failed: $(cat "$work/$name.log")"
     local kb
     kb=$(cat "$work/$name.kb")
     echo "million_test: $name: $((SECONDS - begin)) s, $((kb / 1000)) MB"

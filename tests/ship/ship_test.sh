@@ -103,7 +103,8 @@ import hapnet
 with hapnet.Emulator(delay="5ms") as network:
     print("from Python:", network.address_a, network.stats()["valid"])' ||
     fail "python3-hapnet does not drive the emulator"
-grep -q three.module.min.js "$root/usr/bin/hapnet-web" || fail "the page of hapnet-web has no modules"
+grep -q three.module.min.js "$root/usr/bin/hapnet-web" ||
+    fail "the page of hapnet-web has no modules"
 inside test -s /usr/include/hapnet/algorithm.h || fail "hapnet-dev has no hapnet/algorithm.h"
 inside hapnet-web --version
 nothing_left hapnet hapnet-emulator hapnet-web hapnet-dev python3-hapnet

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // The version is that of project() in CMakeLists.txt. What no build writes repeats it.
-#include "tests/tidy/source_tree.hpp"
-
 #include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <string>
 
 namespace hapnet::tidy {
@@ -12,13 +12,8 @@ namespace {
 
 std::string text_of(const std::string& path)
 {
-    for (const SourceFile& file : read_tree(HAPNET_SOURCE_DIR)) {
-        if (file.path != path) continue;
-        std::string text = "\n";
-        for (const std::string& line : file.lines) text += line + '\n';
-        return text;
-    }
-    return {};
+    std::ifstream file{std::string{HAPNET_SOURCE_DIR} + "/" + path};
+    return '\n' + std::string{std::istreambuf_iterator<char>{file}, {}};
 }
 
 /// What stands between the first `before` and the `after` that follows it.

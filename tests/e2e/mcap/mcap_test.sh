@@ -36,8 +36,9 @@ records=(kept/records/base-T3/peer-{1,2}.rec)
 "$lab" export "${records[0]}" >1.csv
 "$lab" export "${records[0]}" --mcap >1.mcap
 node read.mjs 1.mcap 1.csv 1
+"$lab" export "${records[@]}" >both.csv
 "$lab" export "${records[@]}" --mcap >both.mcap
-node read.mjs both.mcap 1.csv 1 2
+node read.mjs both.mcap both.csv 1 2
 # The reader would notice: a byte of a message's number of bytes.
 head -c 100000 1.mcap >cut.mcap
 if node read.mjs cut.mcap 1.csv 1 >cut.log 2>&1; then

@@ -58,9 +58,10 @@ for (const peer of peers) {
   }
   assert([...topics.keys()].some((topic) => topic.startsWith(`/peer_${peer}/body`)));
 }
-const [head, ...rows] = readFileSync(csv, "utf8").trimEnd().split("\n").map((row) => row.split(","));
+const lines = readFileSync(csv, "utf8").trimEnd().split("\n");
+const [head, ...rows] = lines.map((row) => row.split(","));
 const column = (name) => {
-  const index = head.indexOf(name);
+  const index = Math.max(head.indexOf(name), head.indexOf(`a_${name}`)); // of two records, A's
   assert(index >= 0, `a column ${name} among ${head}`);
   return rows.map((row) => Number(row[index]));
 };
