@@ -313,6 +313,18 @@ void add_play(cli::Command& command, PlayCommand& play)
                    pace_into(play));
 }
 
+base::Result<void> check(const ReplayCommand& replay, const ExportCommand& exported)
+{
+    if (replay.json && replay.csv) {
+        return base::fail("--json and --csv exclude each other: give one of them");
+    }
+    if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
+        return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
+                          "or give one record");
+    }
+    return {};
+}
+
 /// After the command line was read.
 base::Result<void> complete(PlayCommand& play, const cli::Command& command)
 {
@@ -381,13 +393,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (is_list) return net::Answer{list_of_experiments()};
-    if (replay.json && replay.csv) {
-        return base::fail("--json and --csv exclude each other: give one of them");
-    }
-    if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
-        return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
-                          "or give one record");
-    }
+    if (auto fine = check(replay, exported); !fine) return tl::unexpected{fine.error()};
     if (auto fine = complete(play, play_command); !fine) return tl::unexpected{fine.error()};
     explain.sleeping = !no_sleeping;
     run.command = fmt::format("{}", fmt::join(words, " "));
