@@ -323,6 +323,18 @@ void add_play(cli::Command& command, PlayCommand& play)
                    pace_into(play));
 }
 
+base::Result<void> check(const ReplayCommand& replay, const ExportCommand& exported)
+{
+    if (replay.json && replay.csv) {
+        return base::fail("--json and --csv exclude each other: give one of them");
+    }
+    if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
+        return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
+                          "or give one record");
+    }
+    return {};
+}
+
 /// After the command line was read.
 base::Result<void> complete(PlayCommand& play, const cli::Command& command)
 {
