@@ -137,7 +137,7 @@ struct Interventions {
     std::uint64_t budgets_spent = 0;   // the work of a tick ended before it was done
     // Mechanisms: nothing was lost but what a law forbids.
     std::uint64_t hands_braked = 0;     // a hand's impulse was scaled down so that it stays passive
-    std::uint64_t impulses_trimmed = 0; // an island lost less than a tenth of its impulses
+    std::uint64_t impulses_trimmed = 0; // ... less, or at most a hundredth of its velocities
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
     std::uint64_t sweeps_continued = 0; // a body went on after its first touch within the tick
     std::uint64_t clusters_stuck = 0;   // two that touched too often in a tick had an inelastic hit

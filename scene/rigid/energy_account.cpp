@@ -24,6 +24,9 @@ constexpr double followed_turn = 0.3;
 // Radians in a tick beyond which the inertia at the start says little of a touch.
 constexpr double far_turn = 0.25;
 
+// What keeps this share of its velocities loses hardly any motion.
+constexpr double hardly_slowed = 0.99;
+
 void count(Interventions& interventions, double share)
 {
     constexpr double trimmed = 0.9;
@@ -195,7 +198,16 @@ void EnergyAccount::Balance::add(const Balance& other)
     stored += other.stored;
     given += other.given;
     detour += other.detour;
+    kinetic += other.kinetic;
     is_settled = is_settled && other.is_settled;
+}
+
+void EnergyAccount::Balance::slow()
+{
+    const double excess = gain.at(1.0) - (stored + given + detour);
+    if (!is_held || excess > (1.0 - hardly_slowed * hardly_slowed) * kinetic) return;
+    slowing = std::sqrt(1.0 - excess / kinetic);
+    is_settled = true;
 }
 
 double EnergyAccount::Balance::share_within() const
@@ -230,6 +242,9 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
         speed_tolerance * speed_tolerance * glm::dot(motion.load, motion.load) +
         rest * rest * tick.scales.least * tick.scales.least * tick.scales.rate * tick.scales.rate;
     const double twisted = glm::dot(motion.twist, motion.spin_forced);
+    const glm::dvec3 spin_at_end = motion.spin + motion.spin_forced + motion.spin_change;
+    balance.kinetic = 0.5 * (mass * glm::dot(body.end_velocity, body.end_velocity) +
+                             glm::dot(body.end_angular_momentum, spin_at_end));
     balance.stored =
         energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
     balance.given =
@@ -284,17 +299,18 @@ bool EnergyAccount::settle(const Tick& tick)
     join_islands(tick, slots);
     find_shares(tick, slots, [&](Slot slot) { return tick_of(tick, slot); });
     // Velocities alone: the way is what was found without overlaps.
-    const bool has_scaled = scale_islands(tick, slots, [&](Slot slot, double share) {
-        const BodyTick body = tick_of(tick, slot);
-        const Motion motion = motion_of(tick, body);
-        BodyIntegration& integration = tick.integrations[slot + 1];
-        BodyMotion& end = tick.solver.end_motion(slot + 1);
-        end.velocity = body.velocity + motion.forced + share * motion.change;
-        end.angular_impulse = glm::dvec3{0.0};
-        integration.bounce_angular_impulse = glm::dvec3{0.0};
-        integration.angular_momentum =
-            body.angular_momentum + motion.twist + share * motion.angular;
-    });
+    const bool has_scaled =
+        scale_islands(tick, slots, [&](Slot slot, double share, double slowing) {
+            const BodyTick body = tick_of(tick, slot);
+            const Motion motion = motion_of(tick, body);
+            BodyIntegration& integration = tick.integrations[slot + 1];
+            BodyMotion& end = tick.solver.end_motion(slot + 1);
+            end.velocity = slowing * (body.velocity + motion.forced + share * motion.change);
+            end.angular_impulse = glm::dvec3{0.0};
+            integration.bounce_angular_impulse = glm::dvec3{0.0};
+            integration.angular_momentum =
+                slowing * (body.angular_momentum + motion.twist + share * motion.angular);
+        });
     return has_scaled;
 }
 
@@ -318,12 +334,13 @@ void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& 
     join_islands(tick, moved_.all());
     touches.for_pushes(bodies, [&](Slot a, Slot b) { islands_.join(a + 1, b + 1); });
     find_shares(tick, moved_.all(), [&](Slot slot) { return moved_tick_of(tick, slot, touches); });
-    scale_islands(tick, moved_.all(), [&](Slot slot, double share) {
+    scale_islands(tick, moved_.all(), [&](Slot slot, double share, double slowing) {
         const BodyTick body = moved_tick_of(tick, slot, touches);
         const Motion motion = motion_of(tick, body);
-        bodies.velocity.put(slot, body.velocity + motion.forced + share * motion.change);
-        bodies.angular_momentum.put(slot,
-                                    body.angular_momentum + motion.twist + share * motion.angular);
+        bodies.velocity.put(slot,
+                            slowing * (body.velocity + motion.forced + share * motion.change));
+        bodies.angular_momentum.put(
+            slot, slowing * (body.angular_momentum + motion.twist + share * motion.angular));
     });
 }
 
@@ -378,6 +395,19 @@ void EnergyAccount::leave_joined(const JointSolver& joints)
     }
 }
 
+/// What rests on something fixed has no momentum to keep. Not what a moving surface carries.
+void EnergyAccount::find_held(const Tick& tick)
+{
+    for (const ContactBlock& block : tick.solver.blocks()) {
+        if (block.a == 0 || block.b == 0)
+            balances_[islands_.root_of(block.a + block.b)].is_held = true;
+    }
+    for (const ContactBlock& block : tick.solver.blocks()) {
+        if (tick.solver.is_kinematic(block.a) || tick.solver.is_kinematic(block.b))
+            balances_[islands_.root_of(tick.solver.responding_of(block))].is_held = false;
+    }
+}
+
 /// One body may gain what others of its island lose.
 void EnergyAccount::sum_islands(const Tick& tick, std::span<const Slot> slots)
 {
@@ -393,13 +423,18 @@ void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
                                 TickOf&& tick_of_slot)
 {
     sum_islands(tick, slots);
+    find_held(tick);
+    for (const Slot slot : slots) {
+        Balance& island = balances_[slot + 1];
+        if (islands_.root_of(slot + 1) == slot + 1 && island.is_exceeded()) island.slow();
+    }
     // What may be gained shrinks with the share: with that of hands, and of what turns.
     for (int round = 0; round < share_rounds_max; ++round) {
         bool any = false;
         for (const Slot slot : slots) {
             Balance& island = balances_[slot + 1];
             if (islands_.root_of(slot + 1) != slot + 1) continue;
-            island.is_settled = !island.is_exceeded();
+            island.is_settled = island.slowing < 1.0 || !island.is_exceeded();
             if (island.is_settled) continue;
             const double share = next_share(island.share, island.share_within(), round);
             island = {};
@@ -415,18 +450,19 @@ void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
     }
 }
 
-/// Calls scale(slot, share) for the bodies of islands that gained; returns whether any did.
+/// Calls scale(slot, share, slowing) for the bodies of islands that gained; returns whether any
+/// did.
 template <typename Scale>
 bool EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale)
 {
     bool any = false;
     for (const Slot slot : slots) {
         const SolverIndex root = islands_.root_of(slot + 1);
-        const double share = balances_[root].share;
-        if (share == 1.0) continue;
+        const double share = balances_[root].share, slowing = balances_[root].slowing;
+        if (share == 1.0 && slowing == 1.0) continue;
         any = true;
         if (root == slot + 1) count(tick.state.interventions, share);
-        scale(slot, share);
+        scale(slot, share, slowing);
         if (!tick.active.contains(slot)) continue;
         BodyIntegration& integration = tick.integrations[slot + 1];
         integration.energy_driven *= share;

@@ -22,6 +22,9 @@ namespace hapnet::scene {
 /// and an unfinished solve each were right for another moment of the tick, all impulses of the
 /// island are scaled by one share. Without impulses nothing is gained, and the gain is a convex
 /// parabola over the share: there always is one. Momentum stays, and no force grows.
+///
+/// An island that touches something fixed and gains little beside its motion keeps its impulses:
+/// all its velocities are scaled, which takes away less, and no contact that bore it.
 class EnergyAccount {
 public:
     explicit EnergyAccount(const Bodies& bodies);
@@ -62,6 +65,9 @@ private:
         double detour = 0.0;     // of gravity, pushes and torques where the way is not the mean
                                  // velocity's
         double share = 1.0;      // of the impulses
+        double kinetic = 0.0;    // J, at the end
+        double slowing = 1.0;    // of all velocities at the end
+        bool is_held = false;    // by something fixed, and nothing that moves by itself
         bool is_settled = false; // there is nothing to be looked at
 
         void add(const Balance& other);
@@ -69,6 +75,8 @@ private:
         {
             return gain.at(share) > stored + given + detour && !is_settled;
         }
+        /// Keeps the impulses and slows what is held, where that takes hardly any of its motion.
+        void slow();
         /// The share with which it is not, were what is given so much for its share.
         [[nodiscard]] double share_within() const;
     };
@@ -88,6 +96,7 @@ private:
     void join_islands(const Tick& tick, std::span<const Slot> slots);
     void sum_islands(const Tick& tick, std::span<const Slot> slots);
     void leave_joined(const JointSolver& joints);
+    void find_held(const Tick& tick);
     template <typename TickOf>
     void find_shares(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
     template <typename Scale>
