@@ -323,18 +323,6 @@ void add_play(cli::Command& command, PlayCommand& play)
                    pace_into(play));
 }
 
-base::Result<void> check(const ReplayCommand& replay, const ExportCommand& exported)
-{
-    if (replay.json && replay.csv) {
-        return base::fail("--json and --csv exclude each other: give one of them");
-    }
-    if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
-        return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
-                          "or give one record");
-    }
-    return {};
-}
-
 /// After the command line was read.
 base::Result<void> complete(PlayCommand& play, const cli::Command& command)
 {
@@ -432,9 +420,16 @@ void describe_program(cli::Command& program)
     program.require_command();
 }
 
-base::Result<void> check(const ExportCommand& exported, bool says_how)
+base::Result<void> check(const ReplayCommand& replay, const CompareCommand& compare)
 {
-    if (exported.as_mcap && says_how)
+    if ((replay.json && replay.csv) || (compare.json && compare.csv))
+        return base::fail("--json and --csv exclude each other: give one of them");
+    return {};
+}
+
+base::Result<void> check(const ExportCommand& exported, const cli::Command& command)
+{
+    if (exported.as_mcap && (command.is_given("--rows") || command.is_given("--csv")))
         return base::fail("--mcap has all that ticks and bodies hold: leave --csv and --rows out");
     if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
         return base::fail("export: of two records only the ticks can be joined: leave --rows out, "
@@ -506,10 +501,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (list_command.is_chosen()) return net::Answer{list_of_names()};
-    if ((replay.json && replay.csv) || (compare.json && compare.csv))
-        return base::fail("--json and --csv exclude each other: give one of them");
-    const bool says_how = export_command.is_given("--rows") || export_command.is_given("--csv");
-    if (auto good = check(exported, says_how); !good) return tl::unexpected{good.error()};
+    if (auto good = check(replay, compare); !good) return tl::unexpected{good.error()};
+    if (auto good = check(exported, export_command); !good) return tl::unexpected{good.error()};
     if (auto fine = complete(play, play_command); !fine) return tl::unexpected{fine.error()};
     explain.sleeping = !no_sleeping;
     run.command = merge.command = fmt::format("{}", fmt::join(words, " "));

@@ -43,6 +43,15 @@ void Intention::add(const Sample& sample, base::TimePoint at)
     filter_.add(settled_, at);
 }
 
+void Intention::say(wire::State& state, base::Position hip, base::Velocity hip_velocity) const
+{
+    state.hip = hip;
+    state.hip_velocity = state.intention_velocity = hip_velocity;
+    if (!is_known_) return;
+    state.intention = place() - hip;
+    state.intention_velocity = velocity();
+}
+
 /// Friction leaves a set and not a point: a hand that sticks says nothing of where in it it means
 /// to be, and would seem to mean to move with the force if it were taken for the point.
 glm::dvec3 Intention::within_friction(const glm::dvec3& raw) const

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] bool is_known() const { return is_known_; }
     [[nodiscard]] base::Position place() const { return {filter_.value()}; }
     [[nodiscard]] base::Velocity velocity() const { return {filter_.slope()}; }
+    /// What a state says of the hand and of what it means.
+    void say(wire::State& state, base::Position hip, base::Velocity hip_velocity) const;
 
 private:
     [[nodiscard]] glm::dvec3 within_friction(const glm::dvec3& raw) const;

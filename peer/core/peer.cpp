@@ -563,14 +563,8 @@ void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
     state.sent = now;
     state.touching = tick.touched.touching;
     state.holding = tick.touched.holding;
-    state.hip = hand.hip;
-    state.hip_velocity = hand.velocity;
     state.work_uj = static_cast<std::uint32_t>(base::nearest(1e6 * hand.work_j));
-    state.intention_velocity = hand.velocity;
-    if (intention_.is_known()) {
-        state.intention = intention_.place() - hand.hip;
-        state.intention_velocity = intention_.velocity();
-    }
+    intention_.say(state, hand.hip, hand.velocity);
     state.contact_force = tick.touched.on_body;
     BodySet said = 0; // that the state has, which is mostly the same for all
     for (Member& other : circle_.members()) {

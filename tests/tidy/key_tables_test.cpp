@@ -181,7 +181,7 @@ const std::set<std::string>& without_table()
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "Table1Row", "TaskRow",
         "LimitRow", "AxisLimitRow", "PairedRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow",
-        "ClaimSessionRow", "QosRow", "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount",
+        "ClaimSessionRow", "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount",
         "WrittenConfig"};
     return names;
 }
