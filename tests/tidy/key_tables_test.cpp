@@ -181,8 +181,8 @@ const std::set<std::string>& without_table()
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "Table1Row", "TaskRow",
         "LimitRow", "AxisLimitRow", "PairedRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow",
-        "ClaimSessionRow", "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount",
-        "WrittenConfig"};
+        "ClaimSessionRow", "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow", "ReplayRow",
+        "WrittenMount", "WrittenConfig"};
     return names;
 }
 
