@@ -44,7 +44,6 @@ Sleep::Sleep(const WorldConfig& config, const Bodies& bodies)
       rested_(bodies.movable, 0.0),
       islands_{bodies.size()},
       island_rested_(bodies.size(), 0.0),
-      touched_{bodies.movable},
       queue_{bodies.movable}
 {
     for (Slot slot = 0; slot < bodies.movable; ++slot) {

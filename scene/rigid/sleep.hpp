@@ -33,22 +33,24 @@ public:
     template <BroadPhase broad_phase>
     void wake(PartId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
 
-    /// Wakes the sleepers that an awake body touches which is not at rest, and what touches them.
-    /// `touching(index)`: whether the pair's manifold of this tick has points. Returns whether it
-    /// woke any: then look at pair_finder.pairs_added() and call it again.
+    /// Wakes the sleepers that an awake body touches which is not at rest, what touches them, and
+    /// so on: one that slept on would bear the others like a wall. `touching(index)`: whether the
+    /// pair's manifold of this tick has points. Returns whether it woke any. Each pair is looked at
+    /// once, and once more if it came to the list by a body that woke.
     template <BroadPhase broad_phase, typename Touching>
     bool wake_touched(Bodies& bodies, PairFinder<broad_phase>& pair_finder, Touching touching)
     {
-        if (bodies.awake == bodies.movable) return false;
-        touched_.clear();
-        for (const PairIndex index : pair_finder.pairs()) {
-            const BodyId sleeper = sleeper_disturbed_by(bodies, pair_finder.pair(index));
-            // A sleeper for which there is no room is found by the next call.
-            if (sleeper != no_body && touching(index)) touched_.add(sleeper);
+        const Slot awake = bodies.awake;
+        for (auto pairs = pair_finder.pairs(); !pairs.empty() && bodies.awake != bodies.movable;
+             pairs = pair_finder.pairs_added()) {
+            for (const PairIndex index : pairs) {
+                const BodyId sleeper = sleeper_disturbed_by(bodies, pair_finder.pair(index));
+                if (sleeper != no_body && touching(index))
+                    wake_island(sleeper, bodies, pair_finder);
+            }
+            pair_finder.apply_changes();
         }
-        for (const BodyId sleeper : touched_) wake_island(sleeper, bodies, pair_finder);
-        pair_finder.apply_changes();
-        return !touched_.is_empty();
+        return bodies.awake != awake;
     }
 
     /// Counts the time at rest of those awake and puts islands to sleep. `ticks`: of the world.
@@ -89,8 +91,7 @@ private:
     Islands islands_;
     std::vector<double> island_rested_; // by the island's id: the least of its bodies
     std::vector<BodyPair> joined_;      // both ways round, sorted
-    Bounded<BodyId> touched_;
-    Bounded<BodyId> queue_; // those going to wake, or to sleep
+    Bounded<BodyId> queue_;             // those going to wake, or to sleep
 };
 
 } // namespace hapnet::scene

@@ -26,10 +26,6 @@ constexpr double velocity_converged = 1e-6;
 // ... or until these limits (a stack takes 23 sweeps from nothing); the next tick goes on.
 constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
-// What sleeps and is touched wakes, and what that touches, so many islands one after the other; the
-// next in the next tick.
-constexpr std::uint32_t wake_rounds_max = 4;
-
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_tolerance = 1e-9;
@@ -174,9 +170,9 @@ TickCost RigidStepper<broad_phase>::tick_cost_bound(const WorldConfig& config) c
 {
     const std::uint64_t pushed =
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
-    // Overlaps are looked at once more where a body is held back, sleepers by what carries them,
-    // velocities and springs where an island is solved anew.
-    return {.pairs = (sleeps ? 2 + wake_rounds_max : 1) * pairs_.pairs_max(),
+    // Overlaps are looked at once more where a body is held back, sleepers by what carries them, by
+    // what touches them and when that woke, velocities and springs where an island is solved anew.
+    return {.pairs = (sleeps ? 4 : 1) * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = 2 * solver_.visits_bound(velocity_limits()) +
                       2 * solver_.visits_bound(position_limits()),
@@ -247,9 +243,7 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
         if (bodies.moving != bodies.movable) wake_carried(state, are_touching);
-        // One that is touched by what wakes now is found at once; so on, a few times.
-        for (std::uint32_t round = 0; round < wake_rounds_max; ++round)
-            if (!sleep_.wake_touched(bodies, pairs_, are_touching)) break;
+        sleep_.wake_touched(bodies, pairs_, are_touching);
     }
 }
 

@@ -143,8 +143,22 @@ TYPED_TEST(SleepOf, EndsForWhatAMovingBodyTouchesAndNotForWhatOneAtRestDoes)
     crowd.update(1);
     EXPECT_TRUE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
     EXPECT_EQ(crowd.awake(), "aaas");
-    EXPECT_FALSE(crowd.pair_finder.pairs_added().empty());
     EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
+}
+
+TYPED_TEST(SleepOf, EndsAlongAWholeRowInOneTick)
+{
+    typename TestFixture::Subject crowd{row_of_cubes(12, 0.0401)};
+    for (BodyId id = 0; id < 12; ++id) crowd.still(id);
+    crowd.update(rest_ticks);
+    ASSERT_EQ(crowd.awake(), "ssssssssssss");
+    crowd.sleep.wake(11, crowd.bodies, crowd.pair_finder);
+    crowd.speed(11, 0.1);
+    int looks = 0;
+    const auto touching = [&](PairIndex /*index*/) { return ++looks > 0; };
+    EXPECT_TRUE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
+    EXPECT_EQ(crowd.awake(), "aaaaaaaaaaaa");
+    EXPECT_EQ(looks, 11); // each pair once
 }
 
 TYPED_TEST(SleepOf, DoesNotComeToABodyThatIsKeptAwake)
