@@ -92,13 +92,22 @@ std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& ar
             push(block.tangent_1), push(block.tangent_2),           Jacobian{none, block.normal}};
 }
 
+// Along a normal, or about a lever, of what a body does where it is not locked.
+constexpr double hair = 1e-6;
+
 /// Whether a body's locks leave it almost no motion along the normal. Then it counts as locked:
 /// else it would be thrown aside as by a wedge.
 bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
 {
-    constexpr double hair = 1e-6; // along the normal, of what it does where it is not locked
     const double most = std::max(inverse_mass.x, std::max(inverse_mass.y, inverse_mass.z));
     return glm::dot(normal, inverse_mass * normal) <= hair * most;
+}
+
+/// The same of turning.
+bool is_nearly_locked_about(const glm::dvec3& lever, const glm::dmat3& inverse_inertia)
+{
+    const double most = inverse_inertia[0][0] + inverse_inertia[1][1] + inverse_inertia[2][2];
+    return glm::dot(lever, inverse_inertia * lever) <= hair * most * glm::dot(lever, lever);
 }
 
 } // namespace
@@ -334,7 +343,9 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
         // Nor does a push through its centre turn a sphere: what is left is rounding.
         constexpr double hardly = 1e-9;
         glm::dvec3& lever = all[0].angular;
-        if (rounding > 0.0 && glm::dot(lever, lever) <= hardly * hardly * glm::dot(arm, arm))
+        const bool is_central =
+            rounding > 0.0 && glm::dot(lever, lever) <= hardly * hardly * glm::dot(arm, arm);
+        if (is_central || is_nearly_locked_about(lever, body.inverse_inertia))
             lever = glm::dvec3{0.0};
         return all;
     };

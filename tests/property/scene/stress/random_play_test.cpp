@@ -176,7 +176,8 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{7015132, "GrippedLightlyWhileItSpins"}, Scar{7029090, "GrippedHardWhileItSpins"},
         Scar{7032676, "GrippedInLongTicksWhileItSpins"},
         Scar{1000001991, "PushedThroughItsLockedCentre"},
-        Scar{8000069958, "PushedAtTheEndOfARowThatSleeps"}),
+        Scar{8000069958, "PushedAtTheEndOfARowThatSleeps"},
+        Scar{21000031384, "PushedAboutAnAxisAcrossTheOnlyOneItTurnsAbout"}),
     [](const auto& each) { return each.param.name; });
 
 /// Islands that lost motion because last tick's forces drove them: where drag took a part of
