@@ -64,7 +64,9 @@ std::optional<double> factor_in(Members& members)
 /// Does it, where nothing is wrong with it; the members that the reply has besides.
 base::Result<Json> pace_done(Members& members, const Controlled& controlled)
 {
-    auto& [session, pace, save] = controlled;
+    auto& session = controlled.session;
+    auto& pace = controlled.pace;
+    const auto& save = controlled.save;
     const auto what = members.text("do");
     std::function<base::Result<Json>()> act;
     if (what == "play") {
