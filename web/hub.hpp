@@ -50,6 +50,8 @@ public:
         : viewers_{std::exchange(other.viewers_, {})}, id_{other.id_}
     {}
     Membership& operator=(Membership&&) = delete;
+    Membership(const Membership&) = delete;
+    Membership& operator=(const Membership&) = delete;
 
 private:
     std::weak_ptr<Viewers> viewers_;

@@ -188,7 +188,7 @@ public:
         for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
         const auto checksums = checksums_of(out_, names_);
         write_text(out_ / checksums_name, checksums);
-        const auto digest = checksum_of(checksums);
+        auto digest = checksum_of(checksums);
         write_manifest(counts, {}, digest);
         for (const std::string& name : names_) print_short(name);
         return digest;

@@ -14,7 +14,7 @@ namespace hapnet::lab {
 [[nodiscard]] base::Result<int> run_experiment(const RunCommand& command);
 
 /// Writes plan.json into a folder.
-[[nodiscard]] base::Result<int> plan_experiment(const PlanCommand& command);
+[[nodiscard]] base::Result<int> plan_experiment(const PlanCommand& planned);
 
 /// Writes the results of a plan from what its shards have played.
 [[nodiscard]] base::Result<int> merge(const MergeCommand& command);

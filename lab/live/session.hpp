@@ -36,6 +36,7 @@ public:
     [[nodiscard]] static base::Result<std::unique_ptr<Session>>
     make(const experiment::Experiment& experiment, Presets presets);
 
+    ~Session() = default;
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 

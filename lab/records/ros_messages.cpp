@@ -63,11 +63,12 @@ public:
     explicit CdrMessage(std::uint64_t time_ns)
     {
         constexpr std::uint64_t second = 1'000'000'000;
-        constexpr std::string_view frame{"hapnet", 7}; // with its end
+        constexpr std::string_view frame = "hapnet";
         put(static_cast<std::uint32_t>(time_ns / second));
         put(static_cast<std::uint32_t>(time_ns % second));
-        put(static_cast<std::uint32_t>(frame.size()));
+        put(static_cast<std::uint32_t>(frame.size() + 1)); // with its end
         bytes_ += frame;
+        bytes_ += '\0';
     }
 
     CdrMessage& add(double value)

@@ -76,7 +76,7 @@ private:
     explicit SessionStore(std::string program);
     /// Of the files the last.
     [[nodiscard]] base::Result<void> read_last(const FolderIdentity& identity);
-    void take_line(std::string_view line, const Place& place);
+    void take_line(std::string_view text, const Place& place);
     void append(const std::string& line);
     /// nullopt: it is not known.
     [[nodiscard]] std::optional<Place> place_of(const std::string& key);

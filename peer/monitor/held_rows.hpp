@@ -31,7 +31,7 @@ private:
         record::SessionRow row;
     };
     /// Agreements are noted once a second with each of at most seven others.
-    static constexpr std::size_t terms_max = 8 * 600;
+    static constexpr std::size_t terms_max = std::size_t{8} * 600;
 
     record::Layout layout_;
     base::TimePoint now_{}; // of the newest row
