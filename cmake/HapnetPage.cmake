@@ -1,15 +1,17 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# hapnet_page(OUT): the files of web/page and its modules are compiled into hapnet-web. Sets OUT to
-# the source that has them. Without modules the page draws flat; that is no error.
+# The files of web/page and their modules, compiled into the programs that show them: hapnet-web
+# serves them, hapnet-lab writes them into its reports. Without modules pages draw flat; that is no
+# error.
 set(HAPNET_PAGE_MODULES "" CACHE PATH
     "A node_modules folder with three and uplot; empty: npm ci fetches them into the build folder")
+set(hapnet_page_folder ${PROJECT_SOURCE_DIR}/web/page)
 
 # hapnet_page_modules(OUT): the folder of the modules; empty when they cannot be had.
 function(hapnet_page_modules out)
     set(${out} "${HAPNET_PAGE_MODULES}" PARENT_SCOPE)
-    set(lock ${PROJECT_SOURCE_DIR}/web/page/package-lock.json)
+    set(lock ${hapnet_page_folder}/package-lock.json)
     if(HAPNET_PAGE_MODULES OR NOT EXISTS ${lock})
         return()
     endif()
@@ -19,11 +21,16 @@ function(hapnet_page_modules out)
         set(${out} ${folder}/node_modules PARENT_SCOPE)
         return()
     endif()
+    get_property(was_tried GLOBAL PROPERTY hapnet_page_modules_tried)
+    if(was_tried)
+        return()
+    endif()
+    set_property(GLOBAL PROPERTY hapnet_page_modules_tried TRUE)
     find_program(HAPNET_NPM npm)
     set(result "npm is missing: scripts/setup.sh --web installs it")
     if(HAPNET_NPM)
         file(MAKE_DIRECTORY ${folder})
-        file(COPY ${lock} ${PROJECT_SOURCE_DIR}/web/page/package.json DESTINATION ${folder})
+        file(COPY ${lock} ${hapnet_page_folder}/package.json DESTINATION ${folder})
         execute_process(COMMAND ${HAPNET_NPM} ci --omit=dev --ignore-scripts --no-audit --no-fund
             WORKING_DIRECTORY ${folder} RESULT_VARIABLE result TIMEOUT 120
             OUTPUT_QUIET ERROR_QUIET)
@@ -32,53 +39,93 @@ function(hapnet_page_modules out)
         file(TOUCH ${folder}/${hash})
         set(${out} ${folder}/node_modules PARENT_SCOPE)
     else()
-        message(WARNING "hapnet-web's page will draw flat, without its modules (${result})")
+        message(WARNING "the pages will draw flat, without their modules (${result})")
     endif()
 endfunction()
 
-function(hapnet_page out)
-    set(page ${PROJECT_SOURCE_DIR}/web/page)
-    file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${page}
-        ${page}/*.html ${page}/*.css ${page}/*.js ${page}/*.svg)
-    list(FILTER files EXCLUDE REGEX "^node_modules/")
-    set(entries)
-    foreach(file IN LISTS files)
-        list(APPEND entries "${file}=${page}/${file}")
-    endforeach()
+# hapnet_page_libraries(OUT): what pages take of the modules, as name=file. uPlot's minified build
+# is a classic script: with an export at its end it is a module, too.
+function(hapnet_page_libraries out)
+    set(${out} PARENT_SCOPE)
     hapnet_page_modules(modules)
+    if(NOT modules)
+        return()
+    endif()
+    set(entries)
     foreach(pair three.module.min.js=three/build/three.module.min.js
                  three.core.min.js=three/build/three.core.min.js
                  three-LICENSE.txt=three/LICENSE
-                 uPlot.iife.min.js=uplot/dist/uPlot.iife.min.js
                  uPlot.min.css=uplot/dist/uPlot.min.css
                  uplot-LICENSE.txt=uplot/LICENSE)
         string(REGEX MATCH "^([^=]+)=(.+)$" matched ${pair})
-        if(modules AND EXISTS ${modules}/${CMAKE_MATCH_2})
+        if(EXISTS ${modules}/${CMAKE_MATCH_2})
             list(APPEND entries "${CMAKE_MATCH_1}=${modules}/${CMAKE_MATCH_2}")
         endif()
     endforeach()
+    set(classic ${modules}/uplot/dist/uPlot.iife.min.js)
+    if(EXISTS ${classic})
+        set(module ${PROJECT_BINARY_DIR}/uPlot.module.min.js)
+        file(READ ${classic} script)
+        file(CONFIGURE OUTPUT ${module} CONTENT "${script}\nexport default uPlot;\n" @ONLY)
+        list(APPEND entries "uPlot.module.min.js=${module}")
+    endif()
+    set(${out} ${entries} PARENT_SCOPE)
+endfunction()
+
+# hapnet_page_files(OUT PATTERN): the files of the page itself whose names match, as name=file.
+function(hapnet_page_files out pattern)
+    file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${hapnet_page_folder}
+        ${hapnet_page_folder}/*.html ${hapnet_page_folder}/*.css ${hapnet_page_folder}/*.js
+        ${hapnet_page_folder}/*.svg)
+    list(FILTER files EXCLUDE REGEX "^node_modules/")
+    list(FILTER files INCLUDE REGEX "${pattern}")
+    set(entries)
+    foreach(file IN LISTS files)
+        list(APPEND entries "${file}=${hapnet_page_folder}/${file}")
+    endforeach()
+    set(${out} ${entries} PARENT_SCOPE)
+endfunction()
+
+# hapnet_page(OUT HEADER header NAMESPACE namespace FUNCTION function [PLAIN name=file...]
+# [PACKED name=file...]): a source with that function, whose list of {name, bytes, packed} has the
+# files as they are, packed by gzip, or both; what is not wanted is empty. Several files with | in
+# between are joined. The type of the items is Asset; HEADER declares it and the function. Sets OUT
+# to the source.
+function(hapnet_page out)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER;NAMESPACE;FUNCTION" "PLAIN;PACKED")
+    set(header ${arg_HEADER})
+    set(namespace ${arg_NAMESPACE})
+    set(function ${arg_FUNCTION})
     find_program(HAPNET_GZIP gzip)
     find_program(HAPNET_SED sed)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/page)
     set(strip ${PROJECT_SOURCE_DIR}/cmake/strip_comments.sed)
     set(code "") # in assembler: the bytes as they are
+    set(declared "")
     set(table "")
     set(depends)
     set(number 0)
+    set(entries ${arg_PLAIN} ${arg_PACKED})
+    list(REMOVE_DUPLICATES entries)
     foreach(entry IN LISTS entries)
         string(REGEX MATCH "^([^=]+)=(.+)$" matched ${entry})
         set(name ${CMAKE_MATCH_1})
-        set(file ${CMAKE_MATCH_2})
+        string(REPLACE "|" ";" file ${CMAKE_MATCH_2})
         # A browser has no use for comments, and they were 10 kB of what it has to load.
-        if(HAPNET_SED AND file MATCHES "^${page}/.*[.](js|css)$")
+        if(HAPNET_SED AND name MATCHES "[.](js|css)$" AND NOT name MATCHES "[.]min[.]")
             set(stripped ${folder}/${number}-stripped)
             add_custom_command(OUTPUT ${stripped} DEPENDS ${file} ${strip}
                 COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
                 COMMAND ${HAPNET_SED} -f ${strip} ${file} > ${stripped} VERBATIM)
             set(file ${stripped})
+        elseif(name MATCHES "[.]css$")
+            add_custom_command(OUTPUT ${folder}/${number}-joined DEPENDS ${file}
+                COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
+                COMMAND ${CMAKE_COMMAND} -E cat ${file} > ${folder}/${number}-joined VERBATIM)
+            set(file ${folder}/${number}-joined)
         endif()
         set(packed ${folder}/${number}.gz)
-        if(HAPNET_GZIP)
+        if(HAPNET_GZIP AND entry IN_LIST arg_PACKED)
             add_custom_command(OUTPUT ${packed} DEPENDS ${file}
                 COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
                 COMMAND ${HAPNET_GZIP} -9 -n -c ${file} > ${packed} VERBATIM)
@@ -86,13 +133,11 @@ function(hapnet_page out)
         endif()
         list(APPEND depends ${file})
         foreach(kind raw packed)
-            set(source ${file})
-            if(kind STREQUAL "packed") # quoted: there is a variable of that name
-                set(source ${packed})
-            endif()
-            set(incbin "\\t.incbin \\\"${source}\\\"\\n")
-            if(kind STREQUAL "packed" AND NOT HAPNET_GZIP)
-                set(incbin "")
+            set(incbin "")
+            if(kind STREQUAL "raw" AND entry IN_LIST arg_PLAIN)
+                set(incbin "\\t.incbin \\\"${file}\\\"\\n")
+            elseif(kind STREQUAL "packed" AND HAPNET_GZIP AND entry IN_LIST arg_PACKED)
+                set(incbin "\\t.incbin \\\"${packed}\\\"\\n")
             endif()
             string(APPEND code "    \"page_${kind}_${number}:\\n${incbin}"
                 "page_${kind}_${number}_end:\\n\\t.byte 0\\n\"\n")
@@ -106,6 +151,7 @@ function(hapnet_page out)
     endforeach()
     set(source ${CMAKE_CURRENT_BINARY_DIR}/page_assets.cpp)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/page_assets.cpp.in ${source} @ONLY)
-    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${depends}")
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${depends}"
+        SKIP_UNITY_BUILD_INCLUSION ON)
     set(${out} ${source} PARENT_SCOPE)
 endfunction()

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
-# Leaves out the comments of a script or style sheet that stand on lines of their own.
+# Leaves out the comments of a script or style sheet that stand on lines of their own, and what
+# indents lines: no text of ours goes over two.
 /^[[:space:]]*\/\//d
 /^[[:space:]]*\/\*.*\*\/[[:space:]]*$/d
 /^[[:space:]]*\/\*/,/\*\//d
 /^[[:space:]]*$/d
+s/^[[:space:]]*//

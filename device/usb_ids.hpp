@@ -12,7 +12,10 @@ namespace hapnet::device {
 /// The identity that the kernel shows of a USB device, for the backend that drives it.
 enum class UsbNode : std::uint8_t { usb, hidraw, tty };
 
-enum class UsbKind : std::uint8_t { falcon, force_board, spacemouse, touch };
+enum class UsbKind : std::uint8_t { falcon, force_board, spacemouse, touch, force_dimension };
+
+/// In place of a product: all of the vendor's.
+inline constexpr std::uint16_t any_product = 0;
 
 /// A device that is known by its numbers. udev/60-hapnet.rules opens just these to their user.
 struct UsbId {
@@ -24,7 +27,7 @@ struct UsbId {
 };
 
 /// The SpaceMouses are from the list of spacenavd and of other public drivers, the Touches from
-/// public udev rules.
+/// public udev rules; of Force Dimension only the vendor's number is known.
 inline constexpr std::array usb_ids{
     UsbId{UsbKind::falcon, UsbNode::usb, 0x0403, 0xcb48, "Novint Falcon"},
     UsbId{UsbKind::force_board, UsbNode::hidraw, 0x1209, 0xffb0, "OpenFFBoard"},
@@ -54,13 +57,14 @@ inline constexpr std::array usb_ids{
     UsbId{UsbKind::touch, UsbNode::tty, 0x0301, 0x2988, "Touch"},
     UsbId{UsbKind::touch, UsbNode::tty, 0x2988, 0x0302, "Touch"},
     UsbId{UsbKind::touch, UsbNode::hidraw, 0x2988, 0x0304, "Touch"},
+    UsbId{UsbKind::force_dimension, UsbNode::usb, 0x1451, any_product, "Force Dimension"},
 };
 
 /// nullptr: unknown.
 [[nodiscard]] constexpr const UsbId* find_usb_id(std::uint16_t vendor, std::uint16_t product)
 {
     const auto* const found = std::find_if(usb_ids.begin(), usb_ids.end(), [&](const UsbId& id) {
-        return id.vendor == vendor && id.product == product;
+        return id.vendor == vendor && (id.product == product || id.product == any_product);
     });
     return found == usb_ids.end() ? nullptr : found;
 }

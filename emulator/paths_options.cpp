@@ -3,6 +3,7 @@
 #include "emulator/paths_options.hpp"
 
 #include "proto/cli/parsers.hpp"
+#include "proto/cli/synonyms.hpp"
 
 #include <array>
 #include <span>

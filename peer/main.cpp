@@ -50,6 +50,7 @@ struct Screen {
 struct Endpoints {
     net::Endpoint listen;
     std::vector<net::Endpoint> remotes; // as the others of the options
+    std::optional<net::Endpoint> plot{};
 };
 
 /// The remote, preferably in the family of `listen`: a name may have addresses of both.
@@ -113,6 +114,7 @@ base::Result<void> check_key_is_there(const Options& options, const Endpoints& e
 base::Result<Endpoints> look_up(const Options& options)
 {
     Endpoints endpoints{net::resolve(options.listen), {}};
+    if (options.plot) endpoints.plot = net::resolve(*options.plot);
     for (const NamedPeer& other : options.others) {
         const net::Endpoint remote = resolve_remote(other.place, endpoints.listen);
         if (std::ranges::find(endpoints.remotes, remote) != endpoints.remotes.end()) {
@@ -338,6 +340,14 @@ int finish(int code, const Screen& screen, const net::StopSignal& stop)
                                                                          : code;
 }
 
+/// To the plotter, where there is one.
+std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& plotter,
+                                            std::uint16_t id, monitor::Monitor& monitor)
+{
+    if (!plotter) return std::nullopt;
+    return std::optional<monitor::PlotStream>{std::in_place, *plotter, id, monitor.watch_frames()};
+}
+
 base::Result<int> run(const Options& options)
 {
     const auto endpoints = look_up(options);
@@ -386,9 +396,9 @@ base::Result<int> run(const Options& options)
                                                                monitor, device,
                                                                monitor::recovery_of(rig.device())});
     }
-
+    auto plot = plot_for(endpoints->plot, options.id, monitor);
     loop::supervise({servo, monitor, stop, gate, screen.out, screen.err,
-                     control_session ? &*control_session : nullptr},
+                     control_session ? &*control_session : nullptr, plot ? &*plot : nullptr},
                     ready_line(options, socket, endpoints->remotes));
 
     if (kept) kept->on_rest(rig.governor().heat());

@@ -7,12 +7,13 @@ set -euo pipefail
 
 usage="usage: scripts/bench.sh emulator|scene|lab|device|secure [--quick] [--json FILE]
                         [--plot FILE.svg]
-       scripts/bench.sh web [--quick] [--json FILE]
+       scripts/bench.sh web [--quick] [--json FILE] [--page]
        scripts/bench.sh scene [... the same ...] [--csv FILE] [--markdown FILE]
        scripts/bench.sh lab   [... the same ...] [--csv FILE]
 Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
 the same numbers in FILE; of the scene --csv and --plot are its work-precision diagram, of the lab
-error against run time; of the web what ten who watch cost the daemons. --quick ends within a minute
+error against run time; of the web what ten who watch cost the daemons, or with --page what the page
+costs in Chromium without a graphics card. --quick ends within a minute
 of measuring. Run the emulator's as root, or
 where SCHED_FIFO is allowed, to measure real-time scheduling too, and the lab's so that nothing else
 counts. Exits 0 when it has measured, also when a target was missed; 2 for an
@@ -33,9 +34,14 @@ emulator | scene | lab | device | secure | web) ;;
 esac
 
 arguments=()
+web_bench=(python3 tests/bench/web/disturbance.py)
 while (($# > 0)); do
     case $1 in
     --quick) arguments+=(--quick) && shift ;;
+    --page)
+        [[ $subject == web ]] || refuse "--page is for web"
+        web_bench=(node tests/bench/web/page.mjs) && shift
+        ;;
     --csv | --json | --markdown | --plot)
         (($# > 1)) || refuse "$1: which file?"
         arguments+=("$1" "$(realpath -m "$2")") && shift 2
@@ -55,6 +61,10 @@ targets=("bench_$subject")
 } >&2
 if [[ $subject == web ]]; then
     export HAPNET_BIN=$PWD/build/release/bin PYTHONDONTWRITEBYTECODE=1
-    exec python3 tests/bench/web/disturbance.py "${arguments[@]}"
+    if [[ ${web_bench[0]} == node ]]; then
+        scripts/setup.sh --web >&2
+        (cd web/page && npm ci --ignore-scripts --no-audit --no-fund) >&2
+    fi
+    exec "${web_bench[@]}" "${arguments[@]}"
 fi
 exec "build/release/bin/bench_$subject" "${arguments[@]}"

@@ -4,8 +4,10 @@
 -- Wireshark's dissector of Hapnet's messages (docs/formats/wire.md, docs/formats/sealed.md):
 --     tshark -X lua_script:scripts/hapnet.lua -o udp.try_heuristic_first:TRUE -r RUN.pcapng
 -- or copy it into the folder of personal Lua plugins and set that preference of UDP. A message is
--- known by its first four bytes, on any port; the preference keeps others who claim a port back. Sequence, time of sending and age need no key; of a sealed message the rest is
--- shown as bytes.
+-- known by its first four bytes, on any port; the preference keeps others who claim a port back.
+-- Sequence, time of sending and age need no key; of a sealed message the rest is shown as bytes.
+-- Of any packet in a capture by hapnet-emulator --pcap, its fate is fields to filter and plot by:
+--     hapnet.fate == "dropped" && hapnet.cause == "gilbert-elliott", hapnet.delay_ms > 50
 
 local hapnet = Proto("hapnet", "Hapnet")
 
@@ -229,3 +231,44 @@ local function recognize(buffer, pinfo, tree)
     return true
 end
 hapnet:register_heuristic("udp", recognize)
+
+-- The emulator says what became of a packet in a comment of the capture.
+local emulator = Proto("hapnet_emulator", "Hapnet's emulator")
+local g = emulator.fields
+g.fate = ProtoField.string("hapnet.fate", "Fate") -- "delayed" or "dropped" on arrival, or "left"
+g.cause = ProtoField.string("hapnet.cause", "Cause of the drop")
+g.delay_ms = ProtoField.double("hapnet.delay_ms", "Delay as drawn, ms")
+g.copied = ProtoField.bool("hapnet.copied", "Copied")
+g.corrupted_bits = ProtoField.uint32("hapnet.corrupted_bits", "Corrupted bits")
+g.displaced = ProtoField.bool("hapnet.displaced", "Displaced")
+g.late_us = ProtoField.uint32("hapnet.late_us", "Left late, us")
+g.copy = ProtoField.bool("hapnet.copy", "Is a copy")
+local comments = Field.new("frame.comment")
+local in_ms = { us = 1e-3, ms = 1 }
+
+local function show_fate(said, root)
+    local delay, unit = said:match("^delayed ([%d.]+) (%a+)")
+    local late, what = said:match("^late (%d+) us(.*)$")
+    local cause = said:match("^dropped: ([%w-]+)$")
+    if not (delay and in_ms[unit]) and not late and not cause then return end
+    local fate = late and "left" or cause and "dropped" or "delayed"
+    local tree = root:add(emulator, "Hapnet's emulator: " .. said)
+    tree:add(g.fate, fate):set_generated()
+    if cause then
+        tree:add(g.cause, cause):set_generated()
+    elseif late then
+        tree:add(g.late_us, tonumber(late)):set_generated()
+        tree:add(g.copy, what == ", copy"):set_generated()
+    else
+        tree:add(g.delay_ms, tonumber(delay) * in_ms[unit]):set_generated()
+        tree:add(g.copied, said:find(", copied", 1, true) ~= nil):set_generated()
+        tree:add(g.corrupted_bits, tonumber(said:match(", (%d+) bits? corrupted") or 0))
+            :set_generated()
+        tree:add(g.displaced, said:find(", displaced", 1, true) ~= nil):set_generated()
+    end
+end
+
+function emulator.dissector(_, _, root)
+    for _, comment in ipairs({ comments() }) do show_fate(tostring(comment.value), root) end
+end
+register_postdissector(emulator)

@@ -2,14 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Makes docs/images/live.png and live-worlds.png, the pictures of the live page.
+# Makes docs/images/live.png and live-worlds.png, the pictures of the live page, and report.png.
 set -euo pipefail
 
 usage="usage: scripts/live_pictures.sh
-Starts the hapnet-web of build/release and takes two pictures with Chromium: docs/images/live.png of
-its demo, and docs/images/live-worlds.png, in which both worlds move (an animated PNG). Exits 3 when
-hapnet-web, node, chromium or the page's modules (npm ci in web/page) are missing, 1 when a picture
-has 300 kB, or the animated one 1 MB, or more."
+Takes pictures with Chromium of what build/release shows, in docs/images: live.png of the demo of
+hapnet-web, live-worlds.png, in which both worlds move (an animated PNG), and report.png of a report
+that hapnet-lab makes of Table 1. Exits 3 when hapnet-web, node, chromium or the page's modules (npm
+ci in web/page) are missing, 1 when a picture has 300 kB, or the animated one 1 MB, or more."
 
 case ${1-} in
 '') ;;
@@ -19,8 +19,8 @@ esac
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 command -v node >/dev/null || { echo "live_pictures: node is missing" >&2 && exit 3; }
 mkdir -p docs/images
-still=docs/images/live.png animated=docs/images/live-worlds.png
-node tests/web/picture.mjs "$still" "$animated"
+still=docs/images/live.png animated=docs/images/live-worlds.png report=docs/images/report.png
+node tests/web/picture.mjs "$still" "$animated" "$report"
 
 # check FILE BYTES: says how large it is, and whether that is too much.
 check() {
@@ -31,3 +31,4 @@ check() {
 }
 check "$still" 300000
 check "$animated" 1000000
+check "$report" 350000

@@ -68,6 +68,24 @@ for component in "${components[@]}"; do
     cmake --install "$build" --component "$component" --prefix "$build/tarball/$name" --strip
 done
 cp README.md LICENSE CHANGELOG.md "$build/tarball/$name"
+# The programs of the tarball hold others' libraries: their notices, as Debian states them.
+linked=(libboost1.74-dev libcli11-dev libexpected-dev libfmt-dev libgcc-12-dev libglm-dev
+    librandom123-dev libreaderwriterqueue-dev libspdlog-dev libstdc++-12-dev libtomlplusplus-dev
+    nlohmann-json3-dev)
+[[ -n $only ]] || linked+=(libhidapi-dev libsodium-dev libusb-1.0-0-dev)
+notices=$build/tarball/$name/share/doc/hapnet/linked
+mkdir -p "$notices"
+for package in "${linked[@]}"; do
+    cp -L "/usr/share/doc/$package/copyright" "$notices/$package"
+done
+cp -L /usr/share/common-licenses/{Apache-2.0,GPL-3,LGPL-2.1} "$notices"
+{
+    printf '%s\n' "The programs of this folder hold archives of these packages of Debian 12." \
+        "Each file here is the notice of one of them; the licences that they name are beside." \
+        "libusb is under the LGPL 2.1: to use another version of it, install that and run" \
+        "scripts/package.sh of Hapnet $version, whose source is public. Debian has its source." ""
+    dpkg-query -W -f '${Package} ${Version}\n' "${linked[@]}"
+} >"$notices/README"
 tar -C "$build/tarball" --sort=name --owner=0 --group=0 --numeric-owner -czf "$out/$name.tar.gz" \
     "$name"
 printf 'package: %s\n' "$out"/*.deb "$out/$name.tar.gz"

@@ -5,10 +5,10 @@
 # Installs what is missing to build Hapnet on Debian 12 and, with --test, to test it.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--test] [--programs] [--web] [--package] [--fleet]
+usage="usage: scripts/setup.sh [--test] [--programs] [--web] [--package] [--ship] [--fleet]
 Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
 also those that scripts/test.sh needs, with --programs, --web (nodejs and npm only where there is no
-node) and --fleet those that its kinds of these names need, with --package those that
+node), --ship and --fleet those that its kinds of these names need, with --package those that
 scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does nothing when nothing is
 missing."
 
@@ -32,12 +32,16 @@ fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-
 
 package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian scdoc systemd)
 
+# What makes images of the Dockerfiles.
+ship_packages=(buildah mmdebstrap)
+
 for argument in "$@"; do
     case $argument in
     --test) packages+=("${test_packages[@]}") ;;
     --programs) packages+=("${program_packages[@]}") ;;
     --web) packages+=("${web_packages[@]}") ;;
     --fleet) packages+=("${fleet_packages[@]}") ;;
+    --ship) packages+=("${ship_packages[@]}") ;;
     --package)
         packages+=("${package_packages[@]}")
         command -v npm >/dev/null || packages+=(npm) # which need not be Debian's

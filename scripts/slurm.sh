@@ -14,34 +14,15 @@ takes some ten minutes; each takes as many threads as --cpus-per-task (1) gives 
 among the options of sbatch it returns when all is merged.
 Exits 0 when the jobs are submitted, 1 when Slurm refused them, 2 for a wrong argument."
 
-refuse() {
-    echo "slurm: $1"$'\n'"$usage" >&2
-    exit 2
-}
-
-directory=
-shards=
-while (($# > 0)); do
-    case $1 in
-    --shards) shards=${2-} && shift 2 ;;
-    -h | --help) echo "$usage" && exit 0 ;;
-    --) shift && break ;;
-    -*) refuse "unknown argument '$1'" ;;
-    *) directory=$1 && shift ;;
-    esac
-done
-[[ -f $directory/plan.json ]] || refuse "'$directory' has no plan.json"
-[[ $shards =~ ^[1-9][0-9]*$ ]] || refuse "--shards: a number of shards"
-directory=$(realpath "$directory")
-lab=${HAPNET_BIN:+$(realpath "$HAPNET_BIN")/}hapnet-lab
-lab=$(command -v "$lab") || refuse "there is no $lab"
+name=slurm
+own_option() { return 1; }
+# shellcheck source=scripts/lib/shards.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib/shards.sh"
+read_plan "$@"
 command -v sbatch >/dev/null || refuse "there is no sbatch: Slurm's commands are not here"
 
 mkdir -p "$directory/slurm"
-missing=()
-for ((shard = 0; shard < shards; ++shard)); do
-    [[ -e $directory/shards/$shard-of-$shards.done ]] || missing+=("$shard")
-done
+find_missing
 after=()
 if ((${#missing[@]} > 0)); then
     cat >"$directory/slurm/shard.sbatch" <<EOF
@@ -52,7 +33,7 @@ exec "$lab" run "$directory" --shard "\$SLURM_ARRAY_TASK_ID/$shards" \\
     --jobs "\${SLURM_CPUS_PER_TASK:-1}"
 EOF
     list=$(IFS=, && echo "${missing[*]}")
-    array=$(sbatch --parsable --array="$list" "$@" "$directory/slurm/shard.sbatch")
+    array=$(sbatch --parsable --array="$list" "${rest[@]}" "$directory/slurm/shard.sbatch")
     echo "slurm: ${#missing[@]} shards of $shards: job ${array%%;*}"
     after=(--dependency="afterok:${array%%;*}" --kill-on-invalid-dep=yes)
 fi
@@ -61,4 +42,5 @@ cat >"$directory/slurm/merge.sbatch" <<EOF
 #SBATCH --job-name=hapnet-merge --output=$directory/slurm/merge.log
 exec "$lab" merge "$directory" --jobs "\${SLURM_CPUS_PER_TASK:-1}"
 EOF
-echo "slurm: merged by job $(sbatch --parsable "${after[@]}" "$@" "$directory/slurm/merge.sbatch")"
+merging=$(sbatch --parsable "${after[@]}" "${rest[@]}" "$directory/slurm/merge.sbatch")
+echo "slurm: merged by job $merging"

@@ -21,7 +21,7 @@ emulator:
      the start, nothing is lost that is not counted;
 scene:
   6. 1 000 000 random scenes under the laws of energy, momentum and force, from SEED on
-     (default 0), on two processes: about an hour; and how often guards acted in them,
+     (default 0), on two processes: about ten minutes; and how often guards acted in them,
   7. the ticks that cost most among 20 000 of them with at most 8 bodies;
 session:
   8. 1000 sessions from SEED on, half of them with keys, and more until 100 000 000 datagrams have
@@ -47,7 +47,7 @@ stop:
      about 6 minutes,
  11. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its
      force is zero 300 ms after the last message, about 10 minutes.
-About 4 N + 25 minutes and an hour. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000 scenes,
+About 4 N + 45 minutes. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000 scenes,
 200 sessions, a round of 11 s, 10 signals of each kind, about 7 minutes. Run emulator, daemons and
 stop as root, or where SCHED_FIFO is allowed, on a machine that does nothing else: 2 to 5 and 9 to
 11 measure time. A round whose programs did not keep their time says so under 'valid'.

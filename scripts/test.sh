@@ -14,9 +14,10 @@ under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs them
 devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
 KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
 curl, dig, iperf, iperf3, mosh, ping, QUIC), ship (packages, made, installed in a bare root and
-removed; as root), web (the live page in Chromium; left out, with the reason, where node, npm or
-chromium is missing), fleet (a plan in shards by GNU parallel, over ssh to this machine and as an
-array on a Slurm cluster of one node, which it starts and ends, as root; and a million sessions).
+removed, and images of them; as root), web (the live page in Chromium; left out, with the reason,
+where node, npm or chromium is missing), fleet (a plan in shards by GNU parallel, over ssh to this
+machine and as an array on a Slurm cluster of one node, which it starts and ends, as root; and a
+million sessions).
 What each step said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for
 an unknown argument, 3 when something that it needs cannot be installed."
 
@@ -41,7 +42,7 @@ esac
 case $kind in
 programs) scripts/setup.sh --test --programs ;;
 web) scripts/setup.sh --web ;;
-ship) scripts/setup.sh --package ;;
+ship) scripts/setup.sh --package --ship ;;
 fleet) scripts/setup.sh --test --fleet ;;
 *) scripts/setup.sh --test ;;
 esac
@@ -180,7 +181,7 @@ test_web() {
     (cd web/page && npm ci --ignore-scripts --no-audit --no-fund) || return
     mkdir -p "$logs/web"
     HAPNET_WEB_PICTURES=$PWD/$logs/web node --test --test-concurrency=1 --test-reporter=spec \
-        tests/web/page.test.mjs tests/web/virtual.test.mjs
+        tests/web/*.test.mjs
 }
 
 build_fleet() {
@@ -195,6 +196,21 @@ closing() {
         said=$(sed -n '/% tests passed/,$p' "$logs/$run.log" 2>/dev/null || true)
         printf '%s: %s\n' "${run/-/ }" "${said:-not run to the end}"
     done
+}
+
+# count LOG...: the tests of all of them, in one line.
+count() {
+    local run logs_read=()
+    for run in "$@"; do
+        [[ ! -f $logs/$run.log ]] || logs_read+=("$logs/$run.log")
+    done
+    cat "${logs_read[@]}" </dev/null | awk '
+        /% tests passed, .* tests? failed out of/ { failed += $4; all += $NF }
+        /^[ \t]*[0-9]+ - .*\(Skipped\)$/ { skipped++ }
+        END {
+            passed = all - failed - skipped
+            printf "tests: %d passed, %d failed, %d skipped\n", passed, failed, skipped
+        }'
 }
 
 if [[ $kind == ship ]]; then
@@ -231,6 +247,8 @@ printf '%s\n' "${summary[@]}"
 if ((failed > 0)); then
     printf 'test: %d of %d steps FAILED after %d s; see %s\n' \
         "$failed" "${#summary[@]}" "$SECONDS" "$PWD/$logs"
+    ((${#runs[@]} == 0)) || count "${runs[@]}"
     exit 1
 fi
 printf 'test: all %d steps passed in %d s\n' "${#summary[@]}" "$SECONDS"
+((${#runs[@]} == 0)) || count "${runs[@]}"

@@ -35,7 +35,8 @@ constexpr std::size_t unsent_bytes_max = std::size_t{16} << 20; // a history and
 constexpr auto token_within = 1s;
 constexpr auto unread_max = 10s;
 
-constexpr std::uint16_t close_no_token = 4401;
+constexpr std::uint16_t close_wrong_token = 4401;
+constexpr std::uint16_t close_too_late = 4408; // a busy page may try again
 constexpr std::uint16_t close_too_many = 4429;
 
 std::optional<std::uint64_t> acknowledged_in(const Json& message)
@@ -74,7 +75,7 @@ private:
     {
         timer_.expires_after(token_within);
         timer_.async_wait([self = shared_from_this()](beast::error_code error) {
-            if (!error && !self->is_in_) self->close(close_no_token, "no token");
+            if (!error && !self->is_in_) self->close(close_too_late, "no token in time");
         });
     }
 
@@ -105,7 +106,7 @@ private:
         const auto token = message.find("token");
         if (message.size() != 1 || token == message.end() || !token->is_string() ||
             !gate_.is_token(token->get_ref<const std::string&>())) {
-            return close(close_no_token, "a wrong token");
+            return close(close_wrong_token, "a wrong token");
         }
         is_in_ = true;
         timer_.cancel();

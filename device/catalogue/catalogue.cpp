@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "device/catalogue/catalogue.hpp"
 
+#include "device/dhd/transport/dhds.hpp"
 #include "device/falcon/transport/falcons.hpp"
 #include "device/hdapi/transport/hdapis.hpp"
 #include "device/hid/transport/hids.hpp"
+#include "device/inverse3/transport/inverse3s.hpp"
 #include "device/omni1394/transport/omni1394s.hpp"
 
 #include <algorithm>
@@ -36,6 +38,18 @@ const std::vector<Backend>& backends()
          [](const std::string& name, const DeviceOptions& options) {
              return hdapi::open_hdapi(name, options.hd_library);
          }},
+        {"dhd", "omega, delta, sigma and lambda of Force Dimension through their vendor's libdhd",
+         [](const DeviceOptions& options) { return dhd::find_dhds(options.dhd_library); },
+         [](const std::string& serial, const DeviceOptions& options) {
+             return dhd::open_dhd(serial, options.dhd_library);
+         }},
+        {"inverse3", "Haply Inverse3 through its vendor's local service",
+         [](const DeviceOptions& options) {
+             return inverse3::find_inverse3s(options.inverse3_port);
+         },
+         [](const std::string& id, const DeviceOptions& options) {
+             return inverse3::open_inverse3(id, options.inverse3_port);
+         }},
         {"falcon", "Novint Falcon", [](const DeviceOptions&) { return falcon::find_falcons(); },
          [](const std::string& serial, const DeviceOptions& options) {
              return falcon::open_falcon(serial, options.falcon_firmware);
@@ -64,6 +78,11 @@ std::string_view hint_for(std::string_view name)
     if (name == "touch") {
         return "a Touch is opened through its vendor's library: use --device hdapi[:NAME]";
     }
+    if (name == "omega" || name == "delta" || name == "sigma" || name == "lambda") {
+        return "a device of Force Dimension is opened through its vendor's library: use --device "
+               "dhd[:SERIAL]";
+    }
+    if (name == "haply") return "use --device inverse3[:ID] for a Haply Inverse3";
     if (name == "omni" || name == "phantom") {
         return "use --device omni1394 for a PHANToM Omni with FireWire, and --device hdapi[:NAME] "
                "for any other through its vendor's library";

@@ -5,6 +5,7 @@
 #include "device/device.hpp"
 #include "proto/base/result.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@ namespace hapnet::device {
 /// Options of a device besides its name. Files are paths.
 struct DeviceOptions {
     std::string hd_library{};            // hdapi: the vendor's library; "": by its usual names
+    std::string dhd_library{};           // dhd: likewise
+    std::uint16_t inverse3_port = 10001; // inverse3: of its service, on this machine
     std::string falcon_firmware{};       // falcon: "": it has to be running already
     std::string omni_torque{};           // omni1394: measured torque per count; "": none
     bool uncalibrated_force = false;     // omni1394: force without such a table, at most a quarter

@@ -147,4 +147,16 @@ base::Result<HandTrace> parse_hand_trace(std::string_view text, const std::strin
     return trace;
 }
 
+HandMoment moment_at(const HandTrace& trace, double seconds)
+{
+    const auto next =
+        std::upper_bound(trace.begin(), trace.end(), seconds,
+                         [](double t, const HandMoment& moment) { return t < moment.time_s; });
+    if (next == trace.begin()) return {seconds, next->hip, false};
+    const HandMoment& from = *(next - 1);
+    if (next == trace.end()) return {seconds, from.hip, false};
+    const double share = (seconds - from.time_s) / (next->time_s - from.time_s);
+    return {seconds, {from.hip.value + share * (next->hip - from.hip).value}, from.gripping};
+}
+
 } // namespace hapnet::device

@@ -4,7 +4,6 @@
 
 #include "proto/base/ensure.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -56,14 +55,7 @@ HandMoment Replay::at(double seconds) const
     const double last = trace_.back().time_s;
     const bool again = after_ == AfterTheEnd::begins_again && seconds >= last && last > first;
     if (again) seconds = first + std::fmod(seconds - first, last - first);
-    const auto next =
-        std::upper_bound(trace_.begin(), trace_.end(), seconds,
-                         [](double t, const HandMoment& moment) { return t < moment.time_s; });
-    if (next == trace_.begin()) return {seconds, next->hip, false};
-    const HandMoment& from = *(next - 1);
-    if (next == trace_.end()) return {seconds, from.hip, false};
-    const double share = (seconds - from.time_s) / (next->time_s - from.time_s);
-    return {seconds, {from.hip.value + share * (next->hip - from.hip).value}, from.gripping};
+    return moment_at(trace_, seconds);
 }
 
 } // namespace hapnet::device

@@ -17,7 +17,7 @@ constexpr double workspace_offset_m = 0.025;
 SimulatedOmni::SimulatedOmni(const Performer& performer)
     : performer_{performer},
       motion_{performer.person.hand, performer.plant.friction_n},
-      person_{{performer.task, performer.options, performer.person}},
+      person_{{performer.task, performer.options, performer.person, performer.way}},
       velocity_{performer.plant.velocity_cutoff_hz}
 {
     const HandImpedance& hand = performer.person.hand;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <optional>
 
 namespace hapnet::device {
@@ -29,6 +30,7 @@ struct Performer {
     TaskOptions options{};
     Operator person{};
     OmniPlant plant{};
+    std::shared_ptr<const HandTrace> way{}; // that the person means to go instead of the task's
 };
 
 /// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being:

@@ -3,12 +3,10 @@
 #include "device/simulated/operator.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/latin_hypercube.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <spdlog/fmt/fmt.h>
-#include <utility>
-#include <vector>
 
 namespace hapnet::device {
 
@@ -29,17 +27,6 @@ Operator lifelike(std::string_view name)
     result.force_noise = 3_percent;
     result.reflex.gain = 0.2;
     return result;
-}
-
-/// Which of `of` slices falls to each index: a shuffle (Fisher, Yates).
-std::uint32_t slice_of(const base::RandomStream& stream, std::uint32_t index, std::uint32_t of)
-{
-    std::vector<std::uint32_t> slices(of);
-    std::iota(slices.begin(), slices.end(), 0U);
-    for (std::uint32_t i = of - 1; i > 0; --i) {
-        std::swap(slices[i], slices[stream.below(i + 1, i)]);
-    }
-    return slices[index];
 }
 
 } // namespace
@@ -63,7 +50,7 @@ Operator varied(const Operator& person, base::Seed seed, std::uint32_t index, st
     const auto factor = [&](std::string_view parameter) {
         constexpr double spread = 0.3;
         const auto stream = seed.stream(fmt::format("operator/{}", parameter));
-        const double place = slice_of(stream, index, of) + stream.uniform(index, 1);
+        const double place = base::latin_places(stream, of)[index];
         return 1.0 + spread * (2.0 * place / of - 1.0);
     };
     const auto vary = [&](double& value, std::string_view parameter) {
@@ -84,6 +71,7 @@ Operator varied(const Operator& person, base::Seed seed, std::uint32_t index, st
     vary_time(result.reflex.delay, "reflex/delay");
     vary(result.intent.gain_m_per_ns, "will/gain");
     vary_time(result.intent.delay, "will/delay");
+    vary(result.search.speed_m_per_s, "search/speed");
     return result;
 }
 

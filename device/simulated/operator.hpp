@@ -107,6 +107,31 @@ constexpr auto fields_of(base::Tag<Intent> /*struct*/)
                                     "from the force to the reaction"));
 }
 
+/// How a hand looks for a body that it means to touch and does not feel: `after` so long without a
+/// force its intention goes on toward the body at `speed`, at most `reach` beyond its task's. It
+/// stops at the first touch, which takes no time here, and stays there until its task has come as
+/// far; where the task does not mean to touch, it goes back. T1, T2, T3 and T7; chosen, not
+/// measured.
+struct Search {
+    double speed_m_per_s = 0.0; // 0: it does not look
+    base::Duration after{std::chrono::milliseconds{400}};
+    double reach_m = 0.060;
+
+    friend bool operator==(const Search&, const Search&) = default;
+};
+constexpr auto fields_of(base::Tag<Search> /*struct*/)
+{
+    return base::fields(
+        "search",
+        base::field("speed", &Search::speed_m_per_s, base::Quantity{base::speed_kind, 0.0, 1.0},
+                    "speed of the intended position; 0: does not look"),
+        base::field("after", &Search::after,
+                    base::Time{base::Duration{0}, std::chrono::seconds{10}},
+                    "so long without a force"),
+        base::field("reach", &Search::reach_m, base::Quantity{base::length_kind, 0.0, 0.2},
+                    "how far beyond the task's place"));
+}
+
 /// A simulated person at a device: how the hand yields and how its intent wavers, reacts and lags.
 /// Not a human being: a linear hand with scripted intentions.
 struct Operator {
@@ -120,6 +145,7 @@ struct Operator {
     base::Probability force_noise{};
     Reflex reflex{};
     Intent intent{};
+    Search search{};
 
     friend bool operator==(const Operator&, const Operator&) = default;
 };
@@ -132,7 +158,9 @@ constexpr auto fields_of(base::Tag<Operator> /*struct*/)
         base::field("force_noise", &Operator::force_noise,
                     "standard deviation of the hand's force relative to that force, 1 to 10 Hz"),
         base::field("reflex", &Operator::reflex, "stretch reflex"),
-        base::field("will", &Operator::intent, "reaction to missing force"));
+        base::field("will", &Operator::intent, "reaction to missing force"),
+        base::field("search", &Operator::search,
+                    "looks for a body that is not where it should be"));
 }
 
 /// The presets: three grips with wander, tremor and intent; and the nominal grip with more of them,

@@ -26,6 +26,7 @@ void Person::on_cue(const Cue& cue, const glm::dvec3& rest)
 {
     part_ = Part{Script{role_.task, cue, role_.options, role_.person.hand},
                  HandNoise{cue.seed, cue.peer_id, role_.person}, cue.start, role_.task == Task::p1};
+    if (role_.way) part_->script.follow(role_.way);
     cued_at_.reset();
     rest_ = rest;
 }
@@ -79,6 +80,7 @@ Person::Aim Person::aim_of_part(base::TimePoint now)
     if (!cued_at_) cued_at_ = now;
     Aim aim{.intention = part_->script.at(now)};
     glm::dvec3& target = aim.intention.target.value;
+    if (aim.intention.searching) aim.searched_x = target.x;
     if (!part_->is_prescribed) {
         const HandNoise::Value noise = part_->noise.at(base::to_seconds(now - part_->start));
         target.x += noise.away_m;
@@ -99,8 +101,9 @@ Person::Effort Person::effort(const Aim& aim, const Feedback& feedback, base::Ti
     Effort effort{.target = aim.intention.target};
     if (!part_ || part_->is_prescribed) return effort;
     const double toward = part_->script.pressing_toward();
-    const Reaction reaction = reactions_.to(
-        {feedback.deviation, -toward * feedback.force.x, aim.intention.pressing_n}, now, elapsed);
+    Perception felt{feedback.deviation, -toward * feedback.force.x, aim.intention.pressing_n, {}};
+    if (aim.searched_x) felt.aim_m = toward * *aim.searched_x;
+    const Reaction reaction = reactions_.to(felt, now, elapsed);
     effort.target.value.x += toward * reaction.farther_m;
     effort.force =
         reaction.force - (aim.force_share * hand().stiffness_n_per_m) * feedback.deviation;

@@ -8,6 +8,7 @@
 #include "device/simulated/reactions.hpp"
 #include "device/simulated/script.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace hapnet::device {
@@ -17,6 +18,7 @@ struct Role {
     Task task = Task::p1;
     TaskOptions options{};
     Operator person{};
+    std::shared_ptr<const HandTrace> way{}; // that it means to go instead of the task's
 };
 
 /// A simulated person who plays a part of a task: what the hand means to do at a time, and how it
@@ -38,6 +40,7 @@ public:
     struct Aim {
         Intention intention;
         double force_share = 0.0;
+        std::optional<double> searched_x{}; // where its task has it, as long as it looks there
     };
     /// The way to its part begins with the first of these after the cue.
     [[nodiscard]] Aim aim(base::TimePoint now);

@@ -18,7 +18,28 @@ Reaction Reactions::to(const Perception& felt, base::TimePoint now, base::Durati
         reaction.force = -stiffness * stretched_.at(now - reflex.delay);
     }
     if (person_.intent.gain_m_per_ns > 0.0) reaction.farther_m = farther(felt, now, elapsed);
+    if (person_.search.speed_m_per_s > 0.0) reaction.farther_m += ahead(felt, now, elapsed);
     return reaction;
+}
+
+double Reactions::ahead(const Perception& felt, base::TimePoint now, base::Duration elapsed)
+{
+    constexpr double touch_n = 0.05; // less is none
+    const Search& search = person_.search;
+    const double step = search.speed_m_per_s * base::to_seconds(elapsed);
+    const double advanced = felt.aim_m && aim_m_ ? *felt.aim_m - *aim_m_ : 0.0;
+    aim_m_ = felt.aim_m;
+    const bool is_lost = felt.aim_m && felt.pressing_n < touch_n;
+    if (!is_lost) {
+        untouched_since_.reset();
+        const double back = felt.aim_m ? std::max(advanced, 0.0) : step;
+        ahead_m_ = std::max(ahead_m_ - back, 0.0);
+        return ahead_m_;
+    }
+    if (!untouched_since_) untouched_since_ = now;
+    if (now - *untouched_since_ >= search.after)
+        ahead_m_ = std::min(ahead_m_ + step, search.reach_m);
+    return ahead_m_;
 }
 
 double Reactions::farther(const Perception& felt, base::TimePoint now, base::Duration elapsed)

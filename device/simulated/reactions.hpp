@@ -14,6 +14,8 @@ struct Perception {
     glm::dvec3 deviation{0.0};        // of the hand from its intention, metres
     double pressing_n = 0.0;          // the force with which it presses
     std::optional<double> wanted_n{}; // with which it wants to; nullopt: it does not care
+    /// How far toward the body its task goes, metres, where it looks for it; nullopt: it does not.
+    std::optional<double> aim_m{};
 };
 
 /// Its reaction.
@@ -22,7 +24,8 @@ struct Reaction {
     double farther_m = 0.0; // how much farther it means to press
 };
 
-/// A simulated person's stretch reflex and intent. Costs nothing for an operator with neither.
+/// A simulated person's stretch reflex, intent and search. Costs nothing for an operator without
+/// them.
 class Reactions {
 public:
     explicit Reactions(const Operator& person) : person_{person} {}
@@ -34,6 +37,9 @@ private:
     [[nodiscard]] double farther(const Perception& felt, base::TimePoint now,
                                  base::Duration elapsed);
 
+    /// How much farther it goes in search of the body.
+    [[nodiscard]] double ahead(const Perception& felt, base::TimePoint now, base::Duration elapsed);
+
     Operator person_;
     SignalHistory stretched_;
     SignalHistory missed_;
@@ -41,6 +47,9 @@ private:
     double farther_m_ = 0.0;
     base::Duration smoothed_over_{}; // what the next one is for
     double smoothing_keeps_ = 1.0;
+    double ahead_m_ = 0.0;
+    std::optional<base::TimePoint> untouched_since_;
+    std::optional<double> aim_m_; // of the last read
 };
 
 } // namespace hapnet::device

@@ -103,7 +103,10 @@ double closing(double squeeze, double t)
            (near_m + squeeze) * between(near_after_s, pressing_after_s, t);
 }
 
-Intention at_x(double x) { return {.target = {{x, 0.0, 0.0}}}; }
+Intention at_x(double x, bool searching = false)
+{
+    return {.target = {{x, 0.0, 0.0}}, .searching = searching};
+}
 
 } // namespace
 
@@ -144,17 +147,22 @@ Intention Script::at(base::TimePoint now) const
     const double t = base::to_seconds(now - cue_.start);
     const double hands_on = base::to_seconds(cue_.hands_on);
     Intention intention = working(std::clamp(t, 0.0, hands_on));
-    if (t < 0.0 || t >= hands_on) intention.gripping = false;
+    if (t < 0.0 || t >= hands_on) intention.gripping = intention.searching = false;
     if (t < hands_on) return intention;
     // Up and aside: after an outage the two copies may be apart, and aside alone may not be off.
     const double gone = minimum_jerk((t - hands_on) / let_go_s);
     intention.target.value += glm::dvec3{side_ * let_go_m * gone, lift_off_m * gone, 0.0};
     intention.pressing_n.reset();
+    intention.searching = false;
     return intention;
 }
 
 Intention Script::working(double t) const
 {
+    if (way_) {
+        const HandMoment moment = moment_at(*way_, t);
+        return {.target = moment.hip, .gripping = moment.gripping};
+    }
     switch (task_) {
     case Task::p1: {
         if (cue_.is_left) {
@@ -168,10 +176,10 @@ Intention Script::working(double t) const
         intention.target.value.y = lift_off_m;
         return intention;
     }
-    case Task::t1: return at_x(turn_x(t));
-    case Task::t2: return at_x(press_x(t));
+    case Task::t1: return at_x(turn_x(t), turn_share(t) >= 1.0);
+    case Task::t2: return at_x(press_x(t), t >= pressing_after_s);
     case Task::t3:
-    case Task::t7: return at_x(carry_x(t));
+    case Task::t7: return at_x(carry_x(t), true);
     case Task::t4: return lift(t);
     case Task::t5: return wall(t);
     case Task::t6: return at_x(tap_x(t));
@@ -186,11 +194,15 @@ Intention Script::working(double t) const
     return {};
 }
 
-double Script::turn_x(double t) const
+double Script::turn_share(double t) const
 {
     const double rising = std::clamp(0.5 + path_speed(t) / (2.0 * turn_speed_m_per_s), 0.0, 1.0);
-    const double turn = cue_.is_left ? rising : 1.0 - rising;
-    return path_x(t) + side_ * (touching_m + clearance_m * (1.0 - turn));
+    return cue_.is_left ? rising : 1.0 - rising;
+}
+
+double Script::turn_x(double t) const
+{
+    return path_x(t) + side_ * (touching_m + clearance_m * (1.0 - turn_share(t)));
 }
 
 double Script::press_x(double t) const

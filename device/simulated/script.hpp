@@ -3,19 +3,24 @@
 #pragma once
 
 #include "device/device.hpp"
+#include "device/replay/hand_trace.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/press_schedule.hpp"
 #include "device/simulated/task.hpp"
 
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace hapnet::device {
 
-/// A hand's intention: its place, whether it grips, and the force with which it presses.
+/// A hand's intention: its place, whether it grips, the force with which it presses, and whether it
+/// looks for the body where it feels none.
 struct Intention {
     base::Position target;
     bool gripping = false;
     std::optional<double> pressing_n{}; // where the task asks for a force
+    bool searching = false;             // where the task means to touch a body that may be away
 };
 
 /// One hand's part in a task: a pure function of time.
@@ -24,6 +29,9 @@ public:
     /// `hand` is whose it is: how far it has to aim into the cube to press as it means to.
     Script(Task task, const Cue& cue, const TaskOptions& options = {},
            const HandImpedance& hand = {});
+
+    /// Goes this way, of at least one moment, instead of the task's.
+    void follow(std::shared_ptr<const HandTrace> way) { way_ = std::move(way); }
 
     [[nodiscard]] Intention at(base::TimePoint now) const;
 
@@ -35,6 +43,8 @@ public:
 private:
     /// In the time of the task, from its start on, while the hands are on.
     [[nodiscard]] Intention working(double t) const;
+    /// How much it is this hand's turn to push, from 0 to 1.
+    [[nodiscard]] double turn_share(double t) const;
     [[nodiscard]] double turn_x(double t) const;
     [[nodiscard]] double press_x(double t) const;
     [[nodiscard]] double carry_x(double t) const;
@@ -53,6 +63,7 @@ private:
     std::array<PressInterval, 6> presses_;
     double side_; // -1: left of the cube
     double depth_m_per_n_;
+    std::shared_ptr<const HandTrace> way_;
 };
 
 } // namespace hapnet::device

@@ -16,7 +16,7 @@ namespace {
 
 base::Result<results::File> sessions_of(const std::string& folder)
 {
-    for (const char* name : {"sessions.csv", "sessions_by_axis.csv"}) {
+    for (const char* name : {"sessions.csv", "sessions_by_axis.csv", "sessions_by_point.csv"}) {
         const auto path = (std::filesystem::path{folder} / name).string();
         if (!std::filesystem::exists(path)) continue;
         return net::text_of_file(path).map([&](const std::string& text) {

@@ -55,7 +55,25 @@ void tell_of_damage(const runner::SessionStore& store, const std::string& where)
              fmt::format("{} lines of {} are damaged and left out", store.damaged_lines(), where));
 }
 
-/// records/[VALUE/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed.
+/// What the names of all that is of a point have in common: "5ms" of one axis, or "point-3".
+std::string name_of_point(const LoadedExperiment::Part& part)
+{
+    if (part.values.empty()) return {};
+    return part.values.size() == 1 ? part.values.front() : fmt::format("point-{}", part.point + 1);
+}
+
+/// What the lines of a table have before their own cells: at which point of the axes they are.
+std::vector<runner::LeadingCell> leading_cells(const std::vector<experiment::Axis>& axes,
+                                               const LoadedExperiment::Part& part)
+{
+    if (axes.empty()) return {};
+    if (axes.size() == 1) return {{"parameter", axes.front().key}, {"value", part.values.front()}};
+    std::vector<runner::LeadingCell> cells{{"point", fmt::format("{}", part.point + 1)}};
+    for (std::size_t i = 0; i < axes.size(); ++i) cells.push_back({axes[i].key, part.values[i]});
+    return cells;
+}
+
+/// records/[POINT/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed.
 void write_records(const fs::path& out, const LoadedExperiment::Part& part)
 {
     const experiment::Experiment& experiment = part.experiment;
@@ -68,7 +86,7 @@ void write_records(const fs::path& out, const LoadedExperiment::Part& part)
         if (!kept) throw std::runtime_error{kept.error().message};
         const auto name =
             fmt::format("{}-{}", experiment.algorithms[one->algorithm].name, name_of(one->task));
-        const auto folder = out / "records" / part.value / name;
+        const auto folder = out / "records" / name_of_point(part) / name;
         create_folder(folder.string());
         for (std::size_t seat = 0; seat < kept->size(); ++seat) {
             const records::KeptRecord& of_player = (*kept)[seat];
@@ -212,18 +230,18 @@ private:
         constexpr std::string_view ending = ".csv";
         const bool is_table =
             file.path.ends_with(ending) && file.path.find('/') == std::string::npos;
-        if (experiment_.whole.axis && !is_table) return;
+        const auto& axes = experiment_.whole.axes;
+        if (!axes.empty() && !is_table) return;
         if (!is_table) {
             write_text(out_ / file.path, file.text);
             names_.push_back(file.path);
             return;
         }
-        std::vector<runner::LeadingCell> leading;
-        if (experiment_.whole.axis) {
-            leading = {{"parameter", experiment_.whole.axis->key}, {"value", part.value}};
-            file.path.insert(file.path.size() - ending.size(), "_by_axis");
+        if (!axes.empty()) {
+            const std::string_view varied = axes.size() == 1 ? "_by_axis" : "_by_point";
+            file.path.insert(file.path.size() - ending.size(), varied);
         }
-        tables_.add(file, leading);
+        tables_.add(file, leading_cells(axes, part));
     }
 
     /// On standard output, what can be read at a glance.

@@ -18,7 +18,8 @@ namespace hapnet::lab {
 /// the other.
 struct LoadedExperiment {
     struct Part {
-        std::string value; // of the axis; empty: there is none
+        std::size_t point = 0;           // number of the point of the axes
+        experiment::AxisValues values{}; // there; empty: there are none
         experiment::Experiment experiment;
     };
 

@@ -344,7 +344,10 @@ void add_run(cli::Command& command, RunCommand& run)
     command.add_footer("Examples:\n"
                        "  hapnet-lab run table1 --out results/table1\n"
                        "  hapnet-lab run fig6b --seeds 40 --jobs 2 --out results/fig6b\n"
-                       "  hapnet-lab run mine.toml --set both.delay=100ms --out results/mine");
+                       "  hapnet-lab run mine.toml --set both.delay=100ms --out results/mine\n"
+                       "  hapnet-lab run any-network --set latin_hypercube.points=20 --out r\n"
+                       "  hapnet-lab run table1 --set axis.key=hands --out results/hands \\\n"
+                       "    --set 'axis.values=[\"relaxed\", \"firm\"]'");
     add_experiment(command, run,
                    "A file (docs/use/experiments.md), a plan (the folder that hapnet-lab plan "
                    "wrote)");

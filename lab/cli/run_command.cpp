@@ -64,7 +64,8 @@ base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open
         loaded = load_own_algorithms(point->experiment);
         for (experiment::Experiment& part : parts_of(point->experiment)) {
             experiment.jobs += make_jobs(part).size();
-            experiment.parts.push_back({point->value, std::move(part)});
+            experiment.parts.push_back({static_cast<std::size_t>(point - points->begin()),
+                                        point->values, std::move(part)});
         }
     }
     if (!loaded) return tl::unexpected{loaded.error()};

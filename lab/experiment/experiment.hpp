@@ -54,12 +54,24 @@ struct NamedTrace {
     std::shared_ptr<const device::HandTrace> trace{};
 };
 
-/// The same experiment again for each of several values of one of its keys.
+/// A key of the experiment that is varied: over these values, or over a range.
 struct Axis {
-    std::string key;                 // "both.delay", as after --set
-    std::vector<std::string> values; // as after the = of --set
+    std::string key;                   // "both.delay", as after --set
+    std::vector<std::string> values{}; // as after the = of --set
+    // A range of numbers with the same unit, "0ms" and "200ms", both ends included.
+    std::optional<std::string> from{};
+    std::optional<std::string> to{};
+    std::optional<std::string> step{}; // from `from` on; nullopt: anything between
 
     friend bool operator==(const Axis&, const Axis&) = default;
+};
+
+/// Points that are drawn from all axes at once, instead of all combinations of their values.
+struct LatinHypercube {
+    std::uint32_t points = 0;
+    std::uint32_t seed = 1; // of the points; the sessions have their own
+
+    friend bool operator==(const LatinHypercube&, const LatinHypercube&) = default;
 };
 
 /// How many play together, and in which of the experiment's scenes.
@@ -183,6 +195,7 @@ struct Experiment {
     Hands hands{};
     device::TaskOptions task_options{};
     std::vector<NamedTrace> replay{}; // none, or of those that act as L and as R
+    std::vector<NamedTrace> script{}; // likewise: where their simulated hands mean to be
     bool energy_limit = false;
     bool keyed = false;    // the players seal their messages
     bool record = false;   // keeps records of the first seed's sessions
@@ -191,7 +204,8 @@ struct Experiment {
     std::vector<emulator::PathPatch> links{};
     /// What changes in every session, counted from its first hello.
     std::vector<emulator::Change> timeline{};
-    std::optional<Axis> axis{};
+    std::vector<Axis> axes{}; // the same experiment again at each of the points of these
+    std::optional<LatinHypercube> latin_hypercube{};
 };
 
 /// Every number of peers in every scene.

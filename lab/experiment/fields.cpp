@@ -224,6 +224,40 @@ void check(const SearchRange& range, base::Place place, Reading& reading)
     }
 }
 
+void AxesFormat::read(const Node& node, std::vector<Axis>& target, Reading& reading) const
+{
+    std::vector<Axis> axes;
+    if (const auto* list = std::get_if<Node::List>(&node.value)) {
+        for (const Node& one : *list) base::read_table(one, axes.emplace_back(), reading);
+    } else {
+        base::read_table(node, axes.emplace_back(), reading);
+    }
+    if (reading.is_good()) target = std::move(axes);
+}
+
+std::string AxesFormat::print(const std::vector<Axis>& axes) const
+{
+    std::vector<std::string> texts;
+    for (const Axis& axis : axes)
+        texts.push_back(base::table_text(base::field_texts(axis, base::Print::needed)));
+    if (texts.size() == 1) return texts.front();
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+void LevelsFormat::read(const Node& node, std::vector<ImpairmentLevel>& target,
+                        Reading& reading) const
+{
+    if (std::holds_alternative<Node::List>(node.value))
+        return base::List<LevelFormat>{level, 1}.read(node, target, reading);
+    target.assign(1, {});
+    level.read(node, target.front(), reading);
+}
+
+std::string LevelsFormat::print(const std::vector<ImpairmentLevel>& levels) const
+{
+    return base::List<LevelFormat>{level}.print(levels);
+}
+
 void RangesFormat::read(const Node& node, SearchRanges& target, Reading& reading) const
 {
     base::Table::read(node, target, reading);

@@ -74,6 +74,23 @@ struct HandsFormat {
     }
 };
 
+/// One axis, or a list of them.
+struct AxesFormat {
+    void read(const base::Node& node, std::vector<Axis>& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<Axis>& axes) const;
+    [[nodiscard]] std::string describe() const { return "a table, or a list of tables"; }
+};
+
+/// Levels of an impairment, or one.
+struct LevelsFormat {
+    LevelFormat level{};
+
+    void read(const base::Node& node, std::vector<ImpairmentLevel>& target,
+              base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<ImpairmentLevel>& levels) const;
+    [[nodiscard]] std::string describe() const { return level.describe() + ", or a list"; }
+};
+
 /// Complains of a range that cannot be searched.
 void check(const SearchRange& range, base::Place place, base::Reading& reading);
 
@@ -155,15 +172,15 @@ constexpr auto fields_of(base::Tag<Trajectories> /*struct*/)
 
 constexpr auto fields_of(base::Tag<ImpairmentGrid> /*struct*/)
 {
-    using Levels = base::List<LevelFormat>;
     return base::fields(
         "plane",
-        base::field("delay", &ImpairmentGrid::delays, Levels{{Impairment::delay}, 1}, "the delays")
+        base::field("delay", &ImpairmentGrid::delays, LevelsFormat{{Impairment::delay}},
+                    "the delays")
             .required(),
-        base::field("jitter", &ImpairmentGrid::jitters, Levels{{Impairment::jitter}, 1},
+        base::field("jitter", &ImpairmentGrid::jitters, LevelsFormat{{Impairment::jitter}},
                     "the jitters, each with every delay")
             .required(),
-        base::field("loss", &ImpairmentGrid::losses, Levels{{Impairment::random_loss}, 1},
+        base::field("loss", &ImpairmentGrid::losses, LevelsFormat{{Impairment::random_loss}},
                     "the shares of random loss, each with every delay and jitter")
             .required());
 }
@@ -197,10 +214,25 @@ constexpr auto fields_of(base::Tag<Axis> /*struct*/)
 {
     return base::fields(
         "axis",
-        base::field("key", &Axis::key, "any key of the experiment, as after --set").required(),
+        base::field("key", &Axis::key, "any key of the experiment, as after `--set`").required(),
         base::field("values", &Axis::values, base::List<base::Text>{{}, 1},
-                    "the values, as after the = of --set")
-            .required());
+                    "its values, as after the = of `--set`"),
+        base::field("from", &Axis::from, "instead of `values`: the least, a number with its unit"),
+        base::field("to", &Axis::to, "the most, in the same unit"),
+        base::field("step", &Axis::step,
+                    "from one value to the next; a latin hypercube can do without"));
+}
+
+inline constexpr std::uint32_t points_max = 10'000;
+
+constexpr auto fields_of(base::Tag<LatinHypercube> /*struct*/)
+{
+    return base::fields("latin-hypercube",
+                        base::field("points", &LatinHypercube::points, base::Count{2, points_max},
+                                    "number of points")
+                            .required(),
+                        base::field("seed", &LatinHypercube::seed, base::Count{0, 1'000'000'000},
+                                    "by which they are drawn"));
 }
 
 constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
@@ -233,14 +265,18 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "options of the tasks"),
         base::field("replay", &Experiment::replay, TracesFormat{},
                     "hands that move as recorded, CSV as for `hapnet-peer --device replay:FILE`"),
+        base::field("script", &Experiment::script, TracesFormat{},
+                    "where simulated hands mean to be instead of the task's: such files, too"),
         base::field("energy_limit", &Experiment::energy_limit,
                     "limits the energy into each hand as hapnet-peer does"),
         base::field("keyed", &Experiment::keyed,
                     "the players seal their messages, as `hapnet-peer --key` does"),
         base::field("record", &Experiment::record,
                     "keeps what each player of the first seed's sessions would have recorded"),
-        base::field("axis", &Experiment::axis, base::Table{},
-                    "the same experiment again for each value of one of its keys"));
+        base::field("axis", &Experiment::axes, AxesFormat{},
+                    "the same experiment again at each value of one or several of its keys"),
+        base::field("latin_hypercube", &Experiment::latin_hypercube, base::Table{},
+                    "points drawn from all axes, instead of every combination"));
 }
 
 /// What a text describes that names only kind and tasks.

@@ -120,6 +120,27 @@ void check_record(const Experiment& experiment, base::Place place, Reading& read
     if (experiment.keyed) reading.complain(place, "a record holds messages without keys");
 }
 
+/// Complains of a hand that has both a way to go and one to mean.
+void check_ways(const Experiment& experiment, base::Place place, Reading& reading)
+{
+    if (experiment.replay.empty() || experiment.script.empty()) return;
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (!experiment.replay[side].trace || !experiment.script[side].trace) continue;
+        return reading.complain(place, "a hand has either a replay or a script: leave one empty");
+    }
+}
+
+/// Complains of axes that have no points.
+void check_axes(TableReader& table, const Experiment& experiment)
+{
+    const Node* axes = table.find("axis");
+    const Node* drawn = table.find("latin_hypercube");
+    if ((axes == nullptr && drawn == nullptr) || !table.reading().is_good()) return;
+    const auto points = axis_points(experiment);
+    const Node& node = axes == nullptr ? *drawn : *axes;
+    if (!points) table.reading().complain(node.place, points.error().message);
+}
+
 Experiment read_experiment(const Node& document, Reading& reading)
 {
     TableReader table{std::get<Node::Table>(document.value), document.place, reading};
@@ -130,8 +151,11 @@ Experiment read_experiment(const Node& document, Reading& reading)
     read_network(table, experiment);
     read_kind(table, experiment.kind);
     table.finish();
+    check_axes(table, experiment);
     if (const Node* node = table.find("record"); node != nullptr && reading.is_good())
         check_record(experiment, node->place, reading);
+    if (const Node* node = table.find("script"); node != nullptr && reading.is_good())
+        check_ways(experiment, node->place, reading);
     for (const char* key : {"matrix", "link", "scene", "peers", "replay"}) {
         const Node* node = table.find(key);
         if (node == nullptr || !reading.is_good()) continue;
@@ -165,6 +189,14 @@ base::Result<Experiment> complain_of_settings(Node document, const Overrides& ov
     return complaint;
 }
 
+/// Whether a setting is of the axes themselves.
+bool is_of_axes(std::string_view setting)
+{
+    const std::string_view key = setting.substr(0, setting.find('='));
+    const std::string_view table = key.substr(0, key.find('.'));
+    return table == "axis" || table == "latin_hypercube";
+}
+
 } // namespace
 
 base::Result<Experiment> parse_experiment(std::string_view text, const std::string& source,
@@ -179,6 +211,12 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
     });
     if (!parts) return tl::unexpected{parts.error()};
     auto [document, quick] = *parts;
+    if (overrides.is_point) {
+        for (Node* table : {&document, &quick}) {
+            std::ignore = taken(*table, "axis");
+            std::ignore = taken(*table, "latin_hypercube");
+        }
+    }
     Node quick_document = document;
     overlay(quick_document, quick);
     const Node& chosen = overrides.quick ? quick_document : document;
@@ -217,17 +255,21 @@ base::Result<std::vector<AxisPoint>> load_axis_points(const std::string& file_or
     const auto whole = load_experiment(file_or_name, open, overrides);
     if (!whole) return tl::unexpected{whole.error()};
     std::vector<AxisPoint> points;
-    if (!whole->axis) {
+    if (whole->axes.empty()) {
         points.push_back({{}, *whole});
         return points;
     }
-    for (const std::string& value : whole->axis->values) {
+    auto all = axis_points(*whole);
+    if (!all) return tl::unexpected{all.error()};
+    for (AxisValues& values : *all) {
         Overrides at = overrides;
-        at.settings.push_back(fmt::format("{}={}", whole->axis->key, value));
+        at.is_point = true;
+        std::erase_if(at.settings, is_of_axes);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            at.settings.push_back(fmt::format("{}={}", whole->axes[i].key, values[i]));
         auto one = load_experiment(file_or_name, open, at);
         if (!one) return tl::unexpected{one.error()};
-        one->axis.reset();
-        points.push_back({value, *std::move(one)});
+        points.push_back({std::move(values), *std::move(one)});
     }
     return points;
 }

@@ -8,6 +8,7 @@
 #include "proto/base/text.hpp"
 #include "scene/text/text.hpp"
 
+#include <memory>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::experiment {
@@ -28,12 +29,11 @@ scene::Description scene_for(device::Task task)
     return *built_in;
 }
 
-/// What a replayed hand does; empty for a simulated one.
-std::string replay_text(const virtual_time::PlayerSetting& player)
+/// A way of a hand; empty without one.
+std::string way_text(std::string text, const std::shared_ptr<const device::HandTrace>& way)
 {
-    if (!player.replay) return {};
-    std::string text = "replay";
-    for (const device::HandMoment& moment : *player.replay) {
+    if (!way) return {};
+    for (const device::HandMoment& moment : *way) {
         const auto& hip = moment.hip;
         text += fmt::format(" {} {} {} {} {}", moment.time_s, hip.x(), hip.y(), hip.z(),
                             moment.gripping);
@@ -43,10 +43,10 @@ std::string replay_text(const virtual_time::PlayerSetting& player)
 
 std::string player_text(const virtual_time::PlayerSetting& player)
 {
-    return fmt::format("{}{}clock_ahead = {}\nphase = {}\n{}",
-                       peer::print_algorithm(player.algorithm),
-                       device::print_operator(player.person), player.clock_ahead.count(),
-                       player.phase.count(), replay_text(player));
+    return fmt::format(
+        "{}{}clock_ahead = {}\nphase = {}\n{}{}", peer::print_algorithm(player.algorithm),
+        device::print_operator(player.person), player.clock_ahead.count(), player.phase.count(),
+        way_text("replay", player.replay), way_text("script", player.way));
 }
 
 } // namespace
@@ -55,6 +55,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
                               const emulator::Path& path)
 {
     SessionSpec spec;
+    spec.algorithm = one.algorithm.name;
     virtual_time::Setting& setting = spec.setting;
     setting.task = one.task;
     setting.task_options = experiment.task_options;
@@ -73,6 +74,8 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
         setting.players[seat].person = seat % 2 == 0 ? one.hands.left : one.hands.right;
         if (!experiment.replay.empty())
             setting.players[seat].replay = experiment.replay[seat % 2].trace;
+        if (!experiment.script.empty())
+            setting.players[seat].way = experiment.script[seat % 2].trace;
         if (experiment.keyed) setting.players[seat].circle = setting.seed;
     }
     return spec;
@@ -84,6 +87,20 @@ SessionSpec perfect_twin(const SessionSpec& spec)
     twin.setting.profile = {};
     twin.rows_per_s = 0;
     return twin;
+}
+
+std::string network_text(const emulator::Profile& profile)
+{
+    std::string text;
+    for (const char c : emulator::to_text(profile)) {
+        if (c != '\n') {
+            text += c;
+        } else if (!text.empty() && !text.ends_with("; ")) {
+            text += "; ";
+        }
+    }
+    while (text.ends_with(' ') || text.ends_with(';')) text.pop_back();
+    return text;
 }
 
 std::string key_of(const SessionSpec& spec, std::string_view program)

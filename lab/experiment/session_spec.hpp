@@ -18,6 +18,7 @@ namespace hapnet::lab::experiment {
 struct SessionSpec {
     virtual_time::Setting setting{};
     std::uint32_t rows_per_s = 0;
+    std::string algorithm{}; // what the experiment calls it; nothing follows from that
 };
 
 /// What came of a session: a pure function of its spec.
@@ -43,6 +44,9 @@ struct SessionCase {
 
 /// The same session on a perfect network: what scores are relative to. Keeps no rows.
 [[nodiscard]] SessionSpec perfect_twin(const SessionSpec& spec);
+
+/// A profile on one line.
+[[nodiscard]] std::string network_text(const emulator::Profile& profile);
 
 /// One line that tells sessions apart: what a person looks for, and a hash of all that the session
 /// follows from. `program` is who plays it: another program may play it differently.

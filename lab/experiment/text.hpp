@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/experiment/axes.hpp"
 #include "lab/experiment/experiment.hpp"
 #include "proto/base/reading.hpp"
 #include "proto/base/result.hpp"
@@ -19,6 +20,7 @@ namespace hapnet::lab::experiment {
 struct Overrides {
     bool quick = false;                // what the text says under [quick] counts
     std::vector<std::string> settings; // "limit.delay.to=200ms": the last word
+    bool is_point = false;             // the settings are those of a point: its axes do not count
 };
 
 /// Reads an experiment. Errors begin with "SOURCE:LINE:COLUMN: ", or with "--set KEY=VALUE: " when
@@ -47,13 +49,13 @@ struct BuiltInExperiment {
                                                        const base::OpenFile& open,
                                                        const Overrides& overrides);
 
-/// The experiment at one value of its axis.
+/// The experiment at one point of its axes.
 struct AxisPoint {
-    std::string value; // empty: it has no axis
+    AxisValues values; // of the axes; empty: it has none
     Experiment experiment;
 };
 
-/// The experiment at every value of its axis, or as it is when it has none.
+/// The experiment at every point of its axes, or as it is when it has none.
 [[nodiscard]] base::Result<std::vector<AxisPoint>> load_axis_points(const std::string& file_or_name,
                                                                     const base::OpenFile& open,
                                                                     const Overrides& overrides);

@@ -64,7 +64,8 @@ bool is_in_session(const virtual_time::VirtualPlayer& player)
 base::Result<std::unique_ptr<Session>> Session::make(const experiment::Experiment& experiment,
                                                      Presets presets)
 {
-    if (experiment.axis) return base::fail("an experiment with an axis is many: choose one value");
+    if (!experiment.axes.empty())
+        return base::fail("an experiment with an axis is many: choose one value");
     if (experiment.algorithms.size() > algorithms_max) {
         return base::fail(fmt::format("{} algorithms: at most {} play side by side",
                                       experiment.algorithms.size(), algorithms_max));

@@ -66,6 +66,7 @@ std::optional<Section> axis_section(const results::Results& results)
         "<p>The limits again, for other readings of the paper and other conditions that "
         "it does not state. The worst of the tasks; lines are 95 % intervals.</p>\n"
         "<div class='panels'>\n"};
+    section.sources = links_to(results, "limits_by_axis.csv");
     const auto kinds = distinct(results.limits_by_axis, [](const results::AxisLimitRow& row) {
         return std::pair{row.parameter, row.limit.impairment};
     });

@@ -142,6 +142,7 @@ std::optional<Section> curves_section(const results::Results& results)
     Section section{"curves", "The curves behind the limits",
                     "<p>Every point is a session: all seeds at each level that counts. The line "
                     "joins their medians.</p>\n"};
+    section.sources = links_to(results, "curves.csv");
     const auto criteria = results.criteria();
     if (criteria) section.html += "<p>The dashed line is where usable ends.</p>\n";
     for (const auto& name : distinct(results.curves, [](const auto& r) { return r.impairment; })) {

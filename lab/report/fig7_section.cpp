@@ -55,7 +55,7 @@ constexpr BothSides drawn_forces{": forces",
                                  &results::TrajectoryRow::force_l_n,
                                  &results::TrajectoryRow::force_r_n};
 
-std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
+Drawing both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
 {
     const std::array curves{plot::Curve{.name = both.left_name,
                                         .colour = left_colour,
@@ -64,12 +64,11 @@ std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot:
                                         .colour = right_colour,
                                         .points = points_of(rows, both.right)}};
     const std::string title = rows.front().algorithm + std::string{both.title};
-    return plot::svg_plot({title, "time, s", both.unit}, curves,
-                          {.size = {900.0, 230.0}, .y = range, .can_zoom = true});
+    return drawn_plot({title, "time, s", both.unit}, curves, {.size = {900.0, 230.0}, .y = range});
 }
 
 /// x_L - x_R, where two curves that lie on each other cannot be told apart.
-std::string difference_plot(const Rows& rows, const plot::Range& range)
+Drawing difference_plot(const Rows& rows, const plot::Range& range)
 {
     std::vector<plot::Point> points;
     for (const results::TrajectoryRow& row : rows)
@@ -78,8 +77,7 @@ std::string difference_plot(const Rows& rows, const plot::Range& range)
                                         .colour = colour_of(rows.front().algorithm),
                                         .points = plot::thinned(points, points_max)}};
     const std::string title = rows.front().algorithm + ": difference";
-    return plot::svg_plot({title, "time, s", "x, mm"}, curves,
-                          {.size = {900.0, 170.0}, .y = range, .can_zoom = true});
+    return drawn_plot({title, "time, s", "x, mm"}, curves, {.size = {900.0, 170.0}, .y = range});
 }
 
 /// What one sees: how a copy moves that follows.
@@ -121,6 +119,7 @@ std::optional<Section> fig7_section(const results::Results& results)
         "fig7", "Fig. 7: where each side has the cube",
         "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to zoom; "
         "all follow. <span class='zoom-buttons'></span></p>\n"};
+    section.sources = links_to(results, "trajectories.csv");
     plot::Range range, apart;
     for (const results::TrajectoryRow& row : results.trajectories) {
         range.include(row.cube_l_mm);
@@ -138,8 +137,10 @@ std::optional<Section> fig7_section(const results::Results& results)
                            apart_text(rows));
         section.add_figure("fig7-difference-" + name, difference_plot(rows, apart),
                            escaped(name) + ": the copies’ difference, on one scale for all.");
-        more += figure(both_sides_plot(rows, drawn_hands), escaped(name)) +
-                figure(both_sides_plot(rows, drawn_forces), escaped(name));
+        more += section.keep_figure("fig7-hands-" + name, both_sides_plot(rows, drawn_hands),
+                                    escaped(name)) +
+                section.keep_figure("fig7-forces-" + name, both_sides_plot(rows, drawn_forces),
+                                    escaped(name));
     }
     section.html += folded("Hands and forces", more) + "</div>\n";
     return section;

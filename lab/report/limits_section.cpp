@@ -180,6 +180,7 @@ void add_impairment(Section& section, const results::Results& results,
     const std::string& impairment = rows.front().impairment;
     section.html +=
         fmt::format("<h3>{}</h3>\n<div class='panels'>\n", escaped(impairment_text(impairment)));
+    section.sources = links_to(results, "limits.csv");
     section.add_figure("limit-" + impairment, worst_bars(rows),
                        fmt::format("Dashed: the paper, where it states a number. Filled: this run, "
                                    "{} seeds; the line is the 95 % interval. Red where it misses. "
@@ -187,6 +188,7 @@ void add_impairment(Section& section, const results::Results& results,
                                    rows.front().seeds));
     section.add_figure("limit-" + impairment + "-by-task", task_bars(rows),
                        "What is hard for one task is easy for another.");
+    section.sources = links_to(results, "curves.csv");
     if (auto failing = failing_plot(results, rows); !failing.svg.empty()) {
         section.add_figure("failing-" + impairment, std::move(failing),
                            "A point: all seeds at one level.");

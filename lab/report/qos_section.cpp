@@ -89,6 +89,7 @@ std::optional<Section> qos_section(const results::Results& results)
     if (results.qos.empty()) return std::nullopt;
     Section section{"qos", "What a network must offer",
                     "<p>The whole plane of delay and jitter, once for each loss.</p>\n" + legend()};
+    section.sources = links_to(results, "qos.csv");
     const auto delays = ascending(results.qos, &results::QosRow::delay_ms);
     const auto jitters = ascending(results.qos, &results::QosRow::jitter_ms);
     const auto losses = ascending(results.qos, &results::QosRow::loss_percent);

@@ -56,7 +56,7 @@ std::string times_table(const std::vector<results::RealTimeRow>& rows)
     return html_of(table);
 }
 
-std::string times_bars(const std::vector<results::RealTimeRow>& rows)
+Drawing times_bars(const std::vector<results::RealTimeRow>& rows)
 {
     std::vector<plot::BarGroup> groups;
     for (const results::RealTimeRow& row : rows) {
@@ -73,9 +73,9 @@ std::string times_bars(const std::vector<results::RealTimeRow>& rows)
                             .colour = colour,
                             .tip = "real time"}}});
     }
-    if (groups.empty()) return "";
-    return plot::svg_bars({"Mean discrepancy", "left: virtual time, right: real time", "mm"},
-                          groups, {}, {900.0, 250.0});
+    if (groups.empty()) return {};
+    return drawn_bars({"Mean discrepancy", "left: virtual time, right: real time", "mm"}, groups,
+                      {}, {900.0, 250.0});
 }
 
 } // namespace
@@ -88,8 +88,9 @@ std::optional<Section> real_time_section(const results::Results& results)
                     "own timing was off says more about the machine than about Hapnet: it is named "
                     "and left out.</p>\n" +
                         times_table(results.real_time)};
+    section.sources = links_to(results, "real_time.csv");
     auto bars = times_bars(results.real_time);
-    if (!bars.empty()) {
+    if (!bars.svg.empty()) {
         section.add_figure("real-time", std::move(bars),
                            "Dashed: virtual time. Filled: real time.");
     }

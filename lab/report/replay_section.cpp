@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "lab/report/base64.hpp"
 #include "lab/report/section.hpp"
 #include "scene/description.hpp"
 #include "scene/mass.hpp"
@@ -20,22 +21,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double mm_per_m = 1e3;
 
-std::string base64(const std::vector<std::uint8_t>& bytes)
-{
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < count ? bytes[i + k] : 0U);
-        for (std::size_t k = 0; k < 4; ++k) {
-            out += k <= count ? digits[group >> (18U - 6U * k) & 63U] : '=';
-        }
-    }
-    return out;
-}
-
 /// A column as 16 bits a value, low byte first, and what one of them is worth; one number when
 /// nothing moves.
 Json packed(const std::vector<double>& column)
@@ -48,12 +33,12 @@ Json packed(const std::vector<double>& column)
     }
     if (!moves) return column.front();
     const double step = most / 32767.0;
-    std::vector<std::uint8_t> bytes;
+    std::string bytes;
     for (const double value : column) {
         const auto count = static_cast<std::int16_t>(std::lround(value / step));
         const auto bits = static_cast<std::uint16_t>(count);
-        bytes.push_back(static_cast<std::uint8_t>(bits & 0xffU));
-        bytes.push_back(static_cast<std::uint8_t>(bits >> 8U));
+        bytes += static_cast<char>(bits & 0xffU);
+        bytes += static_cast<char>(bits >> 8U);
     }
     return {{"step", step}, {"data", base64(bytes)}};
 }
@@ -162,20 +147,6 @@ Json packed(const results::Replay& replay)
         {"count", replay.steps()},           {"sides", std::move(sides)}};
 }
 
-/// JSON that can stand inside a script element: nothing in it closes that.
-std::string for_script(const Json& json)
-{
-    std::string out;
-    for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-        if (c == '<') {
-            out += "\\u003c";
-        } else {
-            out += c;
-        }
-    }
-    return out;
-}
-
 constexpr std::string_view player = R"html(<div class="player" tabindex="0" role="group"
  aria-label="Replay: space plays and stops, arrow keys step, Home and End go to the ends">
 <div class="controls">
@@ -187,11 +158,10 @@ constexpr std::string_view player = R"html(<div class="player" tabindex="0" role
 <option value="1" selected>1</option><option value="2">2</option><option value="5">5</option>
 </select></label>
 </div>
-<div class="stage"></div>
-<p class="numbers"><output class="clock"></output> <output class="apart"></output>
-<output class="forces"></output></p>
-<canvas class="strip" width="1800" height="240" role="img"
- aria-label="x of a body in all copies over time; click to go there"></canvas>
+<p class="numbers"><output class="clock"></output> <output class="apart"></output></p>
+<div class="worlds"></div>
+<div class="strip" role="group"
+ aria-label="x of a body in all copies over time; click to go there"></div>
 </div>
 <noscript><p>The replay needs JavaScript; everything else on this page does not.</p></noscript>
 )html";
@@ -203,14 +173,14 @@ std::optional<Section> replay_section(const results::Results& results)
     if (results.replays.empty()) return std::nullopt;
     Json replays = Json::array();
     for (const results::Replay& replay : results.replays) replays.push_back(packed(replay));
-    return Section{
-        "replay", "Look at it",
-        "<p>Each computer holds a copy of what is blue. Each picture shows one of them, "
-        "with the hand that is there; dashed outlines are what the others have at the "
-        "same moment: the bodies, and their hands. Arrows are forces on the hands.</p>\n" +
-            std::string{player} +
-            fmt::format("<script type='application/json' id='replays'>{}</script>\n",
-                        for_script(replays))};
+    return Section{"replay", "Look at it",
+                   "<p>Each computer holds a copy of what is blue. Each picture shows one of them, "
+                   "with the hand that is there; dashed outlines are what the others have at the "
+                   "same moment: the bodies, and their hands. Arrows are forces on the hands. In "
+                   "3-D, drag a picture to turn them all.</p>\n" +
+                       std::string{player} +
+                       fmt::format("<script type='application/json' id='replays'>{}</script>\n",
+                                   in_script(replays))};
 }
 
 } // namespace hapnet::lab::report

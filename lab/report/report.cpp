@@ -38,6 +38,7 @@ constexpr std::array parts_of_page{
     PartOfPage{"the curves", curves_section, "scripts/fig6a.sh --out", "fig6a"},
     PartOfPage{"how far a limit can be trusted", trust_section, "scripts/fig6a.sh --out", "fig6a"},
     PartOfPage{"what was not chosen", axis_section, ""},
+    PartOfPage{"conditions varied together", points_section, ""},
     PartOfPage{"algorithms seed by seed", paired_section, ""},
     PartOfPage{"Fig. 7", fig7_section, "scripts/fig7.sh --out", "fig7"},
     PartOfPage{"what a network must offer", qos_section, "scripts/qos.sh --out", "qos"},
@@ -207,7 +208,8 @@ std::string page_of(const results::Results& results, const Contents& contents)
 {
     const std::string title = title_of(results);
     const Subject subject = subject_of(results);
-    std::string page = plot::page_head(title, name_of(subject)) + head_of(results, title, contents);
+    std::string page =
+        plot::page_head(title, name_of(subject), page_style()) + head_of(results, title, contents);
     for (const Section& section : contents.sections) {
         page += fmt::format("<section id='{0}' aria-labelledby='{0}-title'>\n"
                             "<h2 id='{0}-title'>{1}</h2>\n{2}</section>\n",
@@ -222,9 +224,11 @@ std::string page_of(const results::Results& results, const Contents& contents)
         page += "<footer><p>The hands are simulated. A verdict is a calibrated convention, not a "
                 "finding about people.</p></footer>\n";
     }
-    page += figures_data(contents);
-    return page + plot::page_foot(
-                      std::string{figures_script()}.append(zoom_script()).append(player_script()));
+    const std::string figures = figures_data(contents);
+    const std::string modules =
+        page_modules({.has_figures = !figures.empty(), .has_player = !results.replays.empty()});
+    return page + figures + modules +
+           plot::page_foot(modules.empty() ? std::string_view{} : loader_script());
 }
 
 } // namespace
@@ -245,6 +249,8 @@ std::vector<results::File> report_of(const results::Results& results, std::strin
     for (const Section& section : contents.sections) {
         for (const Figure& one : section.figures) {
             files.push_back({fmt::format("figures/{}.svg", one.name), plot::standalone(one.svg)});
+            if (!one.csv.empty())
+                files.push_back({fmt::format("figures/{}.csv", one.name), one.csv});
         }
     }
     return files;

@@ -16,7 +16,8 @@ namespace hapnet::lab::report {
 struct Figure {
     std::string name; // figures/NAME.svg
     std::string svg;
-    nlohmann::ordered_json data{}; // that page/figures.js draws it from; null: it stays as it is
+    nlohmann::ordered_json data{}; // that web/page/report draws it from; null: it stays as it is
+    std::string csv{};             // figures/NAME.csv; empty: its numbers stand in a result file
 };
 
 /// A part of the page.
@@ -25,12 +26,19 @@ struct Section {
     std::string title; // text
     std::string html{};
     std::vector<Figure> figures{};
+    std::string sources{}; // links to the files whose rows the next figures show, as HTML
 
-    /// A figure in the page and as a file; the caption is HTML.
+    /// A figure in the page and as a file; the caption is HTML. Below it stand the sources.
     void add_figure(std::string name, std::string svg, std::string_view caption);
-    /// The same, drawn by the page's script.
+    /// The same, drawn by the page's script. Without sources it gets a CSV file of its own.
     void add_figure(std::string name, Drawing drawing, std::string_view caption);
+    /// As add_figure(), but its HTML is returned, to stand elsewhere in the section.
+    [[nodiscard]] std::string keep_figure(std::string name, Drawing drawing,
+                                          std::string_view caption);
 };
+
+/// Links to the result files of this name that the page was made from, as HTML; empty: none.
+[[nodiscard]] std::string links_to(const results::Results& results, std::string_view name);
 
 // The sections. nullopt when the folder has no data for one.
 
@@ -49,6 +57,8 @@ struct Section {
 [[nodiscard]] std::optional<Section> trust_section(const results::Results& results);
 /// Limits by the values of a parameter: readings that were not chosen, the path's own delay.
 [[nodiscard]] std::optional<Section> axis_section(const results::Results& results);
+/// How much of what several parameters were varied over each algorithm bears.
+[[nodiscard]] std::optional<Section> points_section(const results::Results& results);
 /// Algorithms seed by seed.
 [[nodiscard]] std::optional<Section> paired_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> fig7_section(const results::Results& results);

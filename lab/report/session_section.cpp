@@ -82,10 +82,8 @@ void add_plots(Section& section, const results::RecordedSession& session, const 
     const plot::Range time = span_of(curves);
     const auto add = [&](std::string_view name, const plot::PlotTitles& titles,
                          std::span<const plot::Curve> drawn, const std::string& caption) {
-        section.add_figure(
-            fmt::format("session-{}-{}", prefix, name),
-            plot::svg_plot(titles, drawn, {.size = plot_size, .x = time, .can_zoom = true}),
-            caption);
+        section.add_figure(fmt::format("session-{}-{}", prefix, name),
+                           drawn_plot(titles, drawn, {.size = plot_size, .x = time}), caption);
     };
     const std::array apart{curve_of("|x_A − x_B|", "var(--ink)", curves.apart_mm)};
     const auto& bodies = session.analysis.agreement.bodies;
@@ -135,9 +133,7 @@ void add_body_plots(Section& section, const results::RecordedSession& session,
         if (drawn.empty()) return;
         section.add_figure(
             fmt::format("session-{}-{}", prefix, name),
-            plot::svg_plot(titles, drawn,
-                           {.size = plot_size, .x = span_of(session.curves), .can_zoom = true}),
-            caption);
+            drawn_plot(titles, drawn, {.size = plot_size, .x = span_of(session.curves)}), caption);
     };
     add("bodies", {"Distance of the two copies of each body", "s from the start", "mm"},
         &records::BodyCurves::apart_mm,

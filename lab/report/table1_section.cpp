@@ -135,6 +135,7 @@ std::optional<Section> table1_section(const results::Results& results)
                    "nothing is drawn by lot, so there is one session of each algorithm, whatever "
                    "the seed, and no interval.</p>\n" +
                    table_of(results) + "<div class='panels small'>\n";
+    section.sources = links_to(results, "table1.csv");
     for (const Quantity& quantity : quantities) {
         section.add_figure(fmt::format("table1-{}", quantity.name), bars_of(results, quantity),
                            fmt::format("Dashed: the paper. Filled: this run, {}.", quantity.name));
@@ -209,6 +210,7 @@ std::optional<Section> tasks_section(const results::Results& results)
                     "act on what they feel, so the numbers are not Table 1’s: they say what the "
                     "same network does to people who work together.</p>\n" +
                         html_of(table) + "<div class='panels small'>\n"};
+    section.sources = links_to(results, "sessions.csv");
     for (const std::string& task : distinct(results.tasks, [](const auto& r) { return r.task; })) {
         auto seeds = seeds_plot(results, task);
         if (seeds.svg.empty()) continue;

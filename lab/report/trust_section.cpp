@@ -139,6 +139,7 @@ std::optional<Section> trust_section(const results::Results& results)
                     "motion, and with how firmly the hand holds. What moves little is a finding; "
                     "what moves much is a convention.</p>\n"};
     section.html += "<div>\n";
+    section.sources = links_to(results, "limits_by_convention.csv");
     std::string tables;
     const auto names = distinct(results.sensitivity, [](const auto& r) { return r.impairment; });
     for (const std::string& name : names) {

@@ -102,6 +102,14 @@ Outcome add_sessions(const File& file, Results& results)
     return append(results.rows_of_sessions, std::move(rows));
 }
 
+Outcome add_points(const File& file, Results& results)
+{
+    auto rows = base::read_csv<PointQosRow>(file.text, file.path);
+    if (rows)
+        for (PointQosRow& row : *rows) row.cell.algorithm = algorithm_and_party(row.cell);
+    return append(results.qos_by_point, std::move(rows));
+}
+
 constexpr std::array kinds{FileKind{"manifest.json", add_run},
                            FileKind{"sessions.csv", add_sessions},
                            FileKind{"paired.csv", add_rows<&Results::paired>},
@@ -116,6 +124,7 @@ constexpr std::array kinds{FileKind{"manifest.json", add_run},
                                         return append(r.trajectories, read_trajectories(f));
                                     }},
                            FileKind{"qos.csv", add_rows<&Results::qos>},
+                           FileKind{"qos_by_point.csv", add_points},
                            FileKind{"claims.csv", add_rows<&Results::claims>},
                            FileKind{"real_time.csv", add_rows<&Results::real_time>}};
 

@@ -49,6 +49,7 @@ struct Results {
     std::vector<CurveRow> curves;
     std::vector<TrajectoryRow> trajectories;
     std::vector<QosRow> qos;
+    std::vector<PointQosRow> qos_by_point;
     std::vector<RealTimeRow> real_time;
     std::vector<ClaimRow> claims;
     std::vector<SessionRow> rows_of_sessions; // of the experiments of Table 1
@@ -57,6 +58,7 @@ struct Results {
     std::vector<Replay> replays;
     std::vector<RecordedSession> sessions;
     std::optional<DemoRun> demo;
+    std::vector<std::string> files; // that were read, as paths in the folder of the page
 
     /// By which all runs judged; nullopt when they do not say, or differ.
     [[nodiscard]] std::optional<metrics::Criteria> criteria() const;

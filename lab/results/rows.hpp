@@ -318,6 +318,17 @@ constexpr auto fields_of(base::Tag<QosRow>)
                         base::field("scene", &Row::scene, scene_column));
 }
 
+/// Of qos_by_point.csv: a cell at a point of several parameters. Their columns are passed over.
+struct PointQosRow {
+    std::uint32_t point = 0;
+    QosRow cell{};
+};
+constexpr auto fields_of(base::Tag<PointQosRow>)
+{
+    return base::fields("qos by point", base::field("point", &PointQosRow::point),
+                        base::part(&PointQosRow::cell));
+}
+
 /// Of trajectories.csv: Fig. 7.
 struct TrajectoryRow {
     std::string algorithm;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/session_rows.hpp"
 
-#include "emulator/core/profile/text.hpp"
-
 #include <algorithm>
 #include <map>
 #include <spdlog/fmt/fmt.h>
@@ -13,21 +11,6 @@
 namespace hapnet::lab::results {
 
 namespace {
-
-/// A profile in one line.
-std::string in_one_line(const emulator::Profile& profile)
-{
-    std::string text;
-    for (const char c : emulator::to_text(profile)) {
-        if (c != '\n') {
-            text += c;
-        } else if (!text.empty() && !text.ends_with("; ")) {
-            text += "; ";
-        }
-    }
-    while (text.ends_with(' ') || text.ends_with(';')) text.pop_back();
-    return text;
-}
 
 std::optional<double> constant_ms(const emulator::Variation& delay)
 {
@@ -70,7 +53,7 @@ bool is_simple_loss(const emulator::Conditions& conditions)
 
 void note_network(const emulator::Profile& profile, SessionRow& row)
 {
-    row.network = in_one_line(profile);
+    row.network = experiment::network_text(profile);
     const emulator::Conditions& conditions = profile.path.up;
     if (conditions != profile.path.down || !profile.paths.empty()) return;
     row.delay_ms = constant_ms(conditions.delay);

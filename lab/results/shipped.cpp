@@ -24,7 +24,8 @@ bool has_same_sessions(const experiment::Experiment& a, const experiment::Experi
            are_tasks && a.peers == b.peers && a.scenes.empty() && b.scenes.empty() &&
            a.hands == b.hands && a.energy_limit == b.energy_limit && a.keyed == b.keyed &&
            a.path == b.path && a.links == b.links && a.replay.empty() && b.replay.empty() &&
-           a.task_options == b.task_options && has_free_jitter(a) && has_free_jitter(b);
+           a.script.empty() && b.script.empty() && a.task_options == b.task_options &&
+           has_free_jitter(a) && has_free_jitter(b);
 }
 
 } // namespace

@@ -44,9 +44,13 @@ std::optional<experiment::PlayedSession> played_from(const Json& line)
     return experiment::PlayedSession{*std::move(metrics), line.value("rows", std::string{})};
 }
 
-Json line_of(const std::string& key, const experiment::PlayedSession& played)
+Json line_of(const std::string& key, const experiment::SessionSpec& spec,
+             const experiment::PlayedSession& played)
 {
-    Json line{{"key", key}, {"metrics", to_json(played.metrics)}};
+    Json line{{"key", key},
+              {"algorithm", spec.algorithm},
+              {"network", experiment::network_text(spec.setting.profile)},
+              {"metrics", to_json(played.metrics)}};
     if (!played.rows.empty()) line["rows"] = played.rows;
     return line;
 }
@@ -213,12 +217,12 @@ base::Result<experiment::PlayedSession> SessionStore::played(const experiment::S
 {
     const auto key = key_of(spec, program_);
     if (const auto place = place_of(key)) return read_at(*place, key);
-    const auto leave = [this, &key](const base::Result<experiment::PlayedSession>& played) {
+    const auto leave = [this, &key, &spec](const base::Result<experiment::PlayedSession>& played) {
         const std::lock_guard lock{mutex_};
         being_played_.erase(key);
         changed_.notify_all();
         if (!played || !is_writable_) return;
-        const std::string line = line_of(key, *played).dump();
+        const std::string line = line_of(key, spec, *played).dump();
         const Place place{0, files_.front().length, static_cast<std::uint32_t>(line.size())};
         append(line);
         places_.emplace(std::hash<std::string>{}(key), place);

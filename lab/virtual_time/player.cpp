@@ -59,8 +59,11 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId
 {
     const PlayerSetting& player = setting.players.at(id.seat);
     if (player.replay) return std::make_unique<device::Replay>(*player.replay, "a trace");
-    return std::make_unique<device::SimulatedOmni>(device::Performer{
-        .task = setting.task, .options = setting.task_options, .person = player.person});
+    return std::make_unique<device::SimulatedOmni>(
+        device::Performer{.task = setting.task,
+                          .options = setting.task_options,
+                          .person = player.person,
+                          .way = player.way});
 }
 
 device::Rig rig_of(const Setting& setting, const PlayerId& id)

@@ -97,7 +97,7 @@ base::Result<void> validate(const Setting& setting)
             "the phase of a player's ticks must be at least 0 s and less than a tick");
     }
     const bool are_traces = std::ranges::none_of(setting.players, [](const PlayerSetting& player) {
-        return player.replay && player.replay->empty();
+        return (player.replay && player.replay->empty()) || (player.way && player.way->empty());
     });
     if (!are_traces) return base::fail("a hand's trace must have at least one row");
     return validate_network(setting);

@@ -28,8 +28,10 @@ struct PlayerSetting {
     device::Operator person{};
     std::shared_ptr<const device::HandTrace> replay{}; // plays instead of the person; at least one
                                                        // moment, in the order of time
-    base::Duration clock_ahead{};                      // of the world's time
-    base::Duration phase{};                            // of its ticks, 0 to less than a tick
+    /// The way that the person means to go, instead of its task's; at least one moment.
+    std::shared_ptr<const device::HandTrace> way{};
+    base::Duration clock_ahead{}; // of the world's time
+    base::Duration phase{};       // of its ticks, 0 to less than a tick
     /// The seed that it offers for the hands, as `hapnet-peer --seed` does; that of the lowest id
     /// counts. nullopt: the setting's.
     std::optional<base::Seed> seed{};

@@ -8,8 +8,11 @@
 #include "proto/net/text_file.hpp"
 
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <spdlog/fmt/fmt.h>
+#include <system_error>
 #include <utility>
 
 namespace hapnet::peer {
@@ -98,6 +101,16 @@ base::Result<std::string> library_named(const std::string& file)
     return file;
 }
 
+base::Result<std::uint16_t> parse_port(const std::string& text)
+{
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+    if (error != std::errc{} || end != text.data() + text.size() || port == 0) {
+        return base::fail(fmt::format("'{}' is not a port: use a number from 1 to 65535", text));
+    }
+    return port;
+}
+
 base::Result<double> parse_hid_force(const std::string& text)
 {
     auto force = base::parse_quantity(text, base::force_kind);
@@ -128,6 +141,24 @@ void add_hd_library(cli::Command& command, std::string& library)
         .option("--hd-library", "FILE",
                 "hdapi: the vendor's library (default: libHD.so where the system finds it)",
                 cli::into(library, library_named))
+        .under(group);
+}
+
+void add_dhd_library(cli::Command& command, std::string& library)
+{
+    command
+        .option("--dhd-library", "FILE",
+                "dhd: the vendor's library (default: libdhd.so where the system finds it)",
+                cli::into(library, library_named))
+        .under(group);
+}
+
+void add_inverse3_port(cli::Command& command, std::uint16_t& port)
+{
+    command
+        .option("--inverse3-port", "PORT",
+                "inverse3: of the vendor's service on this machine (default: 10001)",
+                cli::into(port, parse_port))
         .under(group);
 }
 
@@ -172,6 +203,8 @@ cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice)
         "device: at least 1, and enough to cover an Omni's 160 x 120 x 70 mm)",
         cli::into(choice.mount_scale, base::Number{mount_scale_min, mount_scale_max}));
     add_hd_library(command, choice.options.hd_library);
+    add_dhd_library(command, choice.options.dhd_library);
+    add_inverse3_port(command, choice.options.inverse3_port);
     add("--falcon-firmware", "FILE",
         "falcon: its firmware, which Hapnet may not ship (default: it runs already)",
         cli::into(choice.options.falcon_firmware, firmware_at));
@@ -195,6 +228,8 @@ cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice)
 void add_finding_options(cli::Command& command, device::DeviceOptions& options)
 {
     add_hd_library(command, options.hd_library);
+    add_dhd_library(command, options.dhd_library);
+    add_inverse3_port(command, options.inverse3_port);
     add_hid_force(command, options.hid_force_n);
 }
 
@@ -210,6 +245,8 @@ base::Result<void> check_device_options(const cli::Command& command, const Devic
         OptionOfDevice{"--operator", "sim"},
         OptionOfDevice{"--replay-loop", "replay"},
         OptionOfDevice{"--hd-library", "hdapi"},
+        OptionOfDevice{"--dhd-library", "dhd"},
+        OptionOfDevice{"--inverse3-port", "inverse3"},
         OptionOfDevice{"--falcon-firmware", "falcon"},
         OptionOfDevice{"--enable-uncalibrated-force", "omni1394"},
         OptionOfDevice{"--omni-torque", "omni1394"},

@@ -235,6 +235,10 @@ void add_results(cli::Command& program, Options& options)
                    "stop it, and change nothing: hapnet-ctl SOCKET "
                    "show|stats|watch|wait|keep|stop|estop",
                    cli::into(options.control));
+    program.option("--plotjuggler", "HOST:PORT",
+                   "Send 50 frames a second as JSON over UDP, as PlotJuggler's UDP server takes "
+                   "them (docs/use/peer.md); not sealed, also with --key",
+                   cli::into(options.plot, parse_remote));
     cli::add_keep(program, options.keep, "what --record would write");
 }
 

@@ -45,6 +45,7 @@ struct Options {
     std::optional<std::string> record;
     std::optional<std::string> stats;   // a file, or "-" for stdout
     std::optional<std::string> control; // where its socket is to be
+    std::optional<net::HostPort> plot;  // where frames are sent over UDP
     cli::KeepOptions keep{};            // the last seconds of a record
 
     [[nodiscard]] bool is_pair() const { return others.size() <= 1; }

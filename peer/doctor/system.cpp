@@ -5,6 +5,7 @@
 #include "device/hdapi/transport/configuration.hpp"
 #include "device/hdapi/transport/shared_library.hpp"
 #include "device/hid/pid_layout.hpp"
+#include "device/transport/usb_models.hpp"
 #include "device/usb_ids.hpp"
 #include "proto/base/histogram.hpp"
 #include "proto/net/clock.hpp"
@@ -216,7 +217,8 @@ Facts look_at(const fs::path& root, const std::string& hd_library)
     if (const auto library = device::hdapi::load_library(hd_library); !library) {
         facts.hd_trouble = library.error().message;
     }
-    facts.hd_wanted = !hd_library.empty() || !device::hdapi::models_on_usb().empty() ||
+    facts.hd_wanted = !hd_library.empty() ||
+                      !device::models_on_usb(device::UsbKind::touch).empty() ||
                       !device::hdapi::configured_names().empty();
     return facts;
 }

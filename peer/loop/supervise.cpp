@@ -78,9 +78,10 @@ private:
 /// One round of the thread that watches; it sleeps until something happens, or for a while.
 void look_after(const Supervised& supervised, EmergencyStop& emergency)
 {
-    const auto& [servo, monitor, stop, gate, out, screen, control_session] = supervised;
-    const base::Duration every =
-        control_session != nullptr ? monitor::ControlSession::every : drain_every;
+    const auto& [servo, monitor, stop, gate, out, screen, control_session, plot] = supervised;
+    const base::Duration every = control_session != nullptr ? monitor::ControlSession::every
+                                 : plot != nullptr          ? monitor::PlotStream::every
+                                                            : drain_every;
     // Once a stop is asked for, the descriptor may stay readable: then only sleep.
     const std::array descriptors{stop.descriptor()};
     net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
@@ -89,6 +90,7 @@ void look_after(const Supervised& supervised, EmergencyStop& emergency)
     monitor.on_sending(servo.sending());
     monitor.drain(); // first: frames are made of it
     if (control_session != nullptr) control_session->serve(net::monotonic_now());
+    if (plot != nullptr) plot->serve(net::monotonic_now());
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "peer/loop/servo.hpp"
 #include "peer/monitor/control_session.hpp"
 #include "peer/monitor/monitor.hpp"
+#include "peer/monitor/plot_stream.hpp"
 #include "proto/net/stop_signal.hpp"
 
 #include <string>
@@ -20,6 +21,7 @@ struct Supervised {
     net::TextQueue& out;                                // stdout
     net::TextQueue& screen;                             // stderr
     monitor::ControlSession* control_session = nullptr; // null: there is no control socket
+    monitor::PlotStream* plot = nullptr;                // null: there is no --plotjuggler
 };
 
 /// After a stop was asked for, what is not written by then is given up.

@@ -45,11 +45,10 @@ public:
     /// About `wanted` marks at 1, 2 or 5 times a power of ten.
     [[nodiscard]] std::vector<Mark> marks(double wanted) const;
     [[nodiscard]] Pixels pixels() const { return pixels_; }
-    [[nodiscard]] Range range() const { return range_; } // of exponents when logarithmic
 
 private:
     Scale scale_;
-    Range range_;
+    Range range_; // of exponents when logarithmic
     Pixels pixels_;
 };
 

@@ -23,14 +23,14 @@ std::string_view light_colour(std::string_view name)
 
 } // namespace
 
-std::string page_head(std::string_view title, std::string_view subject)
+std::string page_head(std::string_view title, std::string_view subject, std::string_view style)
 {
     return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                        "<meta name=\"color-scheme\" content=\"light dark\">\n"
                        "<meta name=\"hapnet-subject\" content=\"{1}\">\n"
-                       "<title>{0}</title>\n<style>\n{2}</style>\n</head>\n<body>\n<main>\n",
-                       escaped(title), subject, style_sheet());
+                       "<title>{0}</title>\n<style>\n{2}{3}</style>\n</head>\n<body>\n<main>\n",
+                       escaped(title), subject, style_sheet(), style);
 }
 
 std::string page_foot(std::string_view scripts)

@@ -9,11 +9,13 @@ namespace hapnet::plot {
 
 // What every page of ours looks like.
 
-/// style.css, compiled in.
+/// palette.css and style.css, compiled in.
 [[nodiscard]] std::string_view style_sheet();
 
-/// The beginning of a page, up to and with <main>; the title is text, the subject a word.
-[[nodiscard]] std::string page_head(std::string_view title, std::string_view subject);
+/// The beginning of a page, up to and with <main>; the title is text, the subject a word. `style`
+/// is what its style sheet has besides.
+[[nodiscard]] std::string page_head(std::string_view title, std::string_view subject,
+                                    std::string_view style = "");
 /// Its end.
 [[nodiscard]] std::string page_foot(std::string_view scripts = "");
 

@@ -55,25 +55,12 @@ public:
 
     [[nodiscard]] std::string marks() const
     {
-        std::string out = options_.can_zoom ? "<g class='x-marks'>\n" : "";
+        std::string out;
         for (const Mark& mark : x_.marks(options_.size.width < 600.0 ? 5.0 : 10.0)) {
             out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n",
                                mark.pixel, y_.pixels().from + 16.0, mark.text);
         }
-        if (options_.can_zoom) out += "</g>\n";
         return out + svg_grid(y_, x_.pixels());
-    }
-
-    /// The part of the plot that zooming moves: its view box is what page/zoom.js sets.
-    [[nodiscard]] std::string window() const
-    {
-        const double width = x_.pixels().to - x_.pixels().from;
-        const double height = y_.pixels().from - y_.pixels().to;
-        return fmt::format("<svg class='window' x='{0}' y='{1}' width='{2}' height='{3}' "
-                           "viewBox='{0} {1} {2} {3}' preserveAspectRatio='none' "
-                           "data-low='{4}' data-high='{5}'>\n",
-                           x_.pixels().from, y_.pixels().to, width, height, x_.range().low,
-                           x_.range().high);
     }
 
     [[nodiscard]] std::string line(const Curve& curve) const
@@ -87,10 +74,9 @@ public:
             dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='2.5' fill='{}'/>\n", across,
                                 down, curve.colour);
         }
-        return fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}'{}{} "
+        return fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}'{} "
                            "points='{}'/>\n",
-                           curve.colour, curve.width, dashes(curve.stroke),
-                           options_.can_zoom ? " vector-effect='non-scaling-stroke'" : "", points) +
+                           curve.colour, curve.width, dashes(curve.stroke), points) +
                dots;
     }
 
@@ -148,11 +134,9 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
     std::string out = svg_head(options.size, titles, legend);
     out += canvas.marks();
     for (const Level& level : options.levels) out += canvas.level(level);
-    if (options.can_zoom) out += canvas.window();
     std::string lines; // the first last: on top
     for (const Curve& curve : curves) lines.insert(0, canvas.line(curve));
     out += lines;
-    if (options.can_zoom) out += "</svg>\n";
     for (const Cross& cross : options.crosses) out += canvas.cross(cross);
     return out + "</svg>\n";
 }

@@ -55,7 +55,6 @@ struct PlotOptions {
     std::vector<Cross> crosses{};
     Range x{}; // what an axis spans besides the points
     Range y{};
-    bool can_zoom = false; // page/zoom.js finds what it needs
 };
 
 /// At most about so many of the points of a curve, ascending in x: the lowest and the highest of

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/grounded_energy.hpp"
 
-#include "scene/rigid/free_flight.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/rigid/continuous.hpp"
+#include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"

@@ -5,6 +5,7 @@
 #include "scene/collide/manifold.hpp"
 #include "scene/hand/advance.hpp"
 #include "scene/hand/friction.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
 

@@ -24,14 +24,14 @@ constexpr double velocity_tolerance = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double velocity_converged = 1e-6;
 // ... or until these limits (a stack takes 23 sweeps from nothing); the next tick goes on.
-constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
+constexpr std::uint32_t sweeps_min = 3, sweeps_max = 31, visits_max = 600;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_tolerance = 1e-9;
 constexpr double overlap_converged = 1e-6;
 constexpr double correction_max = 0.1;
-constexpr std::uint32_t overlap_visits_max = 200;
+constexpr std::uint32_t overlap_sweeps_min = 5, overlap_visits_max = 200;
 // This share of an overlap is removed per tick: not all, so that contacts that contradict each
 // other come to rest.
 constexpr double correction_share = 0.3;
@@ -184,14 +184,15 @@ template <BroadPhase broad_phase>
 SolverLimits RigidStepper<broad_phase>::velocity_limits() const
 {
     return {velocity_tolerance * scales_.speed, velocity_converged * scales_.speed, sweeps_max,
-            visits_max};
+            sweeps_min, visits_max};
 }
 
 template <BroadPhase broad_phase>
 SolverLimits RigidStepper<broad_phase>::position_limits() const
 {
     const double length = scales_.size * scales_.rate;
-    return {overlap_tolerance * length, overlap_converged * length, sweeps_max, overlap_visits_max};
+    return {overlap_tolerance * length, overlap_converged * length, sweeps_max, overlap_sweeps_min,
+            overlap_visits_max};
 }
 
 template <BroadPhase broad_phase>

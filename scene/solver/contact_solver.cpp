@@ -14,8 +14,6 @@ namespace {
 /// The impulses of a block as numbers of one kind, N s.
 constexpr std::size_t numbers_per_block = 7;
 
-// A few sweeps are made of any island: the first, to and fro.
-constexpr std::uint32_t sweeps_min = 3;
 // Islands larger than this are swept without mixing: what they may cost is used up before it helps.
 constexpr std::size_t mixed_max = 1024;
 
@@ -76,7 +74,7 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks, JointSolver
 /// The first look, and then for each island either its share or the few sweeps of any.
 std::uint64_t ContactSolver::visits_bound(const SolverLimits& limits) const
 {
-    const std::uint64_t any = sweeps_min * blocks_max_;
+    const std::uint64_t any = limits.sweeps_min * blocks_max_;
     const std::uint64_t all = std::uint64_t{limits.sweeps_max} * blocks_max_;
     const std::uint64_t contacts =
         blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
@@ -190,10 +188,10 @@ SolverOutcome ContactSolver::run_islands(const Task& task)
     SolverOutcome outcome{.sweeps = 1};
     std::size_t moving = 0;
     for_moving_islands(task, [&](Island island) { moving += island.size(); });
-    const std::size_t share = std::max<std::size_t>(
-        sweeps_min, task.limits.visits_max / std::max<std::size_t>(moving, 1));
+    const std::size_t share = task.limits.visits_max / std::max<std::size_t>(moving, 1);
     Task its = task;
-    its.limits.sweeps_max = std::min(its.limits.sweeps_max, static_cast<std::uint32_t>(share));
+    its.limits.sweeps_max = std::min(
+        its.limits.sweeps_max, std::max(its.limits.sweeps_min, static_cast<std::uint32_t>(share)));
     for_moving_islands(task, [&](Island island) {
         const SolverOutcome one = run_island(its, island);
         const Island contacts = contacts_of(island);

@@ -19,8 +19,9 @@ struct SolverLimits {
     double tolerance = 0.0;       // m/s: a contact that misses by less is left alone
     double converged = 0.0;       // m/s: when no contact changed its speed by more, that was it
     std::uint32_t sweeps_max = 1; // over an island
+    std::uint32_t sweeps_min = 1; // made of any island: the first, then to and fro
     std::uint32_t visits_max =
-        std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond a few sweeps
+        std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond the least sweeps
 };
 
 /// What a solve took, and how much it still changed at the end.

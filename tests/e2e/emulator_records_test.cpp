@@ -159,9 +159,10 @@ TEST(EmulatorRecords, ACaptureThatTsharkReads)
     EXPECT_EQ(emulator.stop()["capture_lost"], 0);
 
     const std::string command =
-        "tshark -r '" + path +
+        "tshark -X 'lua_script:" HAPNET_DISSECTOR "' -r '" + path +
         "' -o udp.check_checksum:TRUE -T fields -e frame.interface_name -e udp.srcport"
-        " -e udp.dstport -e udp.checksum.status -e frame.comment 2>/dev/null";
+        " -e udp.dstport -e udp.checksum.status -e frame.comment -e hapnet.fate -e hapnet.delay_ms"
+        " -e hapnet.cause 2>/dev/null";
     FILE* const pipe = popen(command.c_str(), "r");
     ASSERT_NE(pipe, nullptr);
     std::string printed;
@@ -175,9 +176,10 @@ TEST(EmulatorRecords, ACaptureThatTsharkReads)
     int dropped = 0;
     std::istringstream lines{printed};
     for (std::string line; std::getline(lines, line);) {
-        if (line == "side A\t" + ports + "\t1\tdelayed 20.0 ms") ++delayed;
-        if (line.starts_with("side B\t") && line.find("\t1\tlate ") != std::string::npos) ++late;
-        if (line.starts_with("side B\t") && line.ends_with("\t1\tdropped: random-loss")) ++dropped;
+        if (line == "side A\t" + ports + "\t1\tdelayed 20.0 ms\tdelayed\t20\t") ++delayed;
+        if (!line.starts_with("side B\t")) continue;
+        if (line.find("\t1\tlate ") != std::string::npos && line.ends_with("\tleft\t\t")) ++late;
+        if (line.ends_with("\t1\tdropped: random-loss\tdropped\t\trandom-loss")) ++dropped;
     }
     EXPECT_EQ(delayed, 20) << printed;
     EXPECT_EQ(late, 20) << printed;

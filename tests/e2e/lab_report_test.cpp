@@ -45,6 +45,8 @@ TEST(LabReport, WritesThePageAndItsFiguresOfAFolderAndItsSubfolders)
     EXPECT_NE(page.find("<section id='qos'"), std::string::npos);
     EXPECT_NE(page.find("scripts/fig7.sh --out " + folder.string() + "/fig7"), std::string::npos);
     EXPECT_TRUE(fs::exists(folder / "figures/table1-mean.svg"));
+    EXPECT_NE(page.find("Data: <a href='table1/table1.csv'>"), std::string::npos);
+    EXPECT_NE(page.find("Data: <a href='qos.csv'>"), std::string::npos);
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     EXPECT_EQ(text_of((folder / "report.html").string()), page) << "made again, it is the same";
 }
@@ -83,6 +85,8 @@ TEST(LabReport, MakesAPageOfAnybodysTwoRecordsBesideTheFirst)
     EXPECT_NE(page.find("<section id='replay'"), std::string::npos);
     EXPECT_NE(page.find("25.00 mm on average while both hands were on"), std::string::npos);
     EXPECT_TRUE(fs::exists(folder / "figures/session-T3-apart.svg"));
+    EXPECT_TRUE(text_of((folder / "figures/session-T3-apart.csv").string())
+                    .starts_with("curve,x,y\n\"|x_A − x_B|\",0.0,25.0\n"));
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     EXPECT_EQ(text_of((folder / "report.html").string()), page)
         << "the folder that holds the two records gives the same page";

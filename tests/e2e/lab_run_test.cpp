@@ -191,6 +191,32 @@ TEST_F(LabRun, RepeatsItselfAlongAnAxis)
     EXPECT_EQ(run("hapnet-lab", {"report", folder.file("axis")}).exit, 0);
 }
 
+TEST_F(LabRun, DrawsALatinHypercubeAlsoInShardsOfAPlan)
+{
+    std::ofstream{file} << "kind = \"plane\"\nseeds = 2\nalgorithms = \"base\"\ntasks = \"T1\"\n"
+                           "duration = \"6s\"\n[plane]\ndelay = \"0ms\"\njitter = \"0ms\"\n"
+                           "loss = \"0%\"\n[[axis]]\nkey = \"plane.delay\"\nfrom = \"0ms\"\n"
+                           "to = \"100ms\"\n[[axis]]\nkey = \"hands.stiffness\"\n"
+                           "from = \"100N/m\"\nto = \"500N/m\"\n[latin_hypercube]\npoints = 5\n";
+    ASSERT_EQ(run_into("drawn").exit, 0);
+    const auto sessions = result("drawn", "sessions_by_point.csv");
+    EXPECT_EQ(sessions.find("point,plane.delay,hands.stiffness,"), 0U) << sessions;
+    EXPECT_EQ(std::count(sessions.begin(), sessions.end(), '\n'), 1 + 5 * 2) << sessions;
+    EXPECT_NE(sessions.find("\n5,"), std::string::npos) << sessions;
+    EXPECT_NE(result("drawn", "qos_by_point.csv"), "");
+    EXPECT_EQ(result("drawn", "qos.csv"), "");
+    const auto sweep = folder.file("sweep");
+    ASSERT_EQ(run("hapnet-lab", {"plan", file, "--out", sweep}).exit, 0);
+    for (const char* shard : {"0/3", "1/3", "2/3"})
+        ASSERT_EQ(run("hapnet-lab", {"run", sweep, "--shard", shard}, 60s).exit, 0) << shard;
+    ASSERT_EQ(run("hapnet-lab", {"merge", sweep}, 60s).exit, 0);
+    EXPECT_EQ(manifest("sweep")["digest"], manifest("drawn")["digest"]);
+    const auto compared = run("hapnet-lab", {"compare", sweep, folder.file("drawn"), "--json"});
+    ASSERT_EQ(compared.exit, 0) << compared.err;
+    expect_refused(run_into("none", {"--set", "axis=[{ key = \"seeds\", from = \"0\" }]"}),
+                   {"axis 'seeds'"});
+}
+
 TEST_F(LabRun, PlaysOwnScenesOptionsAndRecordedHands)
 {
     std::ofstream{folder.file("left.csv")} << "time_s,x_m,y_m,z_m\n0,-0.06,0,0\n2,-0.02,0,0\n";
@@ -209,6 +235,10 @@ TEST_F(LabRun, PlaysOwnScenesOptionsAndRecordedHands)
     for (int i = 0; i < 5; ++i) std::getline(cells, line, ',');
     EXPECT_NEAR(std::stod(line), -20.0, 1.0) << "the left hand stays where its file ends: " << last;
     expect_refused(run_into("none", {"--set", "replay=[\"none.csv\", \"\"]"}), {"none.csv"});
+    const std::string script = "script=[\"" + folder.file("left.csv") + "\", \"\"]";
+    expect_refused(run_into("none", {"--set", script}), {"either a replay or a script"});
+    ASSERT_EQ(run_into("script", {"--set", script, "--set", "replay=[\"\", \"\"]"}).exit, 0);
+    EXPECT_NE(result("script", "trajectories.csv"), result("own", "trajectories.csv"));
 }
 
 TEST_F(LabRun, MergesTheShardsOfAPlanIntoTheSameBytesAlsoAfterOneWasKilled)

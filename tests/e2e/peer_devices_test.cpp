@@ -57,6 +57,10 @@ TEST(PeerDevices, ListsWhatCannotBeUsedWithTheReasonAndTheCure)
     EXPECT_EQ(table.exit, 0);
     expect_said(table.out, {"hdapi", "library-missing", "/no/such/libHD.so", "OpenHaptics",
                             "never run on the physical device"});
+    const auto other = peer({"list-devices", "--dhd-library", "/no/such/libdhd.so"});
+    EXPECT_EQ(other.exit, 0);
+    expect_said(other.out, {"dhd", "library-missing", "/no/such/libdhd.so", "Force Dimension",
+                            "never run on the physical device"});
 }
 
 TEST(PeerDevices, ListsWhatCanBeUsedAndThatNobodyHas)

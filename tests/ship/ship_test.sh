@@ -39,6 +39,10 @@ for program in "$folder"/bin/*; do
         fail "$program needs GLIBC_$version: $(objdump -T "$program" | grep "GLIBC_$version")"
 done
 "$folder/bin/hapnet-emulator" --version
+# What is linked into it is others', and under licences that ask for their texts.
+for notice in libusb-1.0-0-dev libhidapi-dev libsodium-dev LGPL-2.1 README; do
+    [[ -s $folder/share/doc/hapnet/linked/$notice ]] || fail "the tarball has no notice $notice"
+done
 
 complaints=$(systemd-analyze verify "$repository"/packaging/systemd/*.service 2>&1 |
     grep "/packaging/" | grep -v "is not executable: No such file" || true)
@@ -108,6 +112,11 @@ grep -q three.module.min.js "$root/usr/bin/hapnet-web" ||
 inside test -s /usr/include/hapnet/algorithm.h || fail "hapnet-dev has no hapnet/algorithm.h"
 inside hapnet-web --version
 nothing_left hapnet hapnet-emulator hapnet-web hapnet-dev python3-hapnet
+
+# The Dockerfiles, where images can be made.
+images=0
+"$repository/tests/ship/images_test.sh" "$repository" "$work/packages" "$work/images" || images=$?
+((images == 0 || images == 77)) || fail "the images were not made"
 
 # Debian 13, where it can be had.
 if debootstrap --variant=minbase trixie "$root.13" >"$work/debootstrap-13.log" 2>&1; then

@@ -160,6 +160,7 @@ const std::vector<KeyTable>& tables()
         {"array", rows_of<scene::text::Array>()},
         {"experiment", base::markdown(base::key_rows<lab::experiment::Experiment>(
                            "", lab::experiment::usual_experiment()))},
+        {"experiment-axis", rows_of<lab::experiment::Axis>()},
         {"experiment-kinds", grouped("kind", lab::experiment::Kind{})},
         {"criteria", rows_of<lab::metrics::Criteria>()},
         {"tick-row", byte_table<record::TickRow>()},
@@ -176,13 +177,13 @@ const std::set<std::string>& without_table()
     static const std::set<std::string> names{
         "HandDynamics", "ProxyHandOptions", "Material", "Sway", "ByOrder", "UsableCriteria",
         "GoodCriteria", "HandImpedance", "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent",
-        "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques", "RangeOf<what",
-        "SearchRanges", "Sensitivity", "Axis",
+        "Search", "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques",
+        "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube",
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "Table1Row", "TaskRow",
-        "LimitRow", "AxisLimitRow", "PairedRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow",
-        "ClaimSessionRow", "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow", "ReplayRow",
-        "WrittenMount", "WrittenConfig"};
+        "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow", "SensitivityRow", "Judged",
+        "CurveRow", "ClaimRow", "ClaimSessionRow", "QosRow", "ComparedRow", "TrajectoryRow",
+        "RealTimeRow", "ReplayRow", "WrittenMount", "WrittenConfig"};
     return names;
 }
 
@@ -202,6 +203,7 @@ const std::set<std::string>& with_table()
                                              "WrittenLimits",
                                              "Operator",
                                              "TaskOptions",
+                                             "Axis",
                                              "Mtu",
                                              "Rate",
                                              "Corruption",

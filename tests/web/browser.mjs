@@ -33,7 +33,7 @@ export const missing = () => {
 /** The path of another program of the same build. */
 export const programBeside = (name) => join(dirname(program), name);
 
-/** {address, out, stop} of a hapnet-web that plays its demo; files lie in `out`. */
+/** {address, out, pid, stop} of a hapnet-web that plays its demo; files lie in `out`. */
 export const startWeb = async (...more) => {
   const out = mkdtempSync(join(tmpdir(), "hapnet-web-"));
   const child = spawn(program, ["--stage", "--port", "0", "--out", out, ...more]);
@@ -53,7 +53,7 @@ export const startWeb = async (...more) => {
     await ended;
     rmSync(out, { recursive: true, force: true });
   };
-  return { address, out, stop };
+  return { address, out, pid: child.pid, stop };
 };
 
 /** Keeps a picture of the page, for whoever wants to see what a test saw. */
@@ -65,9 +65,16 @@ export const keepPicture = (page, name) => {
 export const startBrowser = (more = []) =>
   playwright().chromium.launch({ executablePath: chromiumPath, args: [...flags, ...more] });
 
+/**
+ * Of whatever a page waits for: a busy machine draws a picture in a second, without a card. Asked by
+ * the clock, as a page that cannot paint would never ask by its frames.
+ */
+export const patience = { timeout: 180_000, polling: 200 };
+
 /** A page at that address that counts what the browser complains of, once frames come. */
 export const openPage = async (context, address, before = async () => {}) => {
   const page = await context.newPage();
+  page.setDefaultTimeout(patience.timeout);
   page.complaints = [];
   page.on("console", (message) => {
     if (message.type() === "error") page.complaints.push(message.text());
@@ -75,7 +82,13 @@ export const openPage = async (context, address, before = async () => {}) => {
   page.on("pageerror", (error) => page.complaints.push(error.message));
   await before(page);
   await page.goto(address);
-  await page.waitForFunction(() => globalThis.hapnet?.model.frame && document.body.dataset.view,
-    undefined, { timeout: 90_000 });
+  const isReady = () => globalThis.hapnet?.model.frame && document.body.dataset.view;
+  await page.waitForFunction(isReady, undefined, patience).catch(async (error) => {
+    const state = await page.evaluate(() => {
+      const { model } = globalThis.hapnet ?? {};
+      return { view: document.body.dataset.view, frame: model?.frame?.n, stage: model?.state?.stage };
+    });
+    throw new Error(`${error.message} ${JSON.stringify({ ...state, complaints: page.complaints })}`);
+  });
   return page;
 };

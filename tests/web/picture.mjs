@@ -1,19 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// picture.mjs FILE ANIMATED: a picture of the live page, 1440 pixels wide, while the copies are
-// apart; and both worlds as they move, in virtual time so that it is the same every time.
+// picture.mjs FILE ANIMATED REPORT: a picture of the live page, 1440 pixels wide, while the copies
+// are apart; both worlds as they move, in virtual time so that it is the same every time; and the
+// player and Table 1 of a report.
 
-import { writeFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 
 import { animationOf } from "./animation.mjs";
-import { missing, openPage, startBrowser, startWeb } from "./browser.mjs";
+import { missing, openPage, programBeside, startBrowser, startWeb } from "./browser.mjs";
 
 const reason = missing();
 if (reason) {
   console.error(`picture: ${reason}`);
   process.exit(3);
 }
-const [still, animated] = process.argv.slice(2);
+const [still, animated, report] = process.argv.slice(2);
 const patience = { timeout: 90_000 };
 const browser = await startBrowser();
 
@@ -69,6 +73,30 @@ const takeAnimated = async () => {
   await web.stop();
 };
 
+const takeReport = async () => {
+  const folder = mkdtempSync(join(tmpdir(), "hapnet-report-"));
+  const lab = (...words) => execFileSync(programBeside("hapnet-lab"), words, { stdio: "pipe" });
+  lab("run", "table1", "--quick", "--out", folder);
+  lab("report", folder);
+  const context = await browser.newContext({
+    viewport: { width: 1100, height: 1400 }, colorScheme: "light",
+  });
+  const page = await context.newPage();
+  await page.goto(`file://${join(folder, "report.html")}`);
+  await page.waitForFunction(() => globalThis.hapnet && document.body.dataset.view, undefined,
+    patience);
+  await page.evaluate(() => globalThis.hapnet.player.goTo(540));
+  const box = (where) => page.locator(where).boundingBox();
+  const [top, table] = [await box("#replay"), await box("#table1")];
+  await page.screenshot({
+    path: report, fullPage: true,
+    clip: { x: 0, y: top.y, width: 1100, height: table.y + table.height - top.y },
+  });
+  await context.close();
+  rmSync(folder, { recursive: true, force: true });
+};
+
 await takeStill();
 await takeAnimated();
+await takeReport();
 await browser.close();

@@ -9,11 +9,10 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { keepPicture, missing, openPage, programBeside, startBrowser, startWeb }
+import { keepPicture, missing, openPage, patience, programBeside, startBrowser, startWeb }
   from "./browser.mjs";
 
 const skip = missing();
-const patience = { timeout: 60_000 };
 let web = null;
 let browser = null;
 let page = null;

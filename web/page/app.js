@@ -13,6 +13,7 @@ import { Model } from "./model.js";
 import { Network } from "./network.js";
 import { Orbit } from "./orbit.js";
 import { Pace } from "./pace.js";
+import { chartMaker, painterFor } from "./painters.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 import { Trap } from "./trap.js";
@@ -21,24 +22,6 @@ import { Wishes } from "./wishes.js";
 import { Worlds } from "./worlds.js";
 
 const describeMs = 250;
-
-/** The painter in space, or the flat one where modules or WebGL are missing. */
-const painterFor = async (container) => {
-  try {
-    return (await import("./scene3d.js")).makePainter(container);
-  } catch {
-    container.querySelector("canvas.space")?.remove();
-    return (await import("./sceneflat.js")).makePainter(container);
-  }
-};
-
-const chartMaker = async () => {
-  try {
-    return (await import("./charts.js")).makeChart;
-  } catch {
-    return (await import("./strips.js")).makeChart;
-  }
-};
 
 const model = new Model();
 const orbit = new Orbit();

@@ -3,6 +3,7 @@
 // The charts with their legends, whose buttons hide curves, and the same figures as a table.
 
 import { make, say } from "./dom.js";
+import { legendOf } from "./legend.js";
 import { onColours, readColours } from "./paint/palette.js";
 import { plotsOf } from "./plots.js";
 import { spoken } from "./units.js";
@@ -15,6 +16,8 @@ const roundUp = (value) => {
   const power = 10 ** Math.floor(Math.log10(value));
   return power * steps.find((step) => step * power >= value * 0.9999);
 };
+
+const inSeconds = (mark) => (mark === 0 ? "now" : `${mark} s`);
 
 class Panel {
   constructor(plot, makeChart) {
@@ -40,33 +43,9 @@ class Panel {
     const signature = plot.curves.map((curve) => curve.name + curve.label).join();
     if (signature === this.signature) return;
     this.signature = signature;
-    this.values = plot.curves.map(() => make("span", { class: "figure" }));
-    this.legend.replaceChildren(
-      ...plot.curves.map((curve, i) => {
-        const swatch = make("span", {
-          class: `swatch is-${curve.colour}${curve.dash ? " dash" : ""}`,
-          "aria-hidden": "true",
-        });
-        return make(
-          "button",
-          {
-            type: "button",
-            "aria-pressed": !this.hidden.has(curve.name),
-            title: "show or hide",
-            onclick: (event) => this.#toggle(curve.name, event.currentTarget),
-          },
-          swatch,
-          curve.label,
-          " ",
-          this.values[i],
-        );
-      }),
-    );
-  }
-
-  #toggle(name, button) {
-    if (!this.hidden.delete(name)) this.hidden.add(name);
-    button.setAttribute("aria-pressed", String(!this.hidden.has(name)));
+    const { buttons, values } = legendOf(plot.curves, this.hidden);
+    this.values = values;
+    this.legend.replaceChildren(...buttons);
   }
 
   /** The top of the scale: grows at once, shrinks when there is much room. */
@@ -96,7 +75,8 @@ class Panel {
       pointsMax,
     );
     data.times = data.times.map((time) => time - to);
-    this.chart.update({ ...data, curves }, from - to, this.#top(data.series, curves), colours);
+    const view = { x: [from - to, 0], y: [0, this.#top(data.series, curves)], says: inSeconds };
+    this.chart.update({ ...data, curves }, view, colours);
     const point = this.chart.pointed?.() ?? data.times.length - 1;
     data.series.forEach((one, i) => {
       const list = curves[i].show === "most" ? one.most : one.value;

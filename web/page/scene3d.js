@@ -7,8 +7,9 @@ import { isDark, onColours, readColours } from "./paint/palette.js";
 
 const slowMs = 30; // a picture that takes longer, again and again, loses first pixels, then shadows
 
-/** Throws where the browser has no WebGL. */
+/** Throws where the browser has no WebGL; three.js would complain in the console, too. */
 export const makePainter = (container) => {
+  if (!document.createElement("canvas").getContext("webgl2")) throw new Error("no WebGL");
   const canvas = document.createElement("canvas");
   canvas.className = "space";
   canvas.setAttribute("aria-hidden", "true");

@@ -3,8 +3,8 @@
 // A pane for each peer with its world in it, painted by whichever painter there is.
 
 import { make, say } from "./dom.js";
-import { colourOfPeer } from "./paint/palette.js";
 import { pictureOf } from "./paint/picture.js";
+import { makePane } from "./pane.js";
 import { spoken } from "./units.js";
 
 const states = {
@@ -14,30 +14,15 @@ const states = {
 };
 
 const paneOf = (peer, place, orbit) => {
-  const view = make("div", {
-    class: "view", tabindex: 0, role: "group", "aria-roledescription": "3-D view",
-    "aria-label": `World of ${peer.letter}. Arrow keys turn the view, plus and minus scale it, `
-      + "0 puts it back.",
-  });
-  orbit.listen(view);
-  const parts = {
-    state: make("span", { class: "state" }),
-    force: make("b", { class: "figure" }),
-    place: make("span", { class: "figure" }),
-    late: make("span", { class: "figure" }),
-  };
-  const colour = colourOfPeer(place);
-  const root = make("figure", { class: `pane side-${colour}`, "data-peer": peer.id },
-    make("figcaption", {},
-      make("span", { class: "letter", "aria-hidden": "true" }, peer.letter),
-      make("span", { class: "who" }, `${peer.letter}'s world`),
-      make("span", { class: "device" }, peer.device ?? ""),
-      parts.state),
-    view,
-    make("p", { class: "readout" },
-      make("span", {}, "force ", parts.force), make("span", {}, "cube x ", parts.place),
-      make("span", {}, "tick late ", parts.late)));
-  return { root, view, parts };
+  const state = make("span", { class: "state" });
+  const { root, view, figures } = makePane(
+    { id: peer.id, place, letter: peer.letter, who: `${peer.letter}'s world` },
+    [make("span", { class: "device" }, peer.device ?? ""), state],
+    ["force", "cube x", "tick late"],
+    orbit,
+  );
+  const [force, cube, late] = figures;
+  return { root, view, parts: { state, force, place: cube, late } };
 };
 
 export class Worlds {

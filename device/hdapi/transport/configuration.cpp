@@ -2,14 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "device/hdapi/transport/configuration.hpp"
 
-#include "device/usb_ids.hpp"
-
 #include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device::hdapi {
 
@@ -37,15 +32,6 @@ std::vector<fs::path> configuration_folders()
     return folders;
 }
 
-/// A number in the kernel's hexadecimal digits; 0 when there is none.
-std::uint16_t usb_number_in(const fs::path& file)
-{
-    std::ifstream in{file};
-    std::uint16_t number = 0;
-    in >> std::hex >> number;
-    return number;
-}
-
 } // namespace
 
 std::vector<std::string> configured_names()
@@ -60,19 +46,6 @@ std::vector<std::string> configured_names()
         if (!names.empty()) return names;
     }
     return {};
-}
-
-std::vector<std::string> models_on_usb()
-{
-    std::vector<std::string> models;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator{"/sys/bus/usb/devices", error}) {
-        const auto* const id = find_usb_id(usb_number_in(entry.path() / "idVendor"),
-                                           usb_number_in(entry.path() / "idProduct"));
-        if (id == nullptr || id->kind != UsbKind::touch) continue;
-        models.push_back(fmt::format("{} (USB {:04x}:{:04x})", id->name, id->vendor, id->product));
-    }
-    return models;
 }
 
 } // namespace hapnet::device::hdapi

@@ -6,6 +6,7 @@
 #include "device/hdapi/transport/configuration.hpp"
 #include "device/hdapi/transport/scheduler.hpp"
 #include "device/hdapi/transport/shared_library.hpp"
+#include "device/transport/usb_models.hpp"
 
 #include <array>
 #include <spdlog/fmt/fmt.h>
@@ -108,7 +109,7 @@ std::vector<Found> find_hdapis(const std::string& library)
     for (const std::string& name : configured_names()) {
         found.push_back({identity_of(name, "device in the configuration of 3D Systems"), {}});
     }
-    for (std::string& model : models_on_usb()) {
+    for (std::string& model : models_on_usb(UsbKind::touch)) {
         if (found.empty()) found.push_back({identity_of("", std::move(model)), {}});
     }
     if (found.empty() && library.empty()) return found; // nothing says that it is wanted

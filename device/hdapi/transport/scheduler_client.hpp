@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device/hdapi/device_cycle.hpp"
-#include "device/hdapi/triple_buffer.hpp"
+#include "device/triple_buffer.hpp"
 
 #include <atomic>
 #include <condition_variable>

@@ -10,9 +10,11 @@
 #include "tests/bench/scene/tails.hpp"
 #include "tests/bench/scene/tumbling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace hapnet::bench {
 namespace {
@@ -246,6 +248,28 @@ TEST(Guards, ActInNoHeapOfTheBench)
     const std::array courses{bin(50, 0.3), bin(200, 0.3), brick_wall(10.0), brick_wall(40.0),
                              dominoes(),   pyramid(),     stiff_hands()};
     EXPECT_EQ(guards_in(courses), 0U);
+}
+
+TEST(Heaps, OverlapLessThanThoseOfTheEngines)
+{
+    const Course course = bin(200, 0.3);
+    const auto deepest_and_last = [&](Engine& engine) {
+        double deepest = 0.0, last = 0.0;
+        run(engine, course, 1e-3, [&](double) {
+            last = deepest_overlap(course.scene, engine);
+            deepest = std::max(deepest, last);
+        });
+        return std::pair{deepest, last};
+    };
+    const auto [deepest, last] = deepest_and_last(*make_hapnet(course.scene, {}));
+    for (const Subject& subject : subjects()) {
+        // The others take many times as long.
+        if (subject.name != "bullet" && subject.name != "ode-quick") continue;
+        const auto engine = subject.make(course.scene, {});
+        const auto its = deepest_and_last(*engine);
+        EXPECT_LT(deepest, its.first) << subject.name;
+        EXPECT_LT(last, its.second) << subject.name;
+    }
 }
 
 TEST(Tails, TakeTheLeastOfEveryStepAndTheShareOfThem)

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 """What those who watch cost the daemons: sessions of P1 at 160 ms with ten WebSocket readers and
-without, in turn. The readers are of two hapnet-web, which take eight pages each."""
+without, in turn. The readers are of two hapnet-web, which take eight pages each. They stand for
+browsers on other machines, so they give way to everything here (nice 19): how many frames they
+took is printed. Twelve sessions of 30 s take seven minutes."""
 
 import argparse
 import json
@@ -40,6 +42,7 @@ class Readers:
             thread.start()
 
     def read(self, server):
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 19)
         live = Live(server.port, server.token)
         while not self.is_over:
             message = live.read()
@@ -91,11 +94,17 @@ def session(seconds, is_watched):
             "frames": frames}
 
 
-def row(subject, metric, value, baseline, target):
+def row(subject, metric, value, baseline, target, **more):
     return {"case": f"P1 at 160 ms, {READERS} readers", "subject": subject,
             "baseline": "no readers", "metric": metric, "value": value, "baseline_value": baseline,
-            "ratio": baseline / value if value else None, "target": target, "direction": "max",
-            "met": value <= target}
+            "target": target, "direction": "max", "met": value <= target, **more}
+
+
+def late_row(subject, watched, alone):
+    """Of the p99 of lateness, medians over the sessions in us: the ratio, or 5 us more, is met."""
+    ratio = watched / alone
+    return row(subject, "late_p99_ratio", ratio, 1.0, SHARE_MAX, watched_us=watched,
+               alone_us=alone) | {"met": ratio <= SHARE_MAX or watched - alone <= LATER_MAX_US}
 
 
 def main():
@@ -105,31 +114,34 @@ def main():
     chosen = options.parse_args()
     seconds, rounds = (8, 2) if chosen.quick else (30, 6)
     found = {False: [], True: []}
-    for _ in range(rounds):
-        for is_watched in (False, True):
-            found[is_watched].append(session(seconds, is_watched))
+    load = os.getloadavg()[0]
+    for i in range(rounds):
+        for is_watched in (False, True) if i % 2 == 0 else (True, False):
+            one = session(seconds, is_watched)
+            found[is_watched].append(one)
+            print(f"{'readers' if is_watched else 'alone':8} late p99: "
+                  f"peers {one['peer']:7.1f} us, emulator {one['emulator']:7.1f} us; "
+                  f"missed {one['missed']}", flush=True)
             time.sleep(0.2)
 
     def median(name, is_watched):
         return statistics.median(one[name] for one in found[is_watched])
 
-    rows = []
-    for subject in ("peer", "emulator"):
-        baseline = median(subject, False)
-        target = max(SHARE_MAX * baseline, baseline + LATER_MAX_US)
-        rows.append(row(subject, "late_p99_us", median(subject, True), baseline, target))
-    rows.append(row("peers", "missed_ticks", median("missed", True), median("missed", False),
-                    median("missed", False)))
+    rows = [late_row(subject, median(subject, True), median(subject, False))
+            for subject in ("peer", "emulator")]
+    missed = {way: sum(one["missed"] for one in found[way]) for way in found}
+    rows.append(row("peers", "missed_ticks", missed[True], missed[False], missed[False]))
     frames = median("frames", True) / READERS / seconds
-    for one in rows:
-        print(f"{one['subject']:9} {one['metric']:13} {one['value']:9.1f}  without readers "
-              f"{one['baseline_value']:9.1f}  at most {one['target']:9.1f}  "
-              f"{'met' if one['met'] else 'MISSED'}")
-    print(f"each reader took {frames:.0f} frames a second; median of {rounds} sessions of "
-          f"{seconds} s each way, in turn")
+    for one in rows[:2]:
+        print(f"{one['subject']:9} late p99 {one['watched_us']:9.1f} us, without readers "
+              f"{one['alone_us']:9.1f} us, ratio {one['value']:.3f} (at most {SHARE_MAX}, or "
+              f"{LATER_MAX_US:g} us more)  {'met' if one['met'] else 'MISSED'}")
+    print(f"peers     ticks missed {missed[True]}, without readers {missed[False]}  "
+          f"{'met' if rows[2]['met'] else 'MISSED'}")
+    print(f"each reader took {frames:.0f} frames a second; medians of {rounds} sessions of "
+          f"{seconds} s each way, in turn; load at the beginning {load:.1f}")
     if chosen.json:
-        host = {"machine": platform.platform(), "processors": os.cpu_count(),
-                "load": os.getloadavg()[0]}
+        host = {"machine": platform.platform(), "processors": os.cpu_count(), "load": load}
         with open(chosen.json, "w", encoding="utf8") as file:
             json.dump({"host": host, "rows": rows}, file, indent=1)
             file.write("\n")

@@ -43,7 +43,8 @@ class Live:
         self.status = int(self.file.readline().split()[1])
         while self.file.readline() not in (b"\r\n", b""):
             pass
-        self.send({"token": token})
+        if token is not None:
+            self.send({"token": token})
 
     def send(self, message):
         text = json.dumps(message).encode()

@@ -74,6 +74,11 @@ class Web(unittest.TestCase):
         self.assertEqual(live.read(), 4401)
         live.close()
 
+    def test_a_page_that_is_late_with_its_token_may_try_again(self):
+        live = Live(self.port, None)
+        self.assertEqual(live.read(), 4408)
+        live.close()
+
     def test_refuses_each_wrong_header(self):
         mark = {"text": "x"}
         self.assertEqual(self.ask("POST", "/api/mark", mark)[0], 200)

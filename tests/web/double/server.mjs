@@ -9,15 +9,20 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 import { Double } from "./double.mjs";
 import { accept } from "./websocket.mjs";
 
-const page = join(dirname(fileURLToPath(import.meta.url)), "../../../web/page");
+const root = join(dirname(fileURLToPath(import.meta.url)), "../../..");
+const page = join(root, "web/page");
 const modules = {
   "three.module.min.js": "three/build/three.module.min.js",
   "three.core.min.js": "three/build/three.core.min.js",
-  "uPlot.iife.min.js": "uplot/dist/uPlot.iife.min.js",
+  "uPlot.module.min.js": "uplot/dist/uPlot.iife.min.js",
   "uPlot.min.css": "uplot/dist/uPlot.min.css",
   "three-LICENSE.txt": "three/LICENSE",
   "uplot-LICENSE.txt": "uplot/LICENSE",
 };
+const sheets = [
+  "proto/plot/palette.css",
+  ...["shared", "app", "parts", "figures"].map((name) => `web/page/${name}.css`),
+];
 const types = {
   ".js": "text/javascript",
   ".css": "text/css",
@@ -42,14 +47,21 @@ const answer = (response, status, type, body) => {
   response.end(body);
 };
 
+/** The contents of a file of the page; uPlot's classic script gets its export as in the build. */
+const contentsOf = (name) => {
+  if (name === "page.css") return sheets.map((sheet) => readFileSync(join(root, sheet))).join("");
+  if (!modules[name]) return readFileSync(join(page, name));
+  const bytes = readFileSync(join(page, "node_modules", modules[name]));
+  return name.startsWith("uPlot.module") ? `${bytes}export default uPlot;\n` : bytes;
+};
+
 const asset = (response, name, withModules) => {
-  const file = modules[name] ? join(page, "node_modules", modules[name]) : join(page, name);
   const known = modules[name]
     ? withModules
     : /^(paint\/)?[a-z0-9]+\.(js|css|svg)$/i.test(name) && !name.startsWith("node_modules");
   try {
     if (!known) throw new Error("not an asset");
-    answer(response, 200, types[extname(file)] ?? "text/plain", readFileSync(file));
+    answer(response, 200, types[extname(name)] ?? "text/plain", contentsOf(name));
   } catch {
     answer(response, 404, "text/plain", `no ${basename(name)}`);
   }

@@ -12,6 +12,8 @@ const names = [
   "accent",
   "cube",
   "static-cube",
+  "base",
+  "calibrated",
   "left",
   "right",
   "met",

@@ -163,6 +163,31 @@ TEST(Reactions, OfTheWillAddUpWhatWasMissing150MsAgo)
     EXPECT_LT(before, 1e-5); // nothing is wanted any more
 }
 
+TEST(Reactions, OfTheSearchGoOnUntilTheBodyIsFeltAndWaitForTheTaskThere)
+{
+    Operator person;
+    person.search.speed_m_per_s = 0.05;
+    Reactions reactions{person};
+    base::TimePoint now{1h};
+    const auto played = [&](const Perception& felt, int ticks) {
+        double farther = 0.0;
+        for (int i = 0; i < ticks; ++i, now += 1ms)
+            farther = reactions.to(felt, now, 1ms).farther_m;
+        return farther;
+    };
+    const auto free = [](double aim) { return Perception{.aim_m = aim}; };
+    const auto touching = [](double aim) { return Perception{.pressing_n = 0.2, .aim_m = aim}; };
+    EXPECT_EQ(played(free(0.0), 400), 0.0) << "so long it may be just late";
+    EXPECT_NEAR(played(free(0.0), 200), 0.010, 1e-12);
+    EXPECT_NEAR(played(touching(0.0), 500), 0.010, 1e-12) << "it stays where the body is";
+    EXPECT_NEAR(played(touching(0.004), 1), 0.006, 1e-12) << "until its task has come as far";
+    EXPECT_NEAR(played(touching(0.001), 1), 0.006, 1e-12) << "and goes back with it";
+    EXPECT_NEAR(played(free(0.001), 400), 0.006, 1e-12);
+    EXPECT_EQ(played(free(0.001), 5000), person.search.reach_m) << "and no farther";
+    EXPECT_NEAR(played(Perception{}, 200), person.search.reach_m - 0.010, 1e-12);
+    EXPECT_EQ(played(Perception{}, 5000), 0.0) << "the task does not mean to touch";
+}
+
 TEST(TaskOptions, AreReadAndPrintedWithTheirUnits)
 {
     const TaskOptions options{.squeeze_n = 0.4, .press_hertz = 0.8, .pace = 1.0};

@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <gtest/gtest.h>
+#include <memory>
+#include <optional>
 
 namespace hapnet::device {
 namespace {
@@ -75,6 +77,44 @@ private:
     base::TimePoint from_;
     base::TimePoint to_;
 };
+
+/// When a hand of T2 first feels a body that begins 20 mm beyond its task's, and how long it feels
+/// it within ten seconds.
+struct Found {
+    std::optional<base::Duration> first{};
+    int ticks = 0;
+};
+Found found_by(double search_speed_m_per_s)
+{
+    Operator person;
+    person.wander.amplitude_m = person.tremor.amplitude_m = 0.0;
+    person.search.speed_m_per_s = search_speed_m_per_s;
+    Performer performer{.task = Task::t2, .person = person};
+    performer.options.press_amplitude_m = 0.0;
+    Rig rig{std::make_unique<SimulatedOmni>(performer), GovernorLimits{}};
+    rig.device().on_cue({session, 27s, base::Seed{7}, 1, true});
+    Found found;
+    for (base::Duration t{}; t < 10s; t += 1ms) {
+        const double depth = rig.read(session + t).hip.x() + 0.001; // its aim is at -21 mm
+        const bool touching = t >= 2s && depth > 0.0;               // until then it is on its way
+        const double force_n = touching ? -500.0 * depth : 0.0;
+        std::ignore = rig.apply({{force_n, 0.0, 0.0}}, touching, session + t);
+        if (touching && !found.first) found.first = t;
+        found.ticks += touching ? 1 : 0;
+    }
+    return found;
+}
+
+TEST(SimulatedPerson, LooksForABodyThatIsNotWhereItsTaskHasIt)
+{
+    EXPECT_FALSE(found_by(0.0).first);
+    const Found found = found_by(0.05);
+    ASSERT_TRUE(found.first);
+    // From 2 s on it means to touch, 0.4 s later it begins to look, and 20 mm take 0.4 s.
+    EXPECT_GT(*found.first, 2s + 400ms + 350ms);
+    EXPECT_LT(*found.first, 2s + 400ms + 600ms);
+    EXPECT_GT(found.ticks, 6900) << "and stays there";
+}
 
 TEST(SimulatedPerson, EndsAFaultLikeAPersonWouldAndGoesBackToItsPart)
 {

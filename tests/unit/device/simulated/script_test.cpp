@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
 
 namespace hapnet::device::script_test {
 namespace {
@@ -51,6 +52,39 @@ TEST(EveryScript, StaysInItsHandsWorkspaceAndAsksForNoJump)
             }
         }
     }
+}
+
+TEST(AScript, FollowsAWayOfItsOwnAndIsTakenOffAtTheEndAsAnyOther)
+{
+    Script hand = script(Task::t3, true);
+    hand.follow(std::make_shared<const HandTrace>(
+        HandTrace{{1.0, {{-0.06, 0.0, 0.0}}, true}, {3.0, {{-0.02, 0.01, 0.0}}, false}}));
+    EXPECT_EQ(at(hand, 0.5).target, (base::Position{{-0.06, 0.0, 0.0}}));
+    EXPECT_FALSE(at(hand, 0.5).gripping);
+    EXPECT_NEAR(at(hand, 2.0).target.x(), -0.04, 1e-15);
+    EXPECT_NEAR(at(hand, 2.0).target.y(), 0.005, 1e-15);
+    EXPECT_TRUE(at(hand, 2.0).gripping);
+    EXPECT_EQ(at(hand, 20.0).target, (base::Position{{-0.02, 0.01, 0.0}}));
+    EXPECT_GT(at(hand, 28.0).target.y(), 0.05) << "hands off";
+}
+
+TEST(TasksThatPush, LookForTheBodyWhileTheyMeanToTouchIt)
+{
+    for (const Task task : {Task::t2, Task::t3, Task::t7})
+        EXPECT_TRUE(at(script(task, true), 3.0).searching) << name_of(task);
+    for (const Task task : {Task::p1, Task::t4, Task::t6, Task::t8})
+        EXPECT_FALSE(at(script(task, true), 3.0).searching) << name_of(task);
+    const Script left = script(Task::t1, true), right = script(Task::t1, false);
+    int both = 0, one = 0;
+    for (int ms = 0; ms < 27'000; ++ms) {
+        const bool l = at(left, 1e-3 * ms).searching, r = at(right, 1e-3 * ms).searching;
+        both += l && r ? 1 : 0;
+        one += l != r ? 1 : 0;
+    }
+    EXPECT_EQ(both, 0) << "it is one hand's turn";
+    EXPECT_GT(one, 15'000);
+    EXPECT_FALSE(at(script(Task::t3, true), 27.5).searching) << "hands off";
+    EXPECT_FALSE(at(script(Task::t3, true), -0.5).searching) << "not yet";
 }
 
 TEST(TasksForTwoHands, LetFurtherOnesWatchFromWhereTheirDeviceReachesAndGripNothing)

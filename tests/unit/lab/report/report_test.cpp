@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
 namespace {
@@ -128,6 +129,24 @@ TEST(Report, ShowsWhatWasNotChosenAndTheSeedsOfTwoAlgorithms)
     EXPECT_TRUE(holds(page, "<td>0.270</td><td>0.200 … 0.300</td><td>0.002</td>"));
 }
 
+TEST(Report, CountsThePointsThatEachAlgorithmBears)
+{
+    const auto line = [](int point, const char* algorithm, const char* task, const char* tier) {
+        return fmt::format("{0},{0}0ms,{1},{2},40,0,0,1,,,,{3}\n", point, algorithm, task, tier);
+    };
+    std::string csv = "point,plane.delay,algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,"
+                      "vibration_mm,stiffness_ratio,force_vibration_n,tier\n";
+    for (const int point : {1, 2, 3, 4}) {
+        csv += line(point, "base", "T1", point < 4 ? "good" : "unusable");
+        csv += line(point, "base", "T3", point > 1 ? "usable" : "unusable");
+    }
+    const std::string page = page_of({{"r/any/qos_by_point.csv", csv}});
+    EXPECT_TRUE(holds(page, "Conditions varied together"));
+    EXPECT_TRUE(holds(page, "Share of 4 points"));
+    EXPECT_TRUE(holds(page, ">75</text>")) << "of each task";
+    EXPECT_TRUE(holds(page, ">50</text>")) << "of both at once";
+}
+
 TEST(Report, SortsWhatStandsAgainstThePaperByTheFilesAlone)
 {
     const auto results = read_results(whole_sample());
@@ -221,16 +240,21 @@ TEST(Report, CarriesTheReplayAsJsonThatCannotCloseItsElement)
     EXPECT_TRUE(holds(page_of({sample_replay()}), R"("data":"AAABgA==")"));
 }
 
+/// The data of the figures that a page carries.
+nlohmann::json figures_of(std::string_view page)
+{
+    constexpr std::string_view opening = "<script type='application/json' id='figures'>";
+    const auto begin = page.find(opening);
+    EXPECT_NE(begin, std::string_view::npos);
+    const auto end = page.find("</script>", begin);
+    return nlohmann::json::parse(page.substr(begin + opening.size(), end - begin - opening.size()));
+}
+
 TEST(Report, CarriesTheDataOfItsFiguresInOneElementThatItsScriptDraws)
 {
     const auto files = report_files({sample_limits(), sample_curves()});
     const std::string page = text_of(files, "report.html");
-    constexpr std::string_view opening = "<script type='application/json' id='figures'>";
-    const auto begin = page.find(opening);
-    ASSERT_NE(begin, std::string::npos);
-    const auto end = page.find("</script>", begin);
-    const auto data =
-        nlohmann::json::parse(page.substr(begin + opening.size(), end - begin - opening.size()));
+    const auto data = figures_of(page);
     const auto& bar = data["limit-delay"]["groups"][0]["bars"][1];
     EXPECT_EQ(bar["value"], 160.0);
     EXPECT_EQ(bar["low"], 157.0);
@@ -240,6 +264,39 @@ TEST(Report, CarriesTheDataOfItsFiguresInOneElementThatItsScriptDraws)
         EXPECT_TRUE(holds(page, "<figure data-figure='" + name + "'>")) << name;
         EXPECT_FALSE(text_of(files, "figures/" + name + ".svg").empty()) << name;
     }
+}
+
+TEST(Report, CarriesThePaintersOfWhatItShowsAndStartsThem)
+{
+    const std::string page = page_of({sample_curves(), sample_replay()});
+    EXPECT_TRUE(holds(page, "<script type='application/json' id='modules'>{\"plain\":{"));
+    EXPECT_TRUE(holds(page, "import(\"hapnet/report/report.js\")"));
+    EXPECT_FALSE(holds(page_of({sample_qos()}), "id='modules'")) << "its maps stand still";
+}
+
+TEST(Report, LinksEachFigureToTheRowsBehindIt)
+{
+    const std::vector<results::File> rows{sample_limits(), sample_curves(), sample_trajectories()};
+    auto results = read_results(rows);
+    ASSERT_TRUE(results);
+    results->files = {"fig 6a/limits.csv", "curves.csv", "fig7/trajectories.csv"};
+    const auto files = report_of(*results, "r");
+    const std::string page = text_of(files, "report.html");
+    EXPECT_TRUE(holds(page, "Data: <a href='fig%206a/limits.csv'>fig 6a/limits.csv</a>"));
+    EXPECT_TRUE(holds(page, "Data: <a href='curves.csv'>curves.csv</a>"));
+    EXPECT_TRUE(holds(page, "Data: <a href='fig7/trajectories.csv'>fig7/trajectories.csv</a>"));
+    EXPECT_EQ(text_of(files, "figures/limit-delay.csv"), "");
+    results->files.clear();
+    const auto own = report_of(*results, "r");
+    EXPECT_TRUE(holds(text_of(own, "report.html"), "<a href='figures/limit-delay.csv'>"));
+    const std::string bars = text_of(own, "figures/limit-delay.csv");
+    EXPECT_TRUE(
+        bars.starts_with("group,bar,value,low,high\n\"base\",\"base, paper: 160 ms\",160.0,,"
+                         "\n"))
+        << bars;
+    EXPECT_TRUE(holds(bars, ",160.0,157.0,163.0\n")) << bars;
+    const std::string curves = text_of(own, "figures/curve-delay-T1-vibration.csv");
+    EXPECT_TRUE(holds(curves, "\n\"base\",80.0,1.2\n")) << curves;
 }
 
 TEST(Report, IsTheSameForTheSameFilesInAnyOrder)

@@ -50,10 +50,13 @@ TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecord
     EXPECT_FALSE(holds(page, "<base>"));
     EXPECT_FALSE(holds(page, "<section id='missing'")) << "no experiment was to be here";
     const auto files = report_of(results, "r");
-    for (const char* name : {"apart", "cubes", "forces"}) {
-        EXPECT_FALSE(text_of(files, "figures/session-T3-" + std::string{name} + ".svg").empty())
-            << name;
+    for (const std::string name : {"apart", "cubes", "forces"}) {
+        EXPECT_FALSE(text_of(files, "figures/session-T3-" + name + ".svg").empty()) << name;
+        const std::string csv = "figures/session-T3-" + name + ".csv";
+        EXPECT_TRUE(text_of(files, csv).starts_with("curve,x,y\n")) << name;
+        EXPECT_TRUE(holds(page, "<a href='" + csv + "'>")) << name;
     }
+    EXPECT_TRUE(holds(text_of(files, "figures/session-T3-apart.csv"), ",25.0\n"));
     EXPECT_EQ(page_subject(page), "session");
 }
 

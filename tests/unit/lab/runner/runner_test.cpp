@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 namespace hapnet::lab::runner::runner_test {
@@ -136,6 +138,25 @@ TEST_F(SessionFile, DoesNotReuseTheSessionsOfAnotherProgram)
     const auto store = open("that");
     std::ignore = run_whole(known_limits(), runner_of(*store, 1), stop);
     EXPECT_EQ(store->counts().reused, 0U);
+}
+
+TEST_F(SessionFile, SaysOfEachSessionWhatTheExperimentCallsItsAlgorithmAndItsNetwork)
+{
+    const std::vector<std::string> settings{"algorithms=[\"base\", \"lead10\"]",
+                                            "algorithm.lead10.algorithm=dead-reckoning"};
+    std::ignore = run_whole(known_limits(settings), runner_of(*open(), 1), stop);
+    std::istringstream lines{text()};
+    std::set<std::string> algorithms, networks;
+    std::string line;
+    std::getline(lines, line); // the header
+    while (std::getline(lines, line)) {
+        const auto session = nlohmann::json::parse(line);
+        algorithms.insert(session["algorithm"].get<std::string>());
+        networks.insert(session["network"].get<std::string>());
+    }
+    EXPECT_EQ(algorithms, (std::set<std::string>{"base", "lead10"}));
+    EXPECT_GT(networks.size(), 5U);
+    EXPECT_TRUE(networks.contains("")) << "the perfect one";
 }
 
 TEST_F(SessionFile, LosesOnlyTheLineThatWasCutOff)

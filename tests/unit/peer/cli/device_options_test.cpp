@@ -60,6 +60,8 @@ TEST(DeviceOptions, OfAnotherDeviceAreRefusedNamingBoth)
                           Case{{"--enable-uncalibrated-force"}, "omni1394", "hdapi"},
                           Case{{"--hid-force", "5N"}, "hid", "falcon"},
                           Case{{"--hd-library", "libHD.so"}, "hdapi", "sim"},
+                          Case{{"--dhd-library", "libdhd.so"}, "dhd", "hdapi"},
+                          Case{{"--inverse3-port", "10001"}, "inverse3", "dhd"},
                           Case{{"--operator", "firm"}, "sim", "omni1394"},
                           Case{{"--replay-loop"}, "replay:FILE", "sim:joints"}}) {
         std::vector<std::string> words = c.option;
@@ -90,6 +92,17 @@ TEST(DeviceOptions, ADeviceByItsPopularNameIsRefusedWithItsBackend)
     for (const char* name : {"omni", "phantom", "omni:1"}) {
         expect_said(refusal_of({"--device", name}), {"use --device omni1394 for", "hdapi[:NAME]"});
     }
+    expect_said(refusal_of({"--device", "omega"}), {"--device dhd[:SERIAL]"});
+    expect_said(refusal_of({"--device", "haply"}), {"--device inverse3[:ID]"});
+}
+
+TEST(DeviceOptions, APortIsANumberThatAServiceCanHave)
+{
+    for (const char* port : {"0", "65536", "-1", "10001x", "", "service"}) {
+        expect_said(refusal_of({"--device", "inverse3", "--inverse3-port", port}),
+                    {"--inverse3-port", "from 1 to 65535"});
+    }
+    EXPECT_EQ(refusal_of({"--device", "inverse3:049D", "--inverse3-port", "65535"}), "");
 }
 
 TEST(DeviceOptions, ThatDoNothingForALookAroundAreNotOffered)

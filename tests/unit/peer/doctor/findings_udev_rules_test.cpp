@@ -55,6 +55,11 @@ TEST(UdevRules, OpenAllUsbDevicesThatAreKnownByTheirNumbersAndNoOthers)
     std::set<std::string> opened;
     for (const std::string& rule : rules_about("{idVendor}")) {
         const std::string products = value_of(rule, "{idProduct}");
+        if (products.empty()) { // all of the vendor's
+            opened.insert(value_of(rule, "SUBSYSTEM") + " " + value_of(rule, "{idVendor}") +
+                          " 0000");
+            continue;
+        }
         for (unsigned product = 0; product <= 0xffff; ++product) {
             const std::string number = fmt::format("{:04x}", product);
             if (!matches(products, number)) continue;

@@ -215,6 +215,24 @@ TEST_F(FakeRoot, FindsTheSerialPortOfATouchAndNoOther)
     EXPECT_TRUE(nodes[0].is_accessible);
 }
 
+TEST_F(FakeRoot, FindsATouchThatIsAHidDeviceAndAnyDeviceOfForceDimension)
+{
+    put("sys/class/hidraw/hidraw2/device/uevent", "HID_ID=0003:00002988:00000304\n");
+    put("dev/hidraw2", "");
+    put("sys/bus/usb/devices/1-2/idVendor", "1451\n");
+    put("sys/bus/usb/devices/1-2/idProduct", "0402\n");
+    put("sys/bus/usb/devices/1-2/busnum", "1\n");
+    put("sys/bus/usb/devices/1-2/devnum", "3\n");
+    put("dev/bus/usb/001/003", "");
+    const auto nodes = facts().nodes;
+    ASSERT_EQ(nodes.size(), 2U);
+    EXPECT_EQ(nodes[0].device, "Force Dimension");
+    EXPECT_EQ(nodes[0].path, "/dev/bus/usb/001/003");
+    EXPECT_EQ(nodes[1].device, "Touch");
+    EXPECT_EQ(nodes[1].path, "/dev/hidraw2");
+    EXPECT_TRUE(nodes[0].is_accessible && nodes[1].is_accessible);
+}
+
 TEST_F(FakeRoot, ReadsWhatTheKernelTells)
 {
     put("sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "powersave\n");

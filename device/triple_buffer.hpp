@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace hapnet::device::hdapi {
+namespace hapnet::device {
 
 /// Passes the latest value from one thread to another; neither ever waits. One of three buffers
 /// belongs to the writer, one to the reader, and the third changes hands.
@@ -40,4 +40,4 @@ private:
     std::uint8_t taken_ = 2;
 };
 
-} // namespace hapnet::device::hdapi
+} // namespace hapnet::device

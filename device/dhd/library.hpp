@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace hapnet::device::dhd {
+
+// What of the binary interface of libdhd, the haptic library of Force Dimension's SDK, is needed
+// here. The numbers are facts of that interface, as public bindings list them (forcedimension_core
+// for Python, sawForceDimensionSDK); the names are ours. Metres and newtons; x points toward the
+// user, y to the right, z up.
+
+/// Numbers a device that is open; -1: the default one, which this program never means.
+using Id = char;
+
+/// What a function returns below zero: see last_error(). Above it: harmless, such as a saturated
+/// motor.
+inline constexpr int failed = -1;
+
+/// Error codes.
+namespace error {
+inline constexpr int none = 0;
+inline constexpr int communication = 2;
+inline constexpr int busy = 3; // the controller
+inline constexpr int no_driver = 4;
+inline constexpr int no_device = 5;
+inline constexpr int not_available = 6;
+inline constexpr int timeout = 7;
+inline constexpr int not_ready = 12; // the device
+inline constexpr int redundancy_failed = 18;
+inline constexpr int in_use = 20;
+} // namespace error
+
+/// Places in the status of a device; 1 is yes. Libraries since 3.0 fill in 12 to 17 of them.
+namespace status {
+inline constexpr std::size_t power = 0;
+inline constexpr std::size_t connected = 1;
+inline constexpr std::size_t needs_calibration = 3; // "RESET": its pole is to be put into the pit
+inline constexpr std::size_t force = 5;             // the motors are on
+inline constexpr std::size_t error = 9;             // of the controller
+inline constexpr std::size_t force_off_cause = 14;
+} // namespace status
+using Status = std::array<int, 32>; // with room for libraries to come
+
+/// Why the device itself switched its motors off.
+namespace force_off {
+inline constexpr int velocity = 2;
+} // namespace force_off
+
+/// The functions of the library.
+struct Functions {
+    int (*device_count)() = nullptr;
+    int (*open_id)(Id index) = nullptr; // the number of the open device, or below zero
+    int (*close)(Id device) = nullptr;
+    int (*serial_number)(unsigned short* serial, Id device) = nullptr;
+    const char* (*system_name)(Id device) = nullptr;
+    int (*enable_force)(unsigned char on, Id device) = nullptr;
+    int (*get_status)(int* status, Id device) = nullptr;
+    int (*get_position)(double* x, double* y, double* z, Id device) = nullptr;
+    int (*get_velocity)(double* x, double* y, double* z, Id device) = nullptr;
+    int (*set_force)(double x, double y, double z, Id device) = nullptr;
+    int (*get_button)(int index, Id device) = nullptr; // 1: it is pressed
+    int (*last_error)() = nullptr;                     // of the calling thread
+};
+
+} // namespace hapnet::device::dhd

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/capabilities.hpp"
+#include "device/dhd/library.hpp"
+#include "device/fault.hpp"
+#include "device/polled/exchange.hpp"
+#include "proto/base/space.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace hapnet::device::dhd {
+
+/// The fault for one of the library's error codes.
+[[nodiscard]] Fault fault_of(int code);
+
+/// A vector of the library's in our frame.
+[[nodiscard]] constexpr glm::dvec3 from_library(const std::array<double, 3>& it)
+{
+    return {it[1], it[2], it[0]};
+}
+/// A vector of ours in the library's frame.
+[[nodiscard]] constexpr std::array<double, 3> to_library(const glm::dvec3& it)
+{
+    return {it.z, it.x, it.y};
+}
+
+/// The abilities that any device behind the library is taken to have. The library states none, so
+/// they are no more than an Omni's: peak, continuous force and stiffness of its data sheet, within
+/// a cube of 80 mm around the device's origin.
+[[nodiscard]] Capabilities capabilities();
+
+/// What one round of calls gave.
+struct Reading {
+    int result = 0;          // of the first call that failed; 0 or more: all did their work
+    int error = error::none; // what the library said then
+    std::array<double, 3> position{};
+    std::array<double, 3> velocity{};
+    std::uint8_t buttons = 0;
+    Status status{};
+};
+
+/// Turns readings into reports, and counts what fails in a row.
+class Interpreter {
+public:
+    /// `wants_force`: the motors were asked for in this round.
+    [[nodiscard]] polled::Report report_of(const Reading& reading, bool wants_force);
+
+    /// So many rounds in a row with an error of the line mean that the device has gone.
+    static constexpr int gone_after = 100;
+
+private:
+    [[nodiscard]] Fault fault_of_status(const Status& status, bool wants_force);
+
+    int failures_ = 0;       // in a row
+    bool had_force_ = false; // the motors were on in the last round, and asked for
+};
+
+/// What to say of a device that does not open, with the cure.
+[[nodiscard]] std::string describe_error(const std::string& serial, int code);
+
+} // namespace hapnet::device::dhd

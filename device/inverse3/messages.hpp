@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/capabilities.hpp"
+#include "device/polled/exchange.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/space.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::device::inverse3 {
+
+// The messages of the vendor's local service, the Inverse Service, as its public reference states
+// them (docs.haply.co, WebSocket Protocol, 3.5): JSON, metres and newtons, one state for each
+// message that is sent. Its frame is right-handed: x right, y away from the user, z up.
+
+/// What a service says of one of its devices. In our frame.
+struct DeviceState {
+    std::string id;
+    base::Position hip{};
+    base::Velocity velocity{};
+    bool calibrated = false;
+    bool ready = true;      // false: the service does not drive it (yet)
+    bool powered = true;    // false: its motors have no supply
+    bool in_use = false;    // by another session
+    bool plain_axes = true; // false: the service was told to permute its axes
+};
+
+/// A message of the service.
+struct ServiceState {
+    std::vector<DeviceState> devices;
+    std::uint8_t buttons = 0; // of the first grip: a, b, c from bit 0 on
+
+    /// The device with this identity, nullptr: it is not there. "": the first one.
+    [[nodiscard]] const DeviceState* find(std::string_view id) const;
+};
+
+inline constexpr std::size_t message_bytes_max = std::size_t{256} * 1024;
+inline constexpr std::size_t devices_max = 16;
+inline constexpr std::size_t id_bytes_max = 64;
+
+/// Reads a message. What it does not know it leaves aside; a device without an identity of 1 to 64
+/// printable characters without quotes, or without a position and a velocity of finite numbers, is
+/// an error, and so is what is no JSON object, too long, or has more than 16 devices. A state that
+/// does not say so is not calibrated.
+[[nodiscard]] base::Result<ServiceState> parse_state(std::string_view text);
+
+/// The message that tells the device a force, which answers itself with a state. Zero where the
+/// motors are off.
+[[nodiscard]] std::string force_message(std::string_view id, const polled::Command& command);
+
+/// A device's state as a report. nullptr: it is not among the devices any more.
+[[nodiscard]] polled::Report report_of(const DeviceState* device, std::uint8_t buttons);
+
+/// The abilities of an Inverse3. The service states none, so they are no more than an Omni's: its
+/// peak, continuous force and stiffness, within a box around the middle of the arm's reach.
+[[nodiscard]] Capabilities capabilities();
+
+} // namespace hapnet::device::inverse3

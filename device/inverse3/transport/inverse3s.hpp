@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::device::inverse3 {
+
+/// The devices that the service on this port of this machine lists when it is connected to. No
+/// command is sent. Where nothing listens, or something else does: none.
+[[nodiscard]] std::vector<Found> find_inverse3s(std::uint16_t port);
+
+/// Opens the device with this identity; "": the first one.
+[[nodiscard]] Opened<std::unique_ptr<Device>> open_inverse3(const std::string& id,
+                                                            std::uint16_t port);
+
+} // namespace hapnet::device::inverse3

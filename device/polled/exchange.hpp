@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/fault.hpp"
+#include "proto/base/space.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::device::polled {
+
+/// A force for the device, in the frame of Sample.
+struct Command {
+    base::Force force{};
+    bool motors_on = false;
+
+    friend bool operator==(const Command&, const Command&) = default;
+};
+
+/// An answer of the device, in the frame and the units of Sample.
+struct Report {
+    std::uint64_t cycle = 0; // counted from 1; 0: nothing yet
+    base::Position hip{};
+    base::Velocity velocity{};
+    std::uint8_t buttons = 0; // one bit each, not debounced; bit 0 is the primary one
+    bool calibrated = false;
+    Fault fault = Fault::none;
+};
+
+/// One question to the device and its answer, over whatever leads to it.
+class Exchange {
+public:
+    Exchange() = default;
+    virtual ~Exchange() = default;
+    Exchange(const Exchange&) = delete;
+    Exchange& operator=(const Exchange&) = delete;
+
+    /// Tells the device the force, then reads it; the cycle is the caller's to count. nullopt: it
+    /// did not answer in time. May wait, and may throw nothing.
+    [[nodiscard]] virtual std::optional<Report> tell(const Command& command) = 0;
+};
+
+} // namespace hapnet::device::polled

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/polled/exchange.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <optional>
+
+namespace hapnet::device::polled {
+
+/// Decides what force goes out in each exchange. In doubt zero, with the motors off: before the
+/// first answer, after an exchange without one, while the device is at fault or not calibrated, for
+/// a force that is not finite, and for one that is not given anew for 20 ms.
+class Gate {
+public:
+    /// The command to send at `now`. `newest` is the latest one, `is_new` since the last call.
+    [[nodiscard]] Command pass(const Command& newest, bool is_new, base::TimePoint now);
+    /// The answer to the command that was sent last. Gives it with the fault that it had, or that
+    /// one had in the last 20 ms: what reads less often than the device is asked misses none.
+    [[nodiscard]] std::optional<Report> heard(std::optional<Report> report, base::TimePoint now);
+
+    static constexpr base::Duration fresh_for{std::chrono::milliseconds{20}};
+    static constexpr base::Duration fault_held_for{std::chrono::milliseconds{20}};
+
+private:
+    std::optional<base::TimePoint> given_; // when the newest one came
+    bool is_trusted_ = false;              // the last answer
+    Fault fault_ = Fault::none;            // the latest one
+    base::TimePoint fault_at_{};
+};
+
+} // namespace hapnet::device::polled

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/usb_ids.hpp"
+
+#include <string>
+#include <vector>
+
+namespace hapnet::device {
+
+/// The devices of this kind on the USB, by what public lists call them: "Touch (USB 2988:0304)".
+/// For devices that only their vendor's library or service can open.
+[[nodiscard]] std::vector<std::string> models_on_usb(UsbKind kind);
+
+} // namespace hapnet::device

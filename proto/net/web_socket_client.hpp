@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hapnet::net {
+
+/// A connection to a WebSocket on this machine (RFC 6455), for texts. One thread uses it. No call
+/// waits longer than it is told; a peer that breaks the protocol, or a message beyond the limit,
+/// closes it for good.
+class WebSocketClient {
+public:
+    struct Limits {
+        base::Duration connect_max;
+        std::size_t message_bytes_max = 65536;
+    };
+
+    /// Connects to 127.0.0.1:port and shakes hands for "/". The error names the port and the cause.
+    [[nodiscard]] static base::Result<WebSocketClient> connect(std::uint16_t port,
+                                                               const Limits& limits);
+    ~WebSocketClient();
+    WebSocketClient(WebSocketClient&& other) noexcept;
+    WebSocketClient& operator=(WebSocketClient&& other) noexcept;
+    WebSocketClient(const WebSocketClient&) = delete;
+    WebSocketClient& operator=(const WebSocketClient&) = delete;
+
+    /// False: it did not go out in time; then the connection is closed, as half a message may have
+    /// gone.
+    [[nodiscard]] bool send(std::string_view text, base::Duration most);
+    /// The next message, if it has come or comes in time.
+    [[nodiscard]] std::optional<std::string> receive(base::Duration most);
+    [[nodiscard]] bool is_open() const;
+
+private:
+    struct State;
+    explicit WebSocketClient(std::unique_ptr<State> state);
+
+    std::unique_ptr<State> state_;
+};
+
+} // namespace hapnet::net
