@@ -165,20 +165,21 @@ std::vector<Job> claim_jobs(const Experiment& experiment)
         for (std::uint32_t seed = 0; seed < judging_seeds(experiment); ++seed) {
             SessionSpec spec = specs.spec(*settled, Task::t3, experiment.first_seed + seed);
             spec.setting.length = std::min<base::Duration>(spec.setting.length, 10s);
+            spec.silence = 1s;
             jobs.emplace_back(SilenceJob{i, std::move(spec)});
         }
     }
     return jobs;
 }
 
-base::Result<double> apart_after_silence(const SessionSpec& spec, base::Duration after)
+base::Result<double> apart_after_silence(const virtual_time::Setting& setting, base::Duration after)
 {
     using virtual_time::VirtualWorld;
-    virtual_time::Setting setting = spec.setting;
     const auto at = silent_from(setting);
     if (!at) return base::fail("a session that is to end in silence never began");
-    setting.profile.timeline = {healing(*at)};
-    VirtualWorld world{setting};
+    virtual_time::Setting healed = setting;
+    healed.profile.timeline = {healing(*at)};
+    VirtualWorld world{healed};
     world.run_for(*at + after);
     double apart_m = 0.0;
     for (std::size_t a = 0; a < world.sides(); ++a) {

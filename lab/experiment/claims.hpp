@@ -37,7 +37,7 @@ inline constexpr std::string_view settled_cell = "all";
 
 /// How far two copies of the body are apart at most, so long after all hands let go and the
 /// network became perfect, metres. Played twice: the first time tells when that is.
-[[nodiscard]] base::Result<double>
-apart_after_silence(const SessionSpec& spec, base::Duration after = std::chrono::seconds{1});
+[[nodiscard]] base::Result<double> apart_after_silence(const virtual_time::Setting& setting,
+                                                       base::Duration after);
 
 } // namespace hapnet::lab::experiment

@@ -280,8 +280,10 @@ struct RunJob {
 
     base::Result<JobResult> operator()(const SilenceJob& job) const
     {
-        return apart_after_silence(job.spec).map(
-            [](double apart_m) -> JobResult { return SilenceResult{apart_m}; });
+        const auto played = play(job.spec);
+        if (!played) return tl::unexpected{played.error()};
+        if (!played->apart_m) return base::fail("a session does not say how it ended in silence");
+        return SilenceResult{*played->apart_m};
     }
 };
 

@@ -121,10 +121,12 @@ std::string key_of(const SessionSpec& spec, std::string_view program)
     // Without them the key is the one that sessions had before there were any.
     const std::string_view limit = setting.energy_limit ? "energy_limit = true\n" : "";
     const std::string_view keyed = setting.players.front().circle ? "keyed = true\n" : "";
+    const auto silence =
+        spec.silence ? fmt::format("silence = {}\n", spec.silence->count()) : std::string{};
     const bool is_usual = setting.task_options == device::TaskOptions{};
     const auto options = is_usual ? std::string{} : base::field_lines(setting.task_options);
     return fmt::format("{} {:016x}", label,
-                       hash_of(fmt::format("{}{}{}{}", all, limit, keyed, options)));
+                       hash_of(fmt::format("{}{}{}{}{}", all, limit, keyed, silence, options)));
 }
 
 } // namespace hapnet::lab::experiment

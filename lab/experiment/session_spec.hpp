@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,12 +20,15 @@ struct SessionSpec {
     virtual_time::Setting setting{};
     std::uint32_t rows_per_s = 0;
     std::string algorithm{}; // what the experiment calls it; nothing follows from that
+    /// Nothing is kept but how far copies are apart so long after all is silent: see claims.hpp.
+    std::optional<base::Duration> silence{};
 };
 
 /// What came of a session: a pure function of its spec.
 struct PlayedSession {
     metrics::Metrics metrics{};
     std::string rows{}; // CSV without a header: see rows.hpp; empty when none were to be kept
+    std::optional<double> apart_m{}; // of a session that ends in silence
 };
 
 /// Plays a session, or gives what is known of it already.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/runner/runner.hpp"
 
+#include "lab/experiment/claims.hpp"
 #include "lab/results/rows.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/clock.hpp"
@@ -123,10 +124,20 @@ private:
 base::Result<experiment::PlayedSession> play_in_virtual_time(const experiment::SessionSpec& spec,
                                                              const std::atomic<bool>& stop)
 {
+    if (spec.silence) {
+        return experiment::apart_after_silence(spec.setting, *spec.silence)
+            .map([&](double apart_m) {
+                experiment::PlayedSession played;
+                played.metrics.task = spec.setting.task;
+                played.apart_m = apart_m;
+                return played;
+            });
+    }
     return play(spec.setting, &stop).map([&](const virtual_time::Trace& trace) {
         return experiment::PlayedSession{
             metrics::metrics_of(trace),
-            to_lines(results::make_replay_rows(trace, spec.rows_per_s))};
+            to_lines(results::make_replay_rows(trace, spec.rows_per_s)),
+            {}};
     });
 }
 

@@ -41,7 +41,12 @@ std::optional<experiment::PlayedSession> played_from(const Json& line)
     if (!line.contains("metrics") || !line.value("rows", Json("")).is_string()) return std::nullopt;
     auto metrics = metrics::metrics_from(nlohmann::json(line["metrics"]));
     if (!metrics) return std::nullopt;
-    return experiment::PlayedSession{*std::move(metrics), line.value("rows", std::string{})};
+    experiment::PlayedSession played{*std::move(metrics), line.value("rows", std::string{}), {}};
+    if (const auto apart = line.find("apart_m"); apart != line.end()) {
+        if (!apart->is_number()) return std::nullopt;
+        played.apart_m = apart->get<double>();
+    }
+    return played;
 }
 
 Json line_of(const std::string& key, const experiment::SessionSpec& spec,
@@ -52,6 +57,7 @@ Json line_of(const std::string& key, const experiment::SessionSpec& spec,
               {"network", experiment::network_text(spec.setting.profile)},
               {"metrics", to_json(played.metrics)}};
     if (!played.rows.empty()) line["rows"] = played.rows;
+    if (played.apart_m) line["apart_m"] = *played.apart_m;
     return line;
 }
 

@@ -5,12 +5,12 @@
 # One plan on many engines: one process, GNU parallel here and over ssh to this machine, an array of
 # Slurm jobs on a cluster of one node. Shards are killed on the way. All have the same digest.
 #   fleet_test.sh REPOSITORY BIN_DIR WORK_DIR [SEEDS [ENGINE...]]
-# ENGINE is local, remote or array (default: all). A seed is 80 sessions.
+# ENGINE is local, remote or array (default: all). A seed is 200 sessions: 50 are ten thousand.
 # As root: Slurm's daemons and sshd run in WORK_DIR, on ports of their own, and end with it.
 set -euo pipefail
 repository=$1
 bin=$(realpath "$2")
-seeds=${4:-10}
+seeds=${4:-4}
 rm -rf "$3"
 mkdir -p "$3"
 work=$(realpath "$3")
@@ -55,7 +55,7 @@ tasks = ["T1", "T3"]
 [plane]
 delay = ["0ms", "40ms", "80ms", "120ms", "160ms"]
 jitter = ["0ms", "5ms"]
-loss = ["0%", "50%"]
+loss = ["0%", "25%", "50%", "75%", "93%"]
 EOF
 
 digest_in() { sed -n 's/^digest //p' "$1"; }

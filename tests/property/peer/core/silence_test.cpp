@@ -22,7 +22,7 @@ protected:
     static double apart_mm(const EnergyCase& one, base::Duration of_many = 1s)
     {
         const base::Duration after = one.setting.players.size() == 2 ? 1s : of_many;
-        const auto apart_m = lab::experiment::apart_after_silence({.setting = one.setting}, after);
+        const auto apart_m = lab::experiment::apart_after_silence(one.setting, after);
         EXPECT_TRUE(apart_m) << one.words;
         return apart_m ? 1e3 * *apart_m : -1.0;
     }

@@ -43,7 +43,7 @@ TEST(Claims, OfSilenceFindTheCopiesTogetherWhereNothingHadToHeal)
     SessionSpec spec = std::get<SilenceJob>(jobs.back()).spec;
     EXPECT_EQ(spec.setting.length, 10s);
     spec.setting.profile = {};
-    const auto apart_m = apart_after_silence(spec);
+    const auto apart_m = apart_after_silence(spec.setting, 1s);
     ASSERT_TRUE(apart_m);
     EXPECT_LT(*apart_m, 1e-4);
 }

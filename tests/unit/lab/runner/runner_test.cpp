@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // What a run keeps, reuses and finds, on however many threads.
+#include "lab/experiment/claims.hpp"
 #include "lab/experiment/text.hpp"
 #include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
@@ -8,6 +9,7 @@
 #include "lab/runner/runner.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +21,8 @@
 namespace hapnet::lab::runner::runner_test {
 
 namespace {
+
+using namespace std::chrono_literals;
 
 /// A file of sessions of its own for each test.
 class SessionFile : public testing::Test {
@@ -240,6 +244,52 @@ TEST_F(SessionFile, ReadsTheSessionsOfSeveralFilesAndKeepsNoOther)
     std::filesystem::remove(other);
 }
 
+TEST_F(SessionFile, KeepsHowFarCopiesAreApartAfterSilence)
+{
+    const auto none = [](const std::string& name) { return base::fail(name); };
+    const auto claims =
+        experiment::load_experiment("beat", none, {.quick = false, .settings = {"seeds=2"}})
+            .value();
+    constexpr double apart_m = 1.0 / 3e4; // no few digits say it
+    const auto ends_of_silence = [&](SessionStore& store) {
+        Runner runner = runner_of(store, 2);
+        runner.play = [&](const experiment::SessionSpec& spec, const std::atomic<bool>&) {
+            auto played = known_session(spec);
+            if (spec.silence) played.apart_m = apart_m;
+            return base::Result<experiment::PlayedSession>{played};
+        };
+        std::vector<double> ends;
+        const auto findings = run_whole(claims, runner, stop);
+        EXPECT_TRUE(findings) << findings.error().message;
+        if (!findings) return ends;
+        for (const auto& one : findings->value()) {
+            const auto* const silence = std::get_if<experiment::SilenceResult>(&one);
+            if (silence != nullptr) ends.push_back(silence->apart_m);
+        }
+        return ends;
+    };
+    EXPECT_EQ(ends_of_silence(*open()), (std::vector{apart_m, apart_m}));
+    {
+        const auto again = open();
+        EXPECT_EQ(ends_of_silence(*again), (std::vector{apart_m, apart_m}));
+        EXPECT_EQ(again->counts().played, 0U);
+    }
+    std::ofstream{path, std::ios::app} << R"({"key":"k","metrics":{},"apart_m":"far"})" << '\n';
+    EXPECT_EQ(open()->damaged_lines(), 1U);
+}
+
+TEST(PlayInVirtualTime, OfASessionThatEndsInSilenceTellsHowFarCopiesAreApart)
+{
+    const auto none = [](const std::string& name) { return base::fail(name); };
+    const auto claims =
+        experiment::load_experiment("beat", none, {.quick = false, .settings = {"seeds=1"}})
+            .value();
+    const auto spec = std::get<experiment::SilenceJob>(make_jobs(claims).back()).spec;
+    const auto played = play_in_virtual_time(spec, false).value();
+    EXPECT_EQ(played.apart_m, experiment::apart_after_silence(spec.setting, 1s).value());
+    EXPECT_EQ(played.rows, "");
+}
+
 TEST(ResultTables, JoinTheLinesOfPartsWhoseColumnsDiffer)
 {
     const std::filesystem::path folder = testing::TempDir();
@@ -256,7 +306,6 @@ TEST(ResultTables, JoinTheLinesOfPartsWhoseColumnsDiffer)
 
 TEST(ProgressText, SaysHowMuchIsLeftOnceAPartIsDone)
 {
-    using namespace std::chrono_literals;
     EXPECT_EQ(progress_text({10, 0, {30, 0}}, 2s), "30 sessions, 15.0/s");
     EXPECT_EQ(progress_text({10, 2, {60, 40}}, 6s), "100/~500 sessions (20 %), 10.0/s, 40 s left");
     EXPECT_EQ(progress_text({10, 1, {60, 0}}, 6s), "60/~600 sessions (10 %), 10.0/s, 54 s left");
