@@ -100,18 +100,23 @@ public:
     /// The share of the impulses that is passive.
     [[nodiscard]] double share(double stored, SpringsAtEnd at_end) const
     {
-        const double rounding = energy_rounding * (before_ + after_ + stored + std::abs(driven_));
+        const double there = before_ + after_ + std::abs(driven_);
+        const double rounding = energy_rounding * (there + stored);
         const glm::dmat3& light = body_.dynamics.inverse_inertia;
         const EnergyOfShare at_start = energy_with(light, light);
         double share = 1.0;
         // What is vague by turning shrinks with the share.
         for (int round = 0; round < share_rounds_max; ++round) {
-            const double slack = rounding + turning_slack(share);
-            double within = at_start.share_within(stored + slack);
+            const double turning = turning_slack(share);
+            double within = at_start.share_within(stored + rounding + turning);
             if (grips_.impulse > 0.0) {
                 EnergyOfShare gripped = at_start;
                 gripped.linear -= grips_.most(fastest(share)) - grips_.driven;
-                within = std::min(within, gripped.share_within(stored - grips_.stored + slack));
+                // A grip may have stored megajoules, of which the share has next to nothing.
+                const double others = stored - grips_.stored;
+                const double slack =
+                    turning + energy_rounding * (before_ + share * (there - before_) + others);
+                within = std::min(within, gripped.share_within(others + slack));
             }
             if (within >= share) break;
             share = next_share(share, within, round);

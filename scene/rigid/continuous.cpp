@@ -53,6 +53,15 @@ std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
     return std::min(bodies.movable_parts() * each, meetings_max);
 }
 
+/// What is left of gravity and pushes where contacts bear them: the change of the tick, where that
+/// is less. Where something is hit it is more, and comes at a moment.
+glm::dvec3 borne(const glm::dvec3& steady, const glm::dvec3& change)
+{
+    constexpr double rounding = 1e-9;
+    const bool is_borne = glm::dot(change, change) < (1.0 - rounding) * glm::dot(steady, steady);
+    return is_borne ? change : steady;
+}
+
 } // namespace
 
 ContinuousCollision::ContinuousCollision(const WorldConfig& config, const Bodies& bodies,
@@ -68,21 +77,20 @@ ContinuousCollision::ContinuousCollision(const WorldConfig& config, const Bodies
       steps_kept_{steps_max_ / 2}
 {}
 
-glm::dvec3 ContinuousCollision::Surroundings::steady_acceleration(Slot slot) const
-{
-    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
-    const BodyProperties& properties = state.bodies.properties[slot];
-    return gravity_on(properties, config.gravity) +
-           properties.inverse_mass * state.pushes[properties.id];
-}
-
-void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> active,
+void ContinuousCollision::begin(const WorldConfig& config, const WorldState& state,
+                                std::span<const Slot> active,
                                 std::span<const BodyIntegration> integrations,
                                 ContactSolver& solver)
 {
+    const Bodies& bodies = state.bodies;
     departures_.resize(bodies.movable);
+    for (Slot slot = bodies.awake; slot < bodies.movable; ++slot)
+        departures_[slot].acceleration = glm::dvec3{0.0};
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
+        const BodyProperties& properties = bodies.properties[slot];
         Departure& departure = departures_[slot];
+        departure.acceleration = gravity_on(properties, config.gravity) +
+                                 properties.inverse_mass * state.pushes[properties.id];
         departure.beginning = {bodies.position.at(slot), bodies.orientation.at(slot),
                                bodies.velocity.at(slot), bodies.angular_momentum.at(slot)};
         departure.turn = Departure::Turn::free;
@@ -92,6 +100,9 @@ void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> acti
         const BodyIntegration& integration = integrations[slot + 1];
         const BodyMotion& mean = solver.mean_motion(slot + 1);
         Departure& departure = departures_[slot];
+        departure.acceleration =
+            borne(departure.acceleration, scales_.rate * (solver.end_motion(slot + 1).velocity -
+                                                          integration.start.velocity));
         departure.start = integration.start;
         departure.first_touch = integration.first_touch;
         departure.turn =
@@ -327,14 +338,13 @@ void ContinuousCollision::bend(const Surroundings& around, FlyerIndex index)
 /// have added until then.
 void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, double time)
 {
-    const WorldState& state = around.state;
-    const Bodies& bodies = state.bodies;
+    const Bodies& bodies = around.state.bodies;
     const Slot slot = bodies.slot_of[flyer.body];
     const glm::dvec3 centre = flyer.flight.centre + time * flyer.flight.velocity;
     const glm::dquat orientation = flyer.flight.orientation_at(time);
     const double left = scales_.tick - time;
     flyer.flight.velocity =
-        bodies.velocity.at(slot) - (0.5 * left) * around.steady_acceleration(slot);
+        bodies.velocity.at(slot) - (0.5 * left) * departures_[slot].acceleration;
     // What a touch sees is the spin that it has now; it may not stay: see touch().
     flyer.roll.advance(time);
     flyer.flight.spin = spin_of(bodies, slot, orientation, flyer.roll);
@@ -474,7 +484,7 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     if (!flyer.is_movable) return its;
     its.response = response_of(bodies.properties[slot], box.axes);
     its.motion.velocity =
-        bodies.velocity.at(slot) - (scales_.tick - time) * around.steady_acceleration(slot);
+        bodies.velocity.at(slot) - (scales_.tick - time) * departures_[slot].acceleration;
     its.motion.spin = its.response.inverse_inertia * bodies.angular_momentum.at(slot);
     return its;
 }

@@ -39,16 +39,13 @@ public:
     ContinuousCollision(const WorldConfig& config, const Bodies& bodies, const Scales& scales);
 
     /// Remembers where the awake bodies are, and how those that something acts on will turn.
-    void begin(const Bodies& bodies, std::span<const Slot> active,
+    void begin(const WorldConfig& config, const WorldState& state, std::span<const Slot> active,
                std::span<const BodyIntegration> integrations, ContactSolver& solver);
 
     struct Surroundings {
         const WorldConfig& config;
         WorldState& state;
         const Kinematics& kinematics; // still where they began, with their mean velocities
-
-        /// Gravity and pushes: what acts on an awake body through the tick.
-        [[nodiscard]] glm::dvec3 steady_acceleration(Slot slot) const;
     };
     /// Corrects what went through something. Sleepers that are hit move on at once; woken() says
     /// which, to be woken.
@@ -123,7 +120,8 @@ private:
         enum class Turn : std::uint8_t { free, steady, by_hands };
         Beginning beginning;
         Turn turn = Turn::free;
-        glm::dvec3 spin{0.0}; // when it is steady
+        glm::dvec3 spin{0.0};         // when it is steady
+        glm::dvec3 acceleration{0.0}; // through the tick; 0 of a sleeper
         BodyMotion start;
         FirstTouch first_touch;
     };

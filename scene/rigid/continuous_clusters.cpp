@@ -63,7 +63,7 @@ void ContinuousCollision::go_together(const Surroundings& around, FlyerIndex ind
 {
     Bodies& bodies = around.state.bodies;
     const auto still_to_gain = [&](Slot slot) {
-        return (scales_.tick - time) * around.steady_acceleration(slot);
+        return (scales_.tick - time) * departures_[slot].acceleration;
     };
     const auto part_of = [&](const Flyer& flyer) {
         const Slot slot = bodies.slot_of[flyer.body];
@@ -120,7 +120,7 @@ void ContinuousCollision::stick_to_wall(const Surroundings& around, FlyerIndex i
         bodies.velocity.put(slot, before + change);
         if (is_driven) {
             const glm::dvec3 mean =
-                before + 0.5 * change - (scales_.tick - time) * around.steady_acceleration(slot);
+                before + 0.5 * change - (scales_.tick - time) * departures_[slot].acceleration;
             const glm::dvec3 push = bodies.properties[slot].mass * change;
             departures_[slot].beginning.add_driven(
                 driven_energy(glm::dot(push, ground), glm::dot(push, mean)), length(ground));

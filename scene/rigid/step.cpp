@@ -125,7 +125,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     if (has_kinematics && kinematics_.any_far()) any_far_ = true;
     const bool may_gain = bounced || changed || moved_apart || any_far_;
     if (may_gain) grounded_energy(config, state).begin(state, solver_);
-    integrate_positions(state);
+    integrate_positions(config, state);
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
     if (may_gain) grounded_energy(config, state).settle(state);
@@ -505,9 +505,9 @@ void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldSt
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_positions(WorldState& state)
+void RigidStepper<broad_phase>::integrate_positions(const WorldConfig& config, WorldState& state)
 {
-    if (any_far_) continuous_.begin(state.bodies, active_.slots(), integrations_.all(), solver_);
+    if (any_far_) continuous_.begin(config, state, active_.slots(), integrations_.all(), solver_);
     for (const Slot slot : active_.slots())
         integrate_position(integrations_[slot + 1], state.bodies, slot, solver_, scales_);
 }

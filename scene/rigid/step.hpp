@@ -97,7 +97,7 @@ private:
     {
         return {config, state.bodies, active_, integrations_.all()};
     }
-    void integrate_positions(WorldState& state);
+    void integrate_positions(const WorldConfig& config, WorldState& state);
     void integrate_free_bodies(WorldState& state);
     void solve_continuous(const WorldConfig& config, WorldState& state);
     void report_hand_forces(const WorldConfig& config, WorldState& state);

@@ -63,7 +63,8 @@ std::vector<Silence> silences_of(std::vector<double> arrivals, double end_s)
 }
 
 /// Expects that the force was zero 300 ms after the last state: 250 ms it holds, and from the first
-/// tick after that, which a busy machine begins late, it fades for 50. Whether there was a force.
+/// tick after that, which a busy machine begins late, it fades for 50. Whether there was a force,
+/// and the silence was long enough to tell.
 bool fades(const std::vector<Tick>& ticks, const Silence& silence)
 {
     const auto first_after = [&](double time_s) {
@@ -75,20 +76,27 @@ bool fades(const std::vector<Tick>& ticks, const Silence& silence)
     if (begins == ticks.end()) return false;
     const auto zero = first_after(begins->time_s + fade_s + tick_s);
     const auto end = first_after(silence.to_s - tick_s);
-    EXPECT_LT(zero, end);
-    EXPECT_TRUE(std::all_of(zero, std::max(zero, end),
-                            [](const Tick& tick) { return tick.force_n == 0.0; }))
+    if (zero >= end) return false;
+    EXPECT_TRUE(std::all_of(zero, end, [](const Tick& tick) { return tick.force_n == 0.0; }))
         << "silent from " << silence.from_s << " to " << silence.to_s << " s";
     return last_fresh->force_n > 0.05;
 }
 
+/// How many states the peer at this socket has received.
+int states_received_at(const std::string& socket)
+{
+    return answer_of(socket, "stats")["messages"]["states_received"].get<int>();
+}
+
 /// The hand of one peer carries the cube. The other peer is killed so often, each time at a drawn
-/// moment between 1.5 and 3.5 s after its start, and started again half a second later. Returns how
-/// often in a push.
+/// moment between 1.5 and 3.5 s after it was first heard, and started again half a second later.
+/// Returns how often in a push.
 int killed_in_a_push(int kills, const base::RandomStream& draw)
 {
     const std::string there = free_place();
-    Peer stays{1, free_place(), there, {"--task", "P1", "--duration", "150s"}};
+    const TemporaryFolder folder;
+    const std::string socket = folder.file("stays.sock");
+    Peer stays{1, free_place(), there, {"--task", "P1", "--duration", "150s", "--control", socket}};
     Peer dies{2, there, stays.listen(), {"--task", "P1", "--duration", "150s"}};
     EXPECT_TRUE(stays.says("session started"));
     for (int i = 0; i < kills; ++i) {
@@ -96,7 +104,10 @@ int killed_in_a_push(int kills, const base::RandomStream& draw)
         std::this_thread::sleep_for(1500ms + std::chrono::duration<double>{2.0 * share});
         dies.kill();
         std::this_thread::sleep_for(500ms);
-        if (i + 1 < kills) dies.restart();
+        if (i + 1 == kills) break;
+        const int before = states_received_at(socket);
+        dies.restart();
+        EXPECT_TRUE(comes_true([&] { return states_received_at(socket) != before; }));
     }
     stays.stop_on_a_busy_machine();
     const auto ticks = ticks_of(stays.record());
@@ -115,11 +126,16 @@ TEST(PeerKill, AtAnyMomentEndsTheOthersForceWithin300MsByItsRecord)
     const base::Seed seed{net::unpredictable_bits()};
     SCOPED_TRACE("seed " + std::to_string(seed.value()));
     int in_a_push = 0;
-    for (int done = 0; done < kills; done += kills_a_session) {
+    int done = 0;
+    // Chance may choose the moments between two pushes, and a machine that stands still may end a
+    // session's force: such kills say nothing, and others take their place.
+    while (done < kills || (in_a_push < kills / 2 && done < 5 * kills)) {
         const auto draw = seed.stream("kills/" + std::to_string(done));
-        in_a_push += killed_in_a_push(std::min(kills - done, kills_a_session), draw);
+        const int now = std::min(done < kills ? kills - done : kills, kills_a_session);
+        in_a_push += killed_in_a_push(now, draw);
+        done += now;
     }
-    std::printf("  %d kills, %d of them in the middle of a push\n", kills, in_a_push);
+    std::printf("  %d kills, %d of them in the middle of a push\n", done, in_a_push);
     EXPECT_GE(in_a_push, kills / 2);
 }
 

@@ -177,7 +177,9 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{7032676, "GrippedInLongTicksWhileItSpins"},
         Scar{1000001991, "PushedThroughItsLockedCentre"},
         Scar{8000069958, "PushedAtTheEndOfARowThatSleeps"},
-        Scar{21000031384, "PushedAboutAnAxisAcrossTheOnlyOneItTurnsAbout"}),
+        Scar{21000031384, "PushedAboutAnAxisAcrossTheOnlyOneItTurnsAbout"},
+        Scar{51000251007, "SpinningOnTheFloorToWhichItIsPressed"},
+        Scar{51000502515, "SwungByAGripWithMegajoules"}),
     [](const auto& each) { return each.param.name; });
 
 /// Islands that lost motion because last tick's forces drove them: where drag took a part of
