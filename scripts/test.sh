@@ -121,7 +121,9 @@ finish() {
     step "$1" show_begun "$1"
 }
 show_begun() {
-    cat "$logs/$1.begun.log"
+    local shown=3
+    [[ $1 != *-tests && $begun_exit == 0 ]] || shown=+1
+    tail -n "$shown" "$logs/$1.begun.log"
     [[ $begun_exit == 0 ]]
 }
 
@@ -189,17 +191,8 @@ build_fleet() {
         --target hapnet-lab made_sessions
 }
 
-# closing LOG...: what ctest said at the end of each.
-closing() {
-    local run said
-    for run in "$@"; do
-        said=$(sed -n '/% tests passed/,$p' "$logs/$run.log" 2>/dev/null || true)
-        printf '%s: %s\n' "${run/-/ }" "${said:-not run to the end}"
-    done
-}
-
-# count LOG...: the tests of all of them, in one line.
-count() {
+# tally LOG...: how many tests passed, failed and were left out in all of them, as "4 passed, 1 failed".
+tally() {
     local run logs_read=()
     for run in "$@"; do
         [[ ! -f $logs/$run.log ]] || logs_read+=("$logs/$run.log")
@@ -208,9 +201,23 @@ count() {
         /% tests passed, .* tests? failed out of/ { failed += $4; all += $NF }
         /^[ \t]*[0-9]+ - .*\(Skipped\)$/ { skipped++ }
         END {
-            passed = all - failed - skipped
-            printf "tests: %d passed, %d failed, %d skipped\n", passed, failed, skipped
+            printf "%d passed", all - failed - skipped
+            if (failed) printf ", %d failed", failed
+            if (skipped) printf ", %d skipped", skipped
         }'
+}
+
+# closing LOG...: how the tests of each ended, and which failed.
+closing() {
+    local run
+    for run in "$@"; do
+        if grep -q '% tests passed' "$logs/$run.log" 2>/dev/null; then
+            printf '%s: %s\n' "${run/-/ }" "$(tally "$run")"
+            sed -n '/^The following tests FAILED:/,/^$/p' "$logs/$run.log"
+        else
+            printf '%s: not run to the end\n' "${run/-/ }"
+        fi
+    done
 }
 
 if [[ $kind == ship ]]; then
@@ -247,8 +254,8 @@ printf '%s\n' "${summary[@]}"
 if ((failed > 0)); then
     printf 'test: %d of %d steps FAILED after %d s; see %s\n' \
         "$failed" "${#summary[@]}" "$SECONDS" "$PWD/$logs"
-    ((${#runs[@]} == 0)) || count "${runs[@]}"
+    ((${#runs[@]} == 0)) || printf '%s in %d s\n' "$(tally "${runs[@]}")" "$SECONDS"
     exit 1
 fi
 printf 'test: all %d steps passed in %d s\n' "${#summary[@]}" "$SECONDS"
-((${#runs[@]} == 0)) || count "${runs[@]}"
+((${#runs[@]} == 0)) || printf '%s in %d s\n' "$(tally "${runs[@]}")" "$SECONDS"
