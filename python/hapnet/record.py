@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 Value = Any
 HEADER_BYTES_MAX = 1 << 20
-VERSIONS = (2, 3, 4)
+VERSIONS = (2, 3, 4, 5)
 
 _LETTERS = {"u8": "B", "u16": "H", "u32": "I", "u64": "Q", "i64": "q", "f64": "d", "bool": "?"}
 
@@ -168,7 +168,7 @@ def _header(line: bytes, path: str) -> Dict[str, Any]:
     if not isinstance(header, dict) or header.get("format") != "hapnet-record":
         raise ValueError(f"{path} is not a record: its first line is not a header of one")
     if header.get("version") not in VERSIONS or header.get("byte_order") != "little":
-        raise ValueError(f"{path} is a record of version {header.get('version')}, not of 2 to 4")
+        raise ValueError(f"{path} is a record of version {header.get('version')}, not of 2 to 5")
     return header
 
 
