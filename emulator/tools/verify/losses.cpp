@@ -168,7 +168,8 @@ TestResult test_unrelated(const PairTally& tally, double memory, double alpha)
     const auto first = static_cast<double>(tally.first);
     const auto second = static_cast<double>(tally.second);
     const double product = first * (n - first) * second * (n - second);
-    if (std::min(first, n - first) * std::min(second, n - second) < expected_min * n) {
+    if (tally.datagrams == 0 ||
+        std::min(first, n - first) * std::min(second, n - second) < expected_min * n) {
         return unable("directions", "too few losses to compare those of the directions");
     }
     const double correlation =

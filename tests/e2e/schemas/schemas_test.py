@@ -45,7 +45,8 @@ def validator(name):
 
 
 validators = {name: validator(name)
-              for name in ("emulator", "peer", "analysis", "manifest", "profile")}
+              for name in ("emulator", "peer", "analysis", "manifest", "profile", "play",
+                           "prediction", "verification", "probe", "comparison")}
 
 
 def validate(name, document, label):
@@ -60,9 +61,9 @@ def refuses(name, document, label):
         faults.append(f"{name} accepts {label}")
 
 
-def run(program, *words):
+def run(program, *words, exit=0):
     done = subprocess.run([programs / program, *map(str, words)], capture_output=True, text=True)
-    if done.returncode != 0:
+    if done.returncode != exit:
         faults.append(f"{program} {' '.join(map(str, words))}: {done.stderr}")
     return done.stdout
 
@@ -125,12 +126,26 @@ with tempfile.TemporaryDirectory() as place:
     relay = start("hapnet-emulator", "--listen", "127.0.0.1:7100", "--upstream", "127.0.0.1:7101",
                   "--delay", "2ms", "--stats", folder / "clients.json")
     time.sleep(0.3)
-    run("hapnet-emulator", "probe", "127.0.0.1:7100", "--count", 20, "--rate", 100)
+    probed = json.loads(run("hapnet-emulator", "probe", "127.0.0.1:7100", "--count", 20, "--rate",
+                            100, "--json"))
+    validate("probe", probed, "probe")
     for program in (relay, service):
         program.terminate()
         program.wait(10)
     clients = json.loads((folder / "clients.json").read_text())
     validate("emulator", clients, "clients")
+    unanswered = run("hapnet-emulator", "probe", "127.0.0.1:7101", "--count", 2, "--rate", 20,
+                     "--json", exit=1)
+    validate("probe", json.loads(unanswered), "probe without an answer")
+    verified = json.loads(run("hapnet-emulator", "verify", plain / "emulator.json", "--json"))
+    validate("verification", verified, "verify")
+    for words in (["lte"], ["wifi-busy", "--rate", 100], ["--loss", "93%"],
+                  ["--link", "1-2", "--set", "1-2.delay=3ms"],
+                  ["--jitter", "15ms", "--order", "free", "--reorder",
+                   '{ share = "1%", displacement = 3 }']):
+        predicted = json.loads(run("hapnet-emulator", "predict", *words, "--packets", 2000,
+                                   "--json"))
+        validate("prediction", predicted, f"predict {words}")
     run("hapnet-emulator", "--link", "1-2=127.0.0.1:7111,127.0.0.1:7112", "--link",
         "1-3=127.0.0.1:7113,127.0.0.1:7114", "--duration", "1s", "--stats", folder / "links.json")
     validate("emulator", json.loads((folder / "links.json").read_text()), "links")
@@ -141,6 +156,21 @@ with tempfile.TemporaryDirectory() as place:
         manifest = json.loads((folder / kind / "manifest.json").read_text())
         validate("manifest", manifest, kind)
 
+    for task in [*(f"T{n}" for n in range(1, 11)), "P1"]:
+        played = json.loads(run("hapnet-lab", "play", "--task", task, "--delay", "20ms",
+                                "--duration", "6s", "--json"))
+        validate("play", played, f"play {task}")
+    played = json.loads(run("hapnet-lab", "play", "--task", "T2", "--algorithm", "base",
+                            "--algorithm", "sep", "--json"))
+    validate("play", played, "play of two algorithms")
+    compared = json.loads(run("hapnet-lab", "compare", folder / "table1", folder / "table1",
+                              "--json"))
+    validate("comparison", compared, "compare")
+
+    for name, document in (("probe", probed), ("verification", verified),
+                           ("prediction", predicted), ("play", played),
+                           ("comparison", compared)):
+        broken(name, document)
     broken("emulator", clients)
     broken("peer", json.loads((plain / "1.json").read_text()))
     broken("analysis", analysis)
@@ -187,4 +217,4 @@ for bad in ({"both": {"delay": 40}}, {"both": {"delay": "40"}}, {"both": {"dealy
 print(f"{validated} documents validated")
 for fault in faults:
     print("FAULT", fault)
-sys.exit(1 if faults or validated < 40 else 0)
+sys.exit(1 if faults or validated < 60 else 0)
