@@ -17,7 +17,7 @@ packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev lib
     libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping libbenchmark-dev
     libbullet-dev libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
-    passt python3-dissononce python3-jsonschema python3-numpy python3-pandas python3-pytest
+    parallel passt python3-dissononce python3-jsonschema python3-numpy python3-pandas python3-pytest
     python3-transitions shellcheck slirp4netns tshark umockdev valgrind)
 
 # Other people's programs, which run through the emulator.

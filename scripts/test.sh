@@ -9,9 +9,9 @@ usage="usage: scripts/test.sh [--all | KIND]
 Installs what is missing, builds the release preset with GCC and runs every test of it: unit,
 property, simulation, conformance, bits, cost, benches' self tests, the house's own rules, programs
 end to end; and checks the format of the sources and the scripts.
---all also runs some of the kind programs, runs the tests and replays the fuzz corpora with Clang
-under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs themselves and emulated
-devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
+--all also tries each KIND below for some seconds, runs the tests and replays the fuzz corpora with
+Clang under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs themselves and
+emulated devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
 KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
 curl, dig, iperf, iperf3, mosh, ping, QUIC), ship (packages, made, installed in a bare root and
 removed, and images of them; as root), web (the live page in Chromium; left out, with the reason,
@@ -44,7 +44,7 @@ programs) scripts/setup.sh --test --programs ;;
 web) scripts/setup.sh --web ;;
 ship) scripts/setup.sh --package --ship ;;
 fleet) scripts/setup.sh --test --fleet ;;
-*) scripts/setup.sh --test ;;
+*) scripts/setup.sh --test ${all:+--package --web} ;;
 esac
 logs=build/test-logs
 rm -rf "$logs"
@@ -174,21 +174,35 @@ build_web() {
         --target hapnet-web hapnet-peer hapnet-emulator hapnet-lab
 }
 
-# The modules of the page and of its tests, as the lock file has them.
+# test_web [OPTION... FILE]: all tests in a browser, or those of a file that node's options choose.
+# The modules of the page and of its tests are as the lock file has them.
 test_web() {
     local program
     for program in node npm chromium; do
         command -v "$program" >/dev/null || { echo "left out: $program is missing" && return; }
     done
+    (($# > 0)) || set -- tests/web/*.test.mjs
     (cd web/page && npm ci --ignore-scripts --no-audit --no-fund) || return
     mkdir -p "$logs/web"
     HAPNET_WEB_PICTURES=$PWD/$logs/web node --test --test-concurrency=1 --test-reporter=spec \
-        tests/web/*.test.mjs
+        "$@"
 }
 
 build_fleet() {
     cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
         --target hapnet-lab made_sessions
+}
+
+# Each kind, as far as it can be tried in seconds with what is built.
+test_kinds() {
+    step "programs smoke" test_programs smoke || true
+    step "web smoke" test_web --test-name-pattern="^loads in space" \
+        tests/web/page.test.mjs || true
+    step "ship smoke" try_package || true
+    step "fleet smoke" tests/fleet/fleet_test.sh . build/release/bin build/fleet-smoke 1 local
+}
+try_package() {
+    tests/ship/smoke_test.sh . build/release build/ship-smoke || (($? == 77))
 }
 
 # tally LOG...: how many tests passed, failed and were left out in all of them, as "4 passed, 1 failed".
@@ -242,7 +256,7 @@ else
     step "scripts" check_scripts || true
     step "pages" check_pages || true
     test_release || true
-    [[ -z $all ]] || step "programs smoke" test_programs smoke || true
+    [[ -z $all ]] || test_kinds || true
     [[ -z $all ]] || test_asan || true
     runs=(release-e2e release-tests release-conformance ${all:+programs-smoke} ${all:+asan-tests})
 fi

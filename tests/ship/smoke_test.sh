@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# The package hapnet-emulator, made of what is built already, looked at and unpacked: in seconds
+# what ship_test.sh does with all packages in a bare root.
+#   smoke_test.sh REPOSITORY BUILD_DIR WORK_DIR
+set -euo pipefail
+repository=$(realpath "$1")
+build=$(realpath "$2")
+rm -rf "$3"
+mkdir -p "$3"
+work=$(realpath "$3")
+
+fail() {
+    echo "smoke_test: $1" >&2
+    exit 1
+}
+for program in dpkg-shlibdeps lintian scdoc; do
+    command -v "$program" >/dev/null || { echo "skipped: $program is missing" && exit 77; }
+done
+
+cleanup() { cmake -S "$repository" -B "$build" -DHAPNET_PACKAGES=OFF >"$work/after.log"; }
+trap cleanup EXIT
+cmake -S "$repository" -B "$build" -DHAPNET_PACKAGES=ON >"$work/configure.log"
+cmake --build "$build" --target hapnet-emulator hapnet-ctl pages-hapnet-emulator \
+    pages-hapnet-ctl changes-hapnet-emulator >"$work/build.log"
+cpack --config "$build/CPackConfig.cmake" -D CPACK_COMPONENTS_ALL=hapnet-emulator \
+    -B "$work/packages" >"$work/cpack.log" || fail "cpack: $(tail -5 "$work/cpack.log")"
+lintian --allow-root --fail-on error "$work"/packages/hapnet-emulator_*.deb
+
+dpkg-deb -x "$work"/packages/hapnet-emulator_*.deb "$work/root"
+"$work/root/usr/bin/hapnet-emulator" --version
+"$work/root/usr/bin/hapnet-emulator" predict lte --packets 2000 >"$work/predict.log"
+for page in hapnet-emulator hapnet-ctl; do
+    gzip -t "$work/root/usr/share/man/man1/$page.1.gz"
+    bash -n "$work/root/usr/share/bash-completion/completions/$page"
+done
+[[ -s $work/root/lib/systemd/system/hapnet-emulator.service ]] ||
+    [[ -s $work/root/usr/lib/systemd/system/hapnet-emulator.service ]] || fail "no unit of systemd"
+needs=$(dpkg-deb -f "$work"/packages/hapnet-emulator_*.deb Depends)
+[[ $needs != *libusb* && $needs != *libhidapi* ]] || fail "it needs libraries of devices: $needs"
+echo "smoke_test: $(basename "$work"/packages/hapnet-emulator_*.deb) needs $needs"
