@@ -13,7 +13,7 @@ inline constexpr bool is_sanitized = false;
 #endif
 
 /// So many seeds of a test that plays each in the same way: under sanitizers, where each takes
-/// many times as long, an eighth of them.
-constexpr std::uint64_t seeds(std::uint64_t all) { return is_sanitized ? all / 8 + 1 : all; }
+/// many times as long, a sixteenth of them.
+constexpr std::uint64_t seeds(std::uint64_t all) { return is_sanitized ? all / 16 + 1 : all; }
 
 } // namespace hapnet::test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Conditions drawn from a seed, and what must hold in every millisecond under them.
 #include "tests/sim/peer/core/score.hpp"
+#include "tests/support/seeds.hpp"
 
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
@@ -127,7 +128,7 @@ TEST_P(Conditions, OfEveryKindLeaveForcesFiniteLinksAccountedForAndCopiesEqualIn
     EXPECT_TRUE(world.side(1).peer().finished());
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, Conditions, testing::Range(std::uint64_t{0}, std::uint64_t{60}));
+INSTANTIATE_TEST_SUITE_P(Seed, Conditions, testing::Range(std::uint64_t{0}, test::seeds(60)));
 
 class Deaths : public testing::TestWithParam<std::uint64_t> {};
 
@@ -164,7 +165,8 @@ TEST_P(Deaths, OfEitherSideAtAnyTimeEndInOneSessionWithEqualCopies)
     EXPECT_GT(world.side(0).last().freshness + world.side(1).last().freshness, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, Deaths, testing::Range(std::uint64_t{100}, std::uint64_t{140}));
+INSTANTIATE_TEST_SUITE_P(Seed, Deaths,
+                         testing::Range(std::uint64_t{100}, std::uint64_t{100} + test::seeds(40)));
 
 TEST(Conditions, WhereOneOf100MessagesArrivesStillEndWithEqualCopies)
 {
