@@ -327,6 +327,7 @@ base::Result<std::string> parse_path_name(const std::string& text)
 void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools::Stream& stream)
 {
     constexpr std::uint64_t bytes_max = 65'507; // of UDP over IPv4
+    conditions_from.profile_option = "";
     command.positional("PROFILE", "A profile: a file, or the name of a preset",
                        cli::into(conditions_from.profile));
     command.option("--profile", "FILE|NAME", "", cli::into(conditions_from.profile)).hidden();
