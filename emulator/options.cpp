@@ -505,7 +505,7 @@ public:
     explicit FrameCommands(cli::Command& program)
         : between_command_{add_between(program)},
           exec_command_{add_exec(program, exec_.through)},
-          bridge_command_{add_bridge(program, bridge_.a, bridge_.b)}
+          bridge_command_{add_bridge(program, bridge_.a, bridge_.b, bridge_.frames)}
     {
         add_frames(between_command_, between_);
         add_frames(exec_command_, exec_);
