@@ -372,6 +372,9 @@ cli::Command& add_predict(cli::Command& program, PredictOptions& options, bool& 
         "Number of datagrams, each way (default: 400000, and on up to 6400000 until mean and "
         "deviation of the delay are known to 1 %)",
         cli::into(options.stream.packets, base::Count{1, packets_max}));
+    command.flag("--sealed",
+                 "The stream of peers with keys: 16 bytes longer, and a damaged datagram is lost",
+                 options.stream.is_sealed);
     command.flag("--json", "Print one JSON object instead of text", options.as_json);
     command.flag("--list", "Print the names of the presets and exit", is_list);
     return command;
