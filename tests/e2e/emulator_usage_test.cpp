@@ -110,6 +110,13 @@ TEST(EmulatorUsage, AnErrorOfAFileNamesTheOptionThatAskedForIt)
                    {"--csv: cannot write /no/such"});
 }
 
+TEST(EmulatorUsage, SaysWhatSpinRisks)
+{
+    const std::string risk = "the kernel stops the emulator for about 50 ms in each second";
+    EXPECT_NE(run_with({"--timing", "spin"}).err.find(risk), std::string::npos);
+    EXPECT_EQ(run_with({"--timing", "precise"}).err.find(risk), std::string::npos);
+}
+
 TEST(EmulatorUsage, RefusesWhatTheRampsOfTheProfileCannotBeginAt)
 {
     const TemporaryFolder folder;

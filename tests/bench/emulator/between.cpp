@@ -44,7 +44,7 @@ std::vector<Row> measure_between(const Plan& plan)
     fmt::print(stderr, "between: {} round trips\n", count);
     auto rows = rows_of_round_trips(
         output_of({plan.emulator, "between", "--delay", "40ms", "--", plan.emulator, "probe",
-                   "b:7002", "--count", count, "--rate", "100", "--json", "---", plan.emulator,
+                   "b:7002", "--count", count, "--rate", "200", "--json", "---", plan.emulator,
                    "probe", "--answer", "0.0.0.0:7002"}));
     if (rows.empty()) {
         fmt::print(stderr, "between: not measured: it does not run here; 'hapnet-emulator between "
