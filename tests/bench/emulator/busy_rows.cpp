@@ -5,6 +5,7 @@
 #include "tests/bench/emulator/lateness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <utility>
@@ -23,16 +24,15 @@ struct Metric {
 constexpr double default_p99_us_max = 1000.0; // at 20 kpps
 constexpr double default_judged_at = 20'000.0;
 
-constexpr Metric metrics[]{
-    // NOLINT(*-avoid-c-arrays): of a deduced size
-    {"p50_us", [](const BesideBusy& one) { return quantile_us(one.errors, 0.5); }, false},
-    {"p99_us", [](const BesideBusy& one) { return quantile_us(one.errors, 0.99); }, true},
-    {"stalls_over_5ms", [](const BesideBusy& one) { return static_cast<double>(one.stalls); },
-     true},
-    {"longest_stall_ms",
-     [](const BesideBusy& one) { return microseconds(one.longest_stall) / 1000.0; }, false},
-    {"cpu_percent", [](const BesideBusy& one) { return 100.0 * one.share(); }, false},
-    {"lost", [](const BesideBusy& one) { return static_cast<double>(one.lost); }, false},
+constexpr std::array metrics{
+    Metric{"p50_us", [](const BesideBusy& one) { return quantile_us(one.errors, 0.5); }, false},
+    Metric{"p99_us", [](const BesideBusy& one) { return quantile_us(one.errors, 0.99); }, true},
+    Metric{"stalls_over_5ms", [](const BesideBusy& one) { return static_cast<double>(one.stalls); },
+           true},
+    Metric{"longest_stall_ms",
+           [](const BesideBusy& one) { return microseconds(one.longest_stall) / 1000.0; }, false},
+    Metric{"cpu_percent", [](const BesideBusy& one) { return 100.0 * one.share(); }, false},
+    Metric{"lost", [](const BesideBusy& one) { return static_cast<double>(one.lost); }, false},
 };
 
 } // namespace
