@@ -5,7 +5,7 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/path_name.hpp"
 #include "emulator/paths_options.hpp"
-#include "emulator/presets.hpp"
+#include "emulator/profile_file.hpp"
 #include "emulator/spacing.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
@@ -378,14 +378,6 @@ cli::Command& add_predict(cli::Command& program, PredictOptions& options, bool& 
     command.flag("--json", "Print one JSON object instead of text", options.as_json);
     command.flag("--list", "Print the names of the presets and exit", is_list);
     return command;
-}
-
-/// The names of the presets, each followed by `separator`.
-std::string preset_list(char separator)
-{
-    std::string list;
-    for (const Preset& preset : presets()) list += std::string{preset.name} + separator;
-    return list;
 }
 
 base::Result<void> require_conditions(const ConditionOptions& options, const cli::Command& command)

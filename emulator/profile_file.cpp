@@ -50,6 +50,13 @@ base::Result<std::string> text_beside(const std::string& name, const std::string
     return net::text_of_file(path);
 }
 
+std::string preset_list(char separator)
+{
+    std::string list;
+    for (const Preset& preset : presets()) list += std::string{preset.name} + separator;
+    return list;
+}
+
 base::Result<std::string> preset_text(const std::string& name)
 {
     const auto no_file = [](const std::string& path) -> base::Result<std::string> {

@@ -27,6 +27,9 @@ namespace hapnet::emulator {
                                                  const PathNames& names = {.any = true},
                                                  std::string_view option = "");
 
+/// The names of the presets, each followed by `separator`.
+[[nodiscard]] std::string preset_list(char separator);
+
 /// The text of a preset; the error names those that there are.
 [[nodiscard]] base::Result<std::string> preset_text(const std::string& name);
 
