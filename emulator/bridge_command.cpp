@@ -49,7 +49,8 @@ base::Result<int> relay_frames(const BridgeOptions& options, const Scenario& sce
                                      .interface_b = options.b,
                                      .all_frames = options.frames.all_frames,
                                      .fix_checksums = options.frames.fix_checksums,
-                                     .stops_at_loop = true}}};
+                                     .stops_at_loop = true,
+                                     .answers_too_big = options.frames.answers_too_big}}};
     const PlainReception plain_a{options.a};
     const PlainReception plain_b{options.b};
     if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};

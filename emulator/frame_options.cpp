@@ -154,7 +154,8 @@ cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& throu
     return command;
 }
 
-cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b)
+cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b,
+                         FrameOptions& options)
 {
     cli::Command& command =
         program.command("bridge", "Joins two network interfaces, any protocol; needs root");
@@ -165,6 +166,11 @@ cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b)
         .required("eth1");
     command.positional("IF_B", "The interface on B's side", cli::into(b, parse_interface))
         .required("eth2");
+    command.flag(
+        "--icmp",
+        "Tell the sender of a packet that --mtu drops, as a router would: ICMP "
+        "\"fragmentation needed\", ICMPv6 \"packet too big\" (default: drop it in silence)",
+        options.answers_too_big);
     return command;
 }
 

@@ -18,6 +18,7 @@ namespace hapnet::emulator {
 struct FrameOptions {
     bool all_frames = false;
     bool fix_checksums = false;
+    bool answers_too_big = false; // of a bridge
 };
 
 /// The words behind the first `--`: two commands with `---` in between.
@@ -40,7 +41,8 @@ enum class WorldProgram : std::uint8_t { pasta, slirp4netns };
 /// `between`; `exec` with the program that it goes through; `bridge` with its two interfaces.
 cli::Command& add_between(cli::Command& program);
 cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& through);
-cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b);
+cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b,
+                         FrameOptions& options);
 
 /// What is wrong with the commands that were typed.
 [[nodiscard]] base::Result<void> require_two_commands(const TypedCommands& commands);

@@ -35,7 +35,8 @@ FrameJson json_of(const ports::Frames::Side& side)
             {"undisturbed", side.undisturbed},
             {"not_ip", side.not_ip},
             {"oversized", side.oversized},
-            {"lost_undisturbed", side.lost_undisturbed}};
+            {"lost_undisturbed", side.lost_undisturbed},
+            {"told_too_big", side.told_too_big}};
 }
 
 std::string frames_in_words(const char* name, const ports::Frames::Side& side)

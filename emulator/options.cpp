@@ -5,7 +5,7 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/path_name.hpp"
 #include "emulator/paths_options.hpp"
-#include "emulator/presets.hpp"
+#include "emulator/profile_file.hpp"
 #include "emulator/spacing.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
@@ -327,6 +327,7 @@ base::Result<std::string> parse_path_name(const std::string& text)
 void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools::Stream& stream)
 {
     constexpr std::uint64_t bytes_max = 65'507; // of UDP over IPv4
+    conditions_from.profile_option = "";
     command.positional("PROFILE", "A profile: a file, or the name of a preset",
                        cli::into(conditions_from.profile));
     command.option("--profile", "FILE|NAME", "", cli::into(conditions_from.profile)).hidden();
@@ -371,17 +372,12 @@ cli::Command& add_predict(cli::Command& program, PredictOptions& options, bool& 
         "Number of datagrams, each way (default: 400000, and on up to 6400000 until mean and "
         "deviation of the delay are known to 1 %)",
         cli::into(options.stream.packets, base::Count{1, packets_max}));
+    command.flag("--sealed",
+                 "The stream of peers with keys: 16 bytes longer, and a damaged datagram is lost",
+                 options.stream.is_sealed);
     command.flag("--json", "Print one JSON object instead of text", options.as_json);
     command.flag("--list", "Print the names of the presets and exit", is_list);
     return command;
-}
-
-/// The names of the presets, each followed by `separator`.
-std::string preset_list(char separator)
-{
-    std::string list;
-    for (const Preset& preset : presets()) list += std::string{preset.name} + separator;
-    return list;
 }
 
 base::Result<void> require_conditions(const ConditionOptions& options, const cli::Command& command)
@@ -504,7 +500,7 @@ public:
     explicit FrameCommands(cli::Command& program)
         : between_command_{add_between(program)},
           exec_command_{add_exec(program, exec_.through)},
-          bridge_command_{add_bridge(program, bridge_.a, bridge_.b)}
+          bridge_command_{add_bridge(program, bridge_.a, bridge_.b, bridge_.frames)}
     {
         add_frames(between_command_, between_);
         add_frames(exec_command_, exec_);

@@ -41,10 +41,11 @@ struct TypedSetting {
 
 /// Where conditions come from. Names are not looked up and files not opened yet.
 struct ConditionOptions {
-    std::optional<std::string> profile; // a file, or the name of a preset
-    std::optional<std::string> netem;   // a sentence as tc-netem takes it
-    std::vector<TypedSetting> settings; // they win over the profile
-    std::optional<base::Seed> seed;     // wins over the profile's
+    std::optional<std::string> profile;            // a file, or the name of a preset
+    std::string_view profile_option = "--profile"; // "": it was typed without one
+    std::optional<std::string> netem;              // a sentence as tc-netem takes it
+    std::vector<TypedSetting> settings;            // they win over the profile
+    std::optional<base::Seed> seed;                // wins over the profile's
 };
 
 /// A run: `hapnet-emulator --listen-a ... --listen-b ...`

@@ -8,6 +8,7 @@
 #include "emulator/tools/predict.hpp"
 #include "proto/base/version.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -20,6 +21,10 @@ namespace hapnet::emulator {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// By which a sealed message is longer than the plain one.
+constexpr std::size_t seal_bytes = 16;
+constexpr std::size_t payload_bytes_max = 65'507; // of UDP over IPv4
 
 double in_ms(base::Duration duration)
 {
@@ -128,8 +133,9 @@ std::string in_words(std::string_view title, const Predicted& predicted)
         text += fmt::format("  theory     {}\n", stage);
     }
     const auto& s = of.statistics;
-    text += fmt::format("  datagrams  {} in, {} out, {} copies, {} damaged\n", s.received,
-                        s.delivered, s.duplicated, s.corrupted);
+    text += fmt::format("  datagrams  {} in, {} out, {} copies, {} damaged{}\n", s.received,
+                        s.delivered, s.duplicated, s.corrupted,
+                        stream.is_sealed ? ", which are refused and count as lost" : "");
     text += fmt::format("  loss       {:.4g} %", 100.0 * of.loss_share());
     if (of.loss_runs > 0) {
         text += fmt::format(", runs of {:.4g} on average, {} at most", *of.loss_run_mean(),
@@ -171,6 +177,7 @@ base::Result<int> run(const PredictOptions& options)
     if (!profile) return tl::unexpected{profile.error()};
     for (const std::string& warning : netem_warnings) net::say("hapnet-emulator", warning);
     tools::Stream stream = options.stream;
+    if (stream.is_sealed) stream.bytes = std::min(stream.bytes + seal_bytes, payload_bytes_max);
     const auto seed = seed_of(options.conditions, *profile);
     const auto [up, down] =
         options.packets_max ? predict_until_settled(*profile, stream, seed, *options.packets_max)
@@ -188,6 +195,7 @@ base::Result<int> run(const PredictOptions& options)
                         {"rate_hz", 1.0 / base::to_seconds(stream.spacing)},
                         {"packets", stream.packets},
                         {"bytes", stream.bytes},
+                        {"sealed", stream.is_sealed},
                         {"up", json_of(of_up)},
                         {"down", json_of(of_down)}};
         fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));

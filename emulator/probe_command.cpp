@@ -125,7 +125,7 @@ public:
           bytes_(options.bytes)
     {
         net::require_route(target_);
-        if (options.csv) csv_.emplace(*options.csv);
+        if (options.csv) csv_.emplace(*options.csv, "--csv");
     }
 
     void ask_until_stopped(const net::StopSignal& stop)

@@ -25,6 +25,12 @@ std::string meant_name(const std::string& typed)
     return std::ranges::find(presets(), name, &Preset::name) == presets().end() ? typed : name;
 }
 
+/// What stands before an error that an option has caused.
+std::string before(std::string_view option)
+{
+    return option.empty() ? "" : fmt::format("{}: ", option);
+}
+
 } // namespace
 
 std::string path_beside(const std::string& name, const std::string& beside)
@@ -44,6 +50,13 @@ base::Result<std::string> text_beside(const std::string& name, const std::string
     return net::text_of_file(path);
 }
 
+std::string preset_list(char separator)
+{
+    std::string list;
+    for (const Preset& preset : presets()) list += std::string{preset.name} + separator;
+    return list;
+}
+
 base::Result<std::string> preset_text(const std::string& name)
 {
     const auto no_file = [](const std::string& path) -> base::Result<std::string> {
@@ -53,11 +66,14 @@ base::Result<std::string> preset_text(const std::string& name)
         .map([](const auto& found) { return std::string{found.text}; });
 }
 
-base::Result<Profile> load_profile(const std::string& file_or_name, const PathNames& names)
+base::Result<Profile> load_profile(const std::string& file_or_name, const PathNames& names,
+                                   std::string_view option)
 {
     const auto found =
         base::find_text(meant_name(file_or_name), presets(), "a preset", net::text_of_file);
-    if (!found) return tl::unexpected{found.error()};
+    if (!found) {
+        return base::fail(fmt::format("{}{}", before(option), found.error().message));
+    }
     const auto open = [&](const std::string& name) {
         return net::text_of_file(path_beside(name, found->source));
     };

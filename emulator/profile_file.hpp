@@ -7,6 +7,7 @@
 #include "proto/base/result.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace hapnet::emulator {
 
@@ -20,9 +21,14 @@ namespace hapnet::emulator {
                                                     const std::string& beside);
 
 /// Reads the preset of that name, or else a file. The error names the file and the line. It may
-/// speak of the paths that `names` has.
+/// speak of the paths that `names` has. Where there is none to read, the error names the option,
+/// if one was typed.
 [[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name,
-                                                 const PathNames& names = {.any = true});
+                                                 const PathNames& names = {.any = true},
+                                                 std::string_view option = "");
+
+/// The names of the presets, each followed by `separator`.
+[[nodiscard]] std::string preset_list(char separator);
 
 /// The text of a preset; the error names those that there are.
 [[nodiscard]] base::Result<std::string> preset_text(const std::string& name);

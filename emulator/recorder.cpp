@@ -82,7 +82,7 @@ UdpAddress udp_address_of(const net::Endpoint& endpoint)
 }
 
 Recorder::Fates::Fates(const std::string& path, bool of_several)
-    : file{path}, has_several_paths{of_several}, aside{open_nameless(path)}
+    : file{path, "--fates"}, has_several_paths{of_several}, aside{open_nameless(path)}
 {
     ways[0].rows.reserve(2 * buffer_bytes);
     ways[0].rows = has_several_paths ? fmt::format("{},{}\n", path_column, fates_header)
@@ -169,7 +169,7 @@ Recorder::Capture::Capture(const Files& files)
       since_1970{base::from_seconds(net::wall_clock_seconds()) -
                  net::monotonic_now().time_since_epoch()}
 {
-    if (files.capture) file.emplace(*files.capture);
+    if (files.capture) file.emplace(*files.capture, "--pcap");
     if (span) held.emplace(*span, held_bytes_max);
     append_capture_head(section, base::version_line("hapnet-emulator"), files.pairs);
     bytes.reserve(2 * buffer_bytes);

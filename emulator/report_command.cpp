@@ -27,7 +27,10 @@ base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options
         return {};
     }
     auto fates = fates_of_path(options.fates ? *options.fates : *named, options.link);
-    if (!fates) return tl::unexpected{fates.error()};
+    if (!fates) {
+        return base::fail(
+            fmt::format("{}{}", options.fates ? "--fates: " : "", fates.error().message));
+    }
     run.fates = *std::move(fates);
     auto fine = ensure_whole(*run.fates, run.statistics);
     if (!fine) return fine;
@@ -67,7 +70,7 @@ base::Result<int> run(const ReportOptions& options)
         fmt::print("{}", page);
         return 0;
     }
-    net::ResultFile{options.out}.commit(page);
+    net::ResultFile{options.out, "--out"}.commit(page);
     net::say("hapnet-emulator", fmt::format("wrote {}", options.out));
     return 0;
 }

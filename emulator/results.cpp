@@ -15,7 +15,9 @@ namespace hapnet::emulator {
 
 Results::Results(const Options& options)
 {
-    if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
+    if (options.stats && *options.stats != "-") {
+        stats_.emplace(*options.stats, "--stats");
+    }
 }
 
 bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)

@@ -29,7 +29,7 @@ base::Result<Profile> profile_named(const ConditionOptions& options,
     if (options.profile && options.netem) {
         return base::fail("a profile and --netem exclude each other: give one of them");
     }
-    if (options.profile) return load_profile(*options.profile, names);
+    if (options.profile) return load_profile(*options.profile, names, options.profile_option);
     if (!options.netem) return Profile{};
     auto netem = netem_profile(*options.netem);
     if (!netem) return base::fail(fmt::format("--netem: {}", netem.error().message));
@@ -227,9 +227,12 @@ base::Result<Scenario> scenario_of(const Options& options, const PathNames& name
     scenario.checks.insert(scenario.checks.end(), options.required.begin(), options.required.end());
     if (options.replay) {
         auto fates = read_fates(*options.replay);
-        if (!fates) return tl::unexpected{fates.error()};
+        if (!fates) return base::fail(fmt::format("--replay: {}", fates.error().message));
         const auto fits = replayable(*fates, names);
-        if (!fits) return base::fail(fmt::format("{}: {}", *options.replay, fits.error().message));
+        if (!fits) {
+            return base::fail(
+                fmt::format("--replay: {}: {}", *options.replay, fits.error().message));
+        }
         scenario.replay = std::make_shared<const FatesOfPaths>(*std::move(fates));
         scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corrupt, duplicate, "
                                        "delay, jitter and reorder are those of the file; rate and "

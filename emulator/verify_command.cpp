@@ -51,6 +51,11 @@ struct Evidence {
     Profile profile;
 };
 
+base::Result<Profile> profile_asked_for(const VerifyOptions& request)
+{
+    return load_profile(*request.profile, {.any = true}, "--profile");
+}
+
 base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<Profile> profile,
                                    const std::optional<std::string>& link)
 {
@@ -66,8 +71,7 @@ base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, cons
     const std::string& path = request.run;
     const auto statistics = statistics_in(text, path);
     if (!statistics) return tl::unexpected{statistics.error()};
-    auto profile =
-        request.profile ? load_profile(*request.profile) : profile_of_run(*statistics, path);
+    auto profile = request.profile ? profile_asked_for(request) : profile_of_run(*statistics, path);
     if (!profile) return tl::unexpected{profile.error()};
     if (const auto fine = ensure_testable(*statistics, *profile, path); !fine) {
         return tl::unexpected{fine.error()};
@@ -91,13 +95,14 @@ base::Result<Evidence> evidence_of(const VerifyOptions& request)
             return (std::filesystem::path{request.run} / name).string();
         };
         return evidence_in(inside("fates.csv"),
-                           load_profile(request.profile.value_or(inside("profile.toml"))),
+                           request.profile ? profile_asked_for(request)
+                                           : load_profile(inside("profile.toml")),
                            request.link);
     }
     // Fates may be larger than what text_of_file() takes.
     const bool is_json = std::ifstream{request.run}.peek() == '{';
     if (!is_json && request.profile) {
-        return evidence_in(request.run, load_profile(*request.profile), request.link);
+        return evidence_in(request.run, profile_asked_for(request), request.link);
     }
     const auto text = net::text_of_file(request.run);
     if (!text) return tl::unexpected{text.error()};

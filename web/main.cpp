@@ -212,7 +212,7 @@ base::Result<int> run(const Options& options)
     server.accept_from(std::move(acceptor));
     listen_besides(io, options, port, server);
     const std::string url = fmt::format("http://127.0.0.1:{}/#t={}", port, *token);
-    if (!options.url_file.empty()) net::ResultFile{options.url_file, 0600}.commit(url + "\n");
+    if (!options.url_file.empty()) net::ResultFile{options.url_file, "", 0600}.commit(url + "\n");
     fmt::print("open {}\n", url);
     net::require_stdout();
     Heart heart{io, hub, stop};

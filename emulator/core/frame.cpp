@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/frame.hpp"
 
+#include "emulator/core/network_bytes.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -29,22 +30,6 @@ enum IpProtocol : std::uint8_t {
 constexpr std::size_t ether_type_at = 12;
 constexpr std::size_t ipv6_header_bytes = 40;
 constexpr std::size_t ipv4_header_bytes_min = 20;
-
-std::uint8_t at8(std::span<const std::byte> bytes, std::size_t at)
-{
-    return std::to_integer<std::uint8_t>(bytes[at]);
-}
-
-std::uint16_t at16(std::span<const std::byte> bytes, std::size_t at)
-{
-    return static_cast<std::uint16_t>(at8(bytes, at) << 8 | at8(bytes, at + 1));
-}
-
-void put16(std::span<std::byte> bytes, std::size_t at, std::uint16_t value)
-{
-    bytes[at] = static_cast<std::byte>(value >> 8);
-    bytes[at + 1] = static_cast<std::byte>(value & 0xff);
-}
 
 /// Router and neighbour solicitations and advertisements, and redirects (RFC 4861). They are the
 /// first header behind that of IPv6.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/ports/frames.hpp"
 
+#include "emulator/core/too_big.hpp"
 #include "emulator/ports/batch.hpp"
 #include "proto/base/ensure.hpp"
 #include "proto/net/clock.hpp"
@@ -159,6 +160,9 @@ void Frames::pass(Side& from, Side& to)
             {.envelope_bytes = envelope_of(frame, received.bytes.size()), .marks = frame.marks});
         recorder_.on_fate(recorded_as_, from.direction, admission.number, admission.fate);
         if (admission.departure) undelayed.add(*admission.departure);
+        if (setup_.answers_too_big && admission.drop == DropCause::mtu) {
+            answer_too_big(from, received.bytes);
+        }
     }
     undelayed.flush();
     if (from.oversized > 0 && !std::exchange(has_told_of_oversized_, true)) {
@@ -170,6 +174,16 @@ void Frames::pass(Side& from, Side& to)
                                                    from.interface)
                                      : cure);
     }
+}
+
+/// At once, as if the router were the emulator's interface.
+void Frames::answer_too_big(Side& from, std::span<const std::byte> frame)
+{
+    const auto mtu = path_.link(from.direction).conditions().mtu.bytes_max;
+    const auto answer = too_big_answer(frame, mtu);
+    if (answer.empty()) return;
+    const std::array<std::span<const std::byte>, 1> batch{answer};
+    if (from.socket.send_batch(batch).front() == net::SendOutcome::sent) ++from.told_too_big;
 }
 
 /// A machine that moves from one side to the other again and again stands behind both: frames would

@@ -26,9 +26,10 @@ public:
     struct Setup {
         std::string interface_a;
         std::string interface_b;
-        bool all_frames = false;    // the conditions hold for every frame
-        bool fix_checksums = false; // of what leaves: damage is then not found by them
-        bool stops_at_loop = false; // when one machine is heard on both sides
+        bool all_frames = false;      // the conditions hold for every frame
+        bool fix_checksums = false;   // of what leaves: damage is then not found by them
+        bool stops_at_loop = false;   // when one machine is heard on both sides
+        bool answers_too_big = false; // tells the sender of what `mtu` drops, as a router would
         /// Why a packet may be longer than the MTU, and what a person can do; "": the interface
         /// puts segments together.
         std::string cure_of_oversized{};
@@ -46,6 +47,7 @@ public:
         std::uint64_t not_ip = 0;
         std::uint64_t oversized = 0;        // longer than the MTU: put together by an interface
         std::uint64_t lost_undisturbed = 0; // of `undisturbed`: the system did not take them
+        std::uint64_t told_too_big = 0;     // of its packets: those whose sender got an answer
     };
 
     /// Adds the only path. Throws std::system_error when an interface cannot be used. The paths and
@@ -75,6 +77,7 @@ private:
     void pass(Side& from, Side& to);
     bool send_due(Direction direction, Side& to, base::TimePoint now);
     void watch_for_loop(const Side& from, const Frame& frame);
+    void answer_too_big(Side& from, std::span<const std::byte> frame);
 
     Setup setup_;
     Paths& paths_;

@@ -64,6 +64,7 @@ class Play {
 public:
     Play(const Profile& profile, const Stream& stream, base::Seed seed)
         : spacing_{stream.spacing},
+          is_sealed_{stream.is_sealed},
           path_{profile, {.seed = seed, .name = stream.path}},
           bytes_(stream.bytes)
     {
@@ -83,7 +84,9 @@ public:
             for (const Direction direction : {Direction::up, Direction::down}) {
                 const Admission admission = path_.on_packet(direction, bytes_, now_);
                 if (admission.departure) depart(direction, *admission.departure, now_);
-                of(direction).add_fate(admission.fate.drop.has_value());
+                const Fate& fate = admission.fate;
+                const bool is_refused = is_sealed_ && fate.flips.count > 0;
+                of(direction).add_fate(fate.drop.has_value() || is_refused);
             }
         }
     }
@@ -122,6 +125,7 @@ private:
     }
 
     base::Duration spacing_;
+    bool is_sealed_;
     EmulatedPath path_;
     std::vector<std::byte> bytes_;
     std::uint64_t sent_ = 0;

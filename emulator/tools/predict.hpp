@@ -23,6 +23,7 @@ struct Stream {
     std::uint64_t packets = 400'000;
     std::size_t bytes = 136; // of payload, at most 65507; of a state in the paper's scene
     std::string path{};      // that it takes, where there are several: its draws are named by it
+    bool is_sealed = false;  // its receiver refuses what is damaged, so that it counts as lost
 
     friend bool operator==(const Stream&, const Stream&) = default;
 };
@@ -31,7 +32,7 @@ struct Stream {
 struct DirectionPrediction {
     Statistics statistics; // nothing in flight any more
     StreamReport measured;
-    std::uint64_t lost = 0;           // dropped, whatever the cause
+    std::uint64_t lost = 0;           // dropped, or damaged where that is refused
     std::uint64_t loss_runs = 0;      // of losses in a row, by their numbers
     std::uint64_t loss_run_max = 0;   // in datagrams
     base::Duration added_by_queues{}; // mean delay beyond the drawn one: rate and order

@@ -85,7 +85,7 @@ void KeptDevice::save()
     if (path_.empty()) return;
     try {
         fs::create_directories(fs::path{path_}.parent_path());
-        net::ResultFile file{path_, 0600};
+        net::ResultFile file{path_, "", 0600};
         file.commit(to_text(state_));
     } catch (const std::system_error& error) {
         say(fmt::format("what is known of the device cannot be kept: {}", error.what()));

@@ -36,7 +36,7 @@ std::optional<Keeper::Order> Keeper::take()
 void Keeper::save(const std::string& path, std::string_view bytes)
 {
     try {
-        ResultFile{path, 0600}.commit(bytes);
+        ResultFile{path, "", 0600}.commit(bytes);
     } catch (const std::system_error& error) {
         const std::scoped_lock guard{lock_};
         trouble_ = error.what();

@@ -21,9 +21,11 @@ namespace hapnet::net {
 
 namespace {
 
-[[noreturn]] void refuse(int error, const std::string& path)
+[[noreturn]] void cannot_write(int error, const std::string& path, std::string_view option = "")
 {
-    throw std::system_error{error, std::generic_category(), fmt::format("cannot write {}", path)};
+    throw std::system_error{
+        error, std::generic_category(),
+        fmt::format("{}{}cannot write {}", option, option.empty() ? "" : ": ", path)};
 }
 
 /// Whether the process of a "PID" has ended, as far as can be seen from here.
@@ -59,24 +61,25 @@ void remove_leftovers(const std::string& path)
 
 } // namespace
 
-ResultFile::ResultFile(std::string path, unsigned mode) : path_{std::move(path)}
+ResultFile::ResultFile(std::string path, std::string_view option, unsigned mode)
+    : path_{std::move(path)}
 {
     struct stat found {};
     if (stat(path_.c_str(), &found) == 0) {
-        if (S_ISDIR(found.st_mode)) refuse(EISDIR, path_);
+        if (S_ISDIR(found.st_mode)) cannot_write(EISDIR, path_, option);
         if (!S_ISREG(found.st_mode)) {
             descriptor_ = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-            if (descriptor_ < 0) refuse(errno, path_);
+            if (descriptor_ < 0) cannot_write(errno, path_, option);
             return;
         }
         std::error_code error; // it exists: nothing to go wrong but a race
         path_ = std::filesystem::canonical(path_, error).string();
-        if (error) refuse(error.value(), path_);
+        if (error) cannot_write(error.value(), path_, option);
     }
     remove_leftovers(path_);
     temporary_ = fmt::format("{}.{}.partial", path_, getpid());
     descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
-    if (descriptor_ < 0) refuse(errno, path_);
+    if (descriptor_ < 0) cannot_write(errno, path_, option);
     flock(descriptor_, LOCK_EX | LOCK_NB); // says that somebody is at it, also across containers
 }
 
@@ -97,7 +100,7 @@ void ResultFile::append(std::string_view text)
             if (!temporary_.empty() && ftruncate(descriptor_, length_) == 0) {
                 lseek(descriptor_, length_, SEEK_SET);
             }
-            refuse(error, path_);
+            cannot_write(error, path_);
         }
         if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
     }
@@ -114,7 +117,7 @@ void ResultFile::commit(std::string_view text)
 {
     append(text);
     const bool moves = !temporary_.empty();
-    if (moves && std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno, path_);
+    if (moves && std::rename(temporary_.c_str(), path_.c_str()) != 0) cannot_write(errno, path_);
     close(std::exchange(descriptor_, -1));
 }
 

@@ -17,8 +17,9 @@ namespace hapnet::net {
 /// had written; the next one that writes FILE removes it.
 class ResultFile {
 public:
-    /// Throws std::system_error naming the file. `mode`: of a new file.
-    explicit ResultFile(std::string path, unsigned mode = 0644);
+    /// Throws std::system_error naming the file, and the option that asked for it, if one did.
+    /// `mode`: of a new file.
+    explicit ResultFile(std::string path, std::string_view option = "", unsigned mode = 0644);
     /// Removes what was not committed.
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;

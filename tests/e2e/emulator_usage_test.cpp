@@ -77,7 +77,44 @@ TEST(EmulatorUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_with({"--delay", "1ms", "--delay", "2ms"}), 2, {"--delay"});
     expect_refusal(run_with({"--delay"}), 2, {"--delay"});
     expect_refusal(run_with({"--replay", "/dev/zero"}), 2, {"line 1: expected 'direction"});
-    expect_refusal(run_with({"--replay", "/tmp"}), 2, {"cannot read /tmp: it is a folder"});
+    expect_refusal(run_with({"--replay", "/tmp"}), 2,
+                   {"--replay: cannot read /tmp: it is a folder"});
+}
+
+TEST(EmulatorUsage, AnErrorOfAFileNamesTheOptionThatAskedForIt)
+{
+    expect_refusal(run_with({"--profile", "/no/such.toml"}), 2,
+                   {"--profile: cannot read /no/such.toml: No such file"});
+    expect_refusal(run_with({"--profile", "nosuch"}), 2,
+                   {"--profile: there is neither a file nor a preset 'nosuch'"});
+    expect_refusal(run_with({"--replay", "/no/such.csv"}), 2,
+                   {"--replay: cannot read /no/such.csv: No such file"});
+    expect_refusal(run_with({"--replay", "/dev/null"}), 2, {"--replay: /dev/null: line 1"});
+    for (const char* option : {"--stats", "--fates", "--pcap"}) {
+        expect_refusal(run_with({option, "/no/such"}), 3,
+                       {std::string{option} + ": cannot write /no/such: No such file",
+                        "choose a path in a folder that exists"});
+    }
+    // What is typed without an option is not said to have one.
+    const auto checked = run("hapnet-emulator", {"check", "/no/such.toml"});
+    expect_refusal(checked, 2, {"hapnet-emulator: cannot read /no/such.toml: No such file"});
+
+    const TemporaryFolder folder;
+    std::ofstream{folder.file("fates.csv")}
+        << "direction,number,verdict,cause,states,delay_ns,copy_after_ns,flipped_bits,"
+           "displaced_places,displaced_ns\n";
+    expect_refusal(
+        run("hapnet-emulator", {"verify", folder.file("fates.csv"), "--profile", "/no/such.toml"}),
+        2, {"--profile: cannot read /no/such.toml: No such file"});
+    expect_refusal(run("hapnet-emulator", {"probe", "127.0.0.1:9", "--csv", "/no/such"}), 3,
+                   {"--csv: cannot write /no/such"});
+}
+
+TEST(EmulatorUsage, SaysWhatSpinRisks)
+{
+    const std::string risk = "the kernel stops the emulator for about 50 ms in each second";
+    EXPECT_NE(run_with({"--timing", "spin"}).err.find(risk), std::string::npos);
+    EXPECT_EQ(run_with({"--timing", "precise"}).err.find(risk), std::string::npos);
 }
 
 TEST(EmulatorUsage, RefusesWhatTheRampsOfTheProfileCannotBeginAt)

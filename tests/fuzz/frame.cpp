@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/core/frame.hpp"
+#include "emulator/core/too_big.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <vector>
 
 /// Any bytes are a frame of some kind. Fixed checksums are right: fixing them again changes
-/// nothing, and the frame stays what it was.
+/// nothing, and the frame stays what it was. An answer to one that is too big is never answered.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;
@@ -30,6 +31,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         twice = marked;
         emulator::fix_checksums(twice);
         base::ensure(twice == marked); // its checksum was brought up to date
+    }
+    for (const std::size_t mtu : {std::size_t{68}, std::size_t{1280}}) {
+        const auto answer = emulator::too_big_answer(bytes, mtu);
+        if (answer.empty()) continue;
+        base::ensure(answer.size() <= frame.header_bytes + mtu);
+        twice = answer;
+        emulator::fix_checksums(twice);
+        base::ensure(twice == answer);
+        twice.resize(twice.size() + mtu);
+        base::ensure(emulator::too_big_answer(twice, mtu).empty());
     }
     return 0;
 }

@@ -3,13 +3,13 @@
 #include "tests/bench/emulator/accuracy.hpp"
 
 #include "proto/net/clock.hpp"
+#include "tests/bench/emulator/lateness.hpp"
 #include "tests/bench/emulator/machine.hpp"
 #include "tests/bench/emulator/probe.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -47,24 +47,14 @@ struct Numbers {
     double lost = 0.0;
 };
 
-double microseconds(base::Duration duration) { return base::to_seconds(duration) * 1e6; }
-
-/// By nearest rank: one of the values.
-double quantile(const std::vector<base::Duration>& sorted, double share)
-{
-    if (sorted.empty()) return std::nan("");
-    const auto rank = std::ceil(share * static_cast<double>(sorted.size()));
-    return microseconds(sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1]);
-}
-
 Numbers numbers_of(const TimingTrial& trial, double cpu_share)
 {
-    return {.p50 = quantile(trial.errors, 0.5),
-            .p99 = quantile(trial.errors, 0.99),
-            .p99_beside = quantile(trial.errors_beside_arrival, 0.99),
-            .p999 = quantile(trial.errors, 0.999),
-            .max = quantile(trial.errors, 1.0),
-            .min = quantile(trial.errors, 0.0),
+    return {.p50 = quantile_us(trial.errors, 0.5),
+            .p99 = quantile_us(trial.errors, 0.99),
+            .p99_beside = quantile_us(trial.errors_beside_arrival, 0.99),
+            .p999 = quantile_us(trial.errors, 0.999),
+            .max = quantile_us(trial.errors, 1.0),
+            .min = quantile_us(trial.errors, 0.0),
             .cpu_percent = 100.0 * cpu_share,
             .reordered = static_cast<double>(trial.tally.reordered),
             .lost = static_cast<double>(trial.tally.sent - trial.tally.received)};

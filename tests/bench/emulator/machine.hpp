@@ -22,6 +22,28 @@ void pin_prober();
 /// Lets this thread have, or not have, SCHED_FIFO; nothing when the machine does not allow it.
 void set_real_time(bool on);
 
+/// What a command prints until it ends, on any processor; its stderr goes nowhere.
+[[nodiscard]] std::string output_of(const std::vector<std::string>& words);
+
+/// A process on each processor that never sleeps, with the priority of any program. They end when
+/// this goes out of scope, and when the bench is killed.
+class BusyProcesses {
+public:
+    /// Throws std::system_error.
+    BusyProcesses();
+    ~BusyProcesses();
+    BusyProcesses(const BusyProcesses&) = delete;
+    BusyProcesses& operator=(const BusyProcesses&) = delete;
+
+    [[nodiscard]] const std::vector<pid_t>& ids() const { return ids_; }
+
+private:
+    std::vector<pid_t> ids_;
+};
+
+/// The processor time that a process has used so far, to the nanosecond; 0 when there is none.
+[[nodiscard]] base::Duration time_used_by(pid_t process);
+
 /// A relay that runs as a child: it prints "ready a=HOST:PORT b=HOST:PORT", or what else it listens
 /// to, when its sockets are bound. Stopped when it goes out of scope.
 class RelayProcess {
@@ -38,7 +60,7 @@ public:
     [[nodiscard]] net::Endpoint a() const;
 
     /// The processor time that it has used so far, to the nanosecond.
-    [[nodiscard]] base::Duration used() const;
+    [[nodiscard]] base::Duration used() const { return time_used_by(pid_); }
 
 private:
     struct Started {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "proto/base/text.hpp"
+#include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/plot/plot.hpp"
@@ -8,6 +9,8 @@
 #include "tests/bench/common/rows.hpp"
 #include "tests/bench/emulator/accuracy.hpp"
 #include "tests/bench/emulator/baseline_relay.hpp"
+#include "tests/bench/emulator/between.hpp"
+#include "tests/bench/emulator/busy.hpp"
 #include "tests/bench/emulator/capacity.hpp"
 #include "tests/bench/emulator/machine.hpp"
 #include "tests/bench/emulator/scale.hpp"
@@ -26,12 +29,15 @@ namespace {
 constexpr std::string_view program = "bench_emulator";
 constexpr std::string_view usage =
     "usage: bench_emulator [--quick] [--json FILE] [--plot FILE.svg]\n"
+    "       bench_emulator --busy [--quick] [--json FILE]\n"
     "       bench_emulator --relay poll|timerfd --a HOST:PORT --b HOST:PORT --delay 10ms\n"
     "Compares hapnet-emulator (beside this program) with two baseline relays, and writes a table.\n"
+    "--busy: with the timerfd relay, while a process on each processor never sleeps.\n"
     "With --relay it is one of the baselines.\n";
 
 struct Options {
     Plan plan;
+    bool beside_busy = false;
     std::optional<std::string> json;
     std::optional<std::string> plot;
     std::optional<BaselineOptions> baseline;
@@ -70,6 +76,10 @@ net::CommandLine<Options> parse(std::span<char*> words)
             options.plan.quick = true;
             continue;
         }
+        if (word == "--busy") {
+            options.beside_busy = true;
+            continue;
+        }
         constexpr std::array known{"--json", "--plot", "--relay", "--a", "--b", "--delay"};
         if (std::find(known.begin(), known.end(), word) == known.end() || i + 1 == words.size()) {
             return base::fail(fmt::format("'{}' is not understood\n{}", word, usage));
@@ -83,6 +93,9 @@ net::CommandLine<Options> parse(std::span<char*> words)
     }
     if (given.contains("--json")) options.json = given["--json"];
     if (given.contains("--plot")) options.plot = given["--plot"];
+    if (options.beside_busy && (options.plot || options.baseline)) {
+        return base::fail(fmt::format("--busy goes with --quick and --json alone\n{}", usage));
+    }
     const auto self = std::filesystem::read_symlink("/proc/self/exe");
     options.plan.self = self.string();
     options.plan.emulator = (self.parent_path() / "hapnet-emulator").string();
@@ -113,27 +126,57 @@ std::string plot_of(const Accuracy& accuracy)
                           curves);
 }
 
+/// The rows of a bench, and a plot where one was asked for.
+struct Measured {
+    std::vector<Row> rows;
+    std::string plot;
+};
+
+Measured measure(const Options& options, bool fifo)
+{
+    if (options.beside_busy) return {measure_beside_busy(options.plan, fifo), ""};
+    Accuracy accuracy = measure_accuracy(options.plan, fifo);
+    Measured measured{std::move(accuracy.rows), plot_of(accuracy)};
+    append(measured.rows, measure_capacity(options.plan, fifo));
+    append(measured.rows, measure_scale(options.plan, fifo));
+    append(measured.rows, measure_between(options.plan));
+    return measured;
+}
+
+/// How long it all took, and may take.
+Row duration_row(const Options& options, base::Duration took)
+{
+    const double full_s_max = options.beside_busy ? 900.0 : 300.0;
+    return {.name = options.beside_busy ? "all beside busy processes" : "all of the bench",
+            .subject = "bench_emulator",
+            .baseline = "",
+            .metric = "duration_s",
+            .value = base::to_seconds(took),
+            .baseline_value = std::nullopt,
+            .target = options.plan.quick ? 60.0 : full_s_max};
+}
+
 base::Result<int> run(const Options& options)
 {
     if (options.baseline) run_baseline(*options.baseline);
     std::optional<net::ResultFile> json;
     std::optional<net::ResultFile> plot;
-    if (options.json) json.emplace(*options.json);
-    if (options.plot) plot.emplace(*options.plot);
+    if (options.json) json.emplace(*options.json, "--json");
+    if (options.plot) plot.emplace(*options.plot, "--plot");
     pin_prober();
     const Host machine = host();
     if (!machine.fifo) {
-        net::say(program,
-                 "SCHED_FIFO is not allowed here: only the ordinary user's part is measured");
+        net::say(program, options.beside_busy
+                              ? "SCHED_FIFO is not allowed here: nothing is judged"
+                              : "SCHED_FIFO is not allowed here: only the ordinary user's part is "
+                                "measured");
     }
-    Accuracy accuracy = measure_accuracy(options.plan, machine.fifo);
-    auto rows = std::move(accuracy.rows);
-    const auto capacity = measure_capacity(options.plan, machine.fifo);
-    append(rows, capacity);
-    append(rows, measure_scale(options.plan, machine.fifo));
-    fmt::print("{}", rows_table(rows));
-    if (json) json->commit(rows_json(machine, rows));
-    if (plot) plot->commit(plot_of(accuracy));
+    const auto begin = net::monotonic_now();
+    Measured measured = measure(options, machine.fifo);
+    measured.rows.push_back(duration_row(options, net::monotonic_now() - begin));
+    fmt::print("{}", rows_table(measured.rows));
+    if (json) json->commit(rows_json(machine, measured.rows));
+    if (plot) plot->commit(measured.plot);
     return 0;
 }
 

@@ -14,6 +14,7 @@
 #include <linux/sock_diag.h>
 #include <sys/socket.h>
 #include <tuple>
+#include <utility>
 
 namespace hapnet::bench {
 
@@ -28,6 +29,9 @@ constexpr base::Duration quiet = 60ms;
 
 /// How late a datagram may be for a rate to be kept up.
 constexpr base::Duration grace = 10ms;
+
+/// A send call that takes longer was interrupted.
+constexpr base::Duration send_max = 1ms;
 
 /// A SCHED_FIFO thread must sleep at times, or the kernel's own threads do not run.
 constexpr base::Duration awake_max = 10ms;
@@ -67,6 +71,7 @@ void Prober::begin()
     sunk_ = drops(b_.descriptor());
     tally_ = {};
     sent_at_.clear();
+    stopped_.clear();
     errors_.clear();
     due_.clear();
 }
@@ -88,6 +93,7 @@ TimingTrial Prober::measure_timing(const Load& load)
         std::memcpy(payload.data(), &note, sizeof note);
         sent_at_.push_back(note.sent_at);
         if (a_.send(load.to, payload) == net::SendOutcome::sent) ++tally_.sent;
+        if (net::monotonic_now() - note.sent_at > send_max) stopped_.push_back(note.sent_at);
         receive(load);
     }
     receive_rest(load);
@@ -95,9 +101,21 @@ TimingTrial Prober::measure_timing(const Load& load)
     for (std::size_t i = 0; i < errors_.size(); ++i) {
         if (has_sent_shortly_before(due_[i])) beside.push_back(errors_[i]);
     }
+    auto departures = this->departures(load.delay);
     std::sort(beside.begin(), beside.end());
     std::sort(errors_.begin(), errors_.end());
-    return {errors_, beside, tally_};
+    return {errors_, beside, std::move(departures), tally_};
+}
+
+std::vector<Departure> Prober::departures(base::Duration delay) const
+{
+    std::vector<Departure> departures;
+    departures.reserve(errors_.size());
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+        if (std::binary_search(stopped_.begin(), stopped_.end(), due_[i] - delay)) continue;
+        departures.push_back({due_[i], errors_[i]});
+    }
+    return departures;
 }
 
 /// Another than the one that is due, which was sent a delay before.

@@ -5,6 +5,7 @@
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
+#include "tests/bench/emulator/lateness.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -35,6 +36,9 @@ struct TimingTrial {
     /// Of those for which the relay had another one to receive in the last `shortly` before they
     /// were due. Sorted.
     std::vector<base::Duration> errors_beside_arrival;
+    /// Of those whose send call came back at once. When the prober itself was stopped in it, their
+    /// lateness says nothing of the relay.
+    std::vector<Departure> departures;
     Tally tally;
     static constexpr base::Duration shortly = std::chrono::microseconds{200};
 };
@@ -80,6 +84,7 @@ private:
     };
 
     [[nodiscard]] bool has_sent_shortly_before(base::TimePoint due) const;
+    [[nodiscard]] std::vector<Departure> departures(base::Duration delay) const;
     void send_burst(const net::Endpoint& to);
     void receive(const Load& load);
     void make_sink();
@@ -99,6 +104,7 @@ private:
     std::uint32_t sunk_ = 0; // as the kernel counts them: 32 bits, wrapping
     Tally tally_;
     std::vector<base::TimePoint> sent_at_; // of the trial's datagrams
+    std::vector<base::TimePoint> stopped_; // of those that the prober was stopped at
     std::vector<base::Duration> errors_;
     std::vector<base::TimePoint> due_; // of those in errors_
 };

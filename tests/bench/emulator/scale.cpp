@@ -6,13 +6,13 @@
 #include "proto/net/clock.hpp"
 #include "proto/net/udp_socket.hpp"
 #include "proto/net/wait.hpp"
+#include "tests/bench/emulator/lateness.hpp"
 #include "tests/bench/emulator/machine.hpp"
 #include "tests/bench/emulator/probe.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -140,15 +140,6 @@ private:
     std::uint64_t arrived_ = 0;
 };
 
-double microseconds(base::Duration duration) { return base::to_seconds(duration) * 1e6; }
-
-double p99_us(const std::vector<base::Duration>& sorted)
-{
-    if (sorted.empty()) return std::nan("");
-    const auto rank = std::ceil(0.99 * static_cast<double>(sorted.size()));
-    return microseconds(sorted[static_cast<std::size_t>(rank) - 1]);
-}
-
 double median(std::vector<double> values)
 {
     std::ranges::sort(values);
@@ -191,7 +182,7 @@ double late_clients(const Plan& plan, std::size_t clients, double rate, Standing
         standing};
     crowd.aim({endpoint_after("listen", relay.ready())});
     std::ignore = crowd.lateness(rate, 50ms); // each has its socket and its path afterwards
-    return p99_us(crowd.lateness(rate, plan.quick ? 200ms : 1s));
+    return quantile_us(crowd.lateness(rate, plan.quick ? 200ms : 1s), 0.99);
 }
 
 /// The same of links.
@@ -201,7 +192,7 @@ double late_links(const Plan& plan, std::size_t count, double rate, Standing sta
     const RelayProcess relay{with_common(plan, links(count, crowd.end())), standing};
     crowd.aim(places_of_links(count, relay.ready()));
     std::ignore = crowd.lateness(rate, 50ms);
-    return p99_us(crowd.lateness(rate, plan.quick ? 200ms : 1s));
+    return quantile_us(crowd.lateness(rate, plan.quick ? 200ms : 1s), 0.99);
 }
 
 Row row(std::string name, std::string subject, std::string baseline, std::string metric)

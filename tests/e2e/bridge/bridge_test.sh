@@ -3,11 +3,13 @@
 # SPDX-License-Identifier: MIT
 #
 # The emulator as a bridge between two interfaces, with a host in a network of its own behind each:
-# both families and a VLAN pass, a loop ends it, and it says what it lacks.
+# frames of every kind pass byte for byte, both families and a VLAN with their delays, it tells the
+# sender of what is too big, a loop ends it, and it says what it lacks.
 # Usage: bridge_test.sh FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
 
 emulator=$(realpath "$1")/hapnet-emulator
+frames=$(realpath "${BASH_SOURCE[0]%/*}")/frames.py
 for tool in ip unshare nsenter jq; do
     command -v "$tool" >/dev/null || { echo "skipped: there is no $tool" && exit 77; }
 done
@@ -86,6 +88,57 @@ jq -e '.up.received >= 20 and .frames.a.undisturbed > 0 and .frames.a.oversized 
     .command == "bridge" and ([.up, .down][] |
     .received + .duplicated == .delivered + ([.dropped[]] | add) + .in_flight)' \
     "$folder/run.json" >"$folder/said" || fail "the statistics do not add up"
+
+# Between two ends without a kernel's words, every frame is the one that was sent.
+if command -v python3 >"$folder/said"; then
+    for side in 5 6; do
+        ip link add "wire$side" type veth peer name "end$side"
+        ip link set "wire$side" up
+        ip link set "end$side" up
+    done
+    "$emulator" bridge wire5 wire6 --stats "$folder/frames.json" >"$folder/framed" 2>&1 &
+    bridge=$!
+    await ready "$folder/framed"
+    python3 "$frames" end5 end6 >"$folder/ip_packets" 2>&1 || fail "frames do not pass as they are"
+    kill "$bridge"
+    wait "$bridge" || fail "the bridge of frames ended with $?"
+    read -r up down <"$folder/ip_packets"
+    # More than those: kernels look for neighbours and groups.
+    jq -e --argjson up "$up" --argjson down "$down" '.up.received >= $up and
+        .down.received >= $down and .frames.a.lost_undisturbed + .frames.b.lost_undisturbed == 0 and
+        ([.up, .down][] | .received == .delivered and .in_flight == 0)' \
+        "$folder/frames.json" >"$folder/said" || fail "the statistics of frames do not add up"
+else
+    echo 'not tested: every kind of frame, which needs python3'
+fi
+
+# Where it is told so, a host sends packets that are short enough; otherwise nothing passes.
+# too_big OPTIONS: how many of 40 long questions have got their answers, by each family
+too_big() {
+    "$emulator" bridge wire1 wire2 --mtu 1280B --stats "$folder/mtu.json" "$@" \
+        >"$folder/short" 2>&1 &
+    bridge=$!
+    await ready "$folder/short"
+    answered=()
+    for address in 10.9.0.2 '[fd09::2]'; do
+        on 1 "$emulator" probe "$address:7002" --count 40 --rate 50 --size 1400 --wait 500ms \
+            --json >"$folder/probe.json" || true
+        answered+=("$(jq .answered "$folder/probe.json")")
+    done
+    kill "$bridge"
+    wait "$bridge" || fail "the bridge with an MTU ended with $?"
+}
+too_big
+[[ ${answered[*]} == '0 0' ]] || fail "without --icmp long packets pass: ${answered[*]}"
+jq -e '.frames.a.told_too_big == 0 and .up.dropped.mtu >= 80' "$folder/mtu.json" \
+    >"$folder/said" || fail "without --icmp it answers"
+too_big --icmp
+for count in "${answered[@]}"; do
+    ((count >= 20)) || fail "with --icmp long packets do not come to pass: ${answered[*]}"
+done
+jq -e '.frames.a.told_too_big >= 2 and .frames.b.told_too_big >= 2 and
+    .frames.a.told_too_big == .up.dropped.mtu' "$folder/mtu.json" \
+    >"$folder/said" || fail "the answers are not counted"
 
 # A kernel's bridge joins both interfaces elsewhere, too.
 ip link add loop type bridge

@@ -11,6 +11,7 @@ namespace hapnet::emulator::tools::predict_test {
 namespace {
 
 using namespace std::chrono_literals;
+using namespace base::literals;
 
 const Stream short_stream{.packets = 2000};
 
@@ -54,6 +55,21 @@ TEST(Predict, PlaysTheSameDatagramsFurther)
         predict(profile, {.packets = prediction.up.statistics.received}, base::Seed{1});
     EXPECT_EQ(again.up.measured.delay->mean, prediction.up.measured.delay->mean);
     EXPECT_EQ(again.down.statistics.delivered, prediction.down.statistics.delivered);
+}
+
+TEST(Predict, CountsWhatIsDamagedAsLostWhereItIsSealed)
+{
+    Profile profile;
+    profile.path.up.loss = {RandomLoss{10_percent}};
+    profile.path.up.corrupt = {20_percent, 3};
+    const auto plain = predict(profile, {.packets = 20'000}, base::Seed{1});
+    const auto sealed = predict(profile, {.packets = 20'000, .is_sealed = true}, base::Seed{1});
+    // The same draws: what arrives damaged is all that differs.
+    EXPECT_EQ(sealed.up.statistics.corrupted, plain.up.statistics.corrupted);
+    EXPECT_GT(plain.up.statistics.corrupted, 3000U);
+    EXPECT_EQ(sealed.up.lost, plain.up.lost + plain.up.statistics.corrupted);
+    EXPECT_GT(sealed.up.loss_runs, plain.up.loss_runs);
+    EXPECT_EQ(sealed.down.lost, 0U);
 }
 
 TEST(Predict, GivesUpAndSaysWhy)
