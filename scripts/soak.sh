@@ -30,7 +30,8 @@ session:
      afterwards; a seed that fails is printed with the command that repeats it;
      with --peers N (2 to 8; 2-5: all of these in turn) instead 1000 sessions of N peers, half of
      them with keys, over links that lose up to 30 %, in which one peer after the other is killed
-     and started again, and two halves may have begun apart;
+     and started again, and two halves may have begun apart; and then 1000 of N peers under that
+     attacker, who owns all links;
 daemons:
   9. as many daemons as --peers says (default 3), with simulated devices and keys, through one
      emulator with a link for every two (30 % loss, 40 ms +- 10 ms), in rounds of 60 s for N
@@ -183,23 +184,29 @@ run_scenes() {
 
 # run_sessions: half of them without keys and half with, side by side.
 run_sessions() {
-    local half=$((sessions / 2)) packets_each=$((session_packets / 2)) started=$SECONDS
-    local verdict=passed kind="under attack" options=()
-    if [[ -n $peers ]]; then
-        kind="of $peers peers"
-        packets_each=0
-        options=(--peers "$peers")
+    local packets_each=$((session_packets / 2))
+    if [[ -z $peers ]]; then
+        play_sessions sessions "under attack" "$packets_each"
+        return
     fi
+    play_sessions troubled "of $peers peers" 0 --peers "$peers" --troubled
+    play_sessions attacked "of $peers peers under attack" 0 --peers "$peers"
+}
+
+# play_sessions NAME KIND DATAGRAMS [OPTION ...]
+play_sessions() {
+    local name=$1 kind=$2 packets_each=$3 half=$((sessions / 2)) started=$SECONDS verdict=passed
+    shift 3
     echo "== sessions $kind from seed $first on, $half without keys and $half with"
-    build/release/bin/soak_session keys "$first" "$half" "$packets_each" "${options[@]}" \
-        >build/soak/sessions-keys.log &
+    build/release/bin/soak_session keys "$first" "$half" "$packets_each" "$@" \
+        >"build/soak/$name-keys.log" &
     local other=$!
-    build/release/bin/soak_session none "$first" "$half" "$packets_each" "${options[@]}" |
-        tee build/soak/sessions-none.log || verdict=FAILED
+    build/release/bin/soak_session none "$first" "$half" "$packets_each" "$@" |
+        tee "build/soak/$name-none.log" || verdict=FAILED
     wait "$other" || verdict=FAILED
-    cat build/soak/sessions-keys.log
-    [[ $verdict == passed ]] || failed+=(sessions)
-    echo "== sessions: $verdict in $((SECONDS - started)) s"
+    cat "build/soak/$name-keys.log"
+    [[ $verdict == passed ]] || failed+=("$name")
+    echo "== sessions $kind: $verdict in $((SECONDS - started)) s"
 }
 
 # run_worst_ticks: of as many scenes as --quick plays.

@@ -148,12 +148,12 @@ void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arri
 
 void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::size_t from)
 {
-    ++counters_.hellos;
     Member& other = circle_.members()[from];
     if (!other.is_expected(hello.peer_id) && hello.peer_id != settings_.introduction.id) {
         ++counters_.other_session;
         return;
     }
+    ++counters_.hellos;
     const bool had_session = session().has_value();
     const Member::Greeting greeting = other.on_hello(hello, arrived);
     if (greeting.refused) {

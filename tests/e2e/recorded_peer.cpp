@@ -53,6 +53,20 @@ void block(int descriptor)
     dup2(ends[1], descriptor);
 }
 
+/// Makes the terminal that this leads to the process's own, full and unread.
+void take_over(int terminal)
+{
+    setsid();
+    const int own = open(ptsname(terminal), O_RDWR); // the first that it opens controls it
+    close(terminal);                                 // the test's alone is left
+    if (own < 0) std::abort();
+    fcntl(own, F_SETFL, O_NONBLOCK);
+    const std::string text(4096, '.');
+    while (write(own, text.data(), text.size()) > 0) {}
+    fcntl(own, F_SETFL, 0);
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(own, descriptor);
+}
+
 class RecordingOmni final : public device::Device {
 public:
     RecordingOmni(const RecordedPlay& play, int pipe)
@@ -217,7 +231,7 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     }
     peer::loop::supervise(
         {servo, monitor, stop, gate, out, screen, control_session ? &*control_session : nullptr},
-        asked.blocked ? "ready\n" : "");
+        asked.blocked || asked.terminal >= 0 ? "ready\n" : "");
     peer::loop::wait_for_readers(screen, stop);
     return monitor.is_record_whole() ? 0 : net::exit_environment;
 }
@@ -231,7 +245,9 @@ RecordedPeer::RecordedPeer(const RecordedPlay& asked)
     std::fflush(stdout); // or the child would print it, too
     pid_ = fork();
     if (pid_ == 0) {
-        if (asked.blocked) {
+        if (asked.terminal >= 0) {
+            take_over(asked.terminal);
+        } else if (asked.blocked) {
             block(STDOUT_FILENO);
             block(STDERR_FILENO);
         } else {

@@ -32,10 +32,13 @@ struct RecordedPlay {
     device::Pacing pacing = device::Pacing::host;
     std::string listen{};
     std::string remote{};
-    std::string messages{};    // the file that its stderr goes to
-    std::string control{};     // where its control socket is to be; empty: it has none
-    std::string record{};      // where its record goes; empty: it writes none
-    bool blocked = false;      // stdout and stderr are full pipes that nobody reads
+    std::string messages{}; // the file that its stderr goes to
+    std::string control{};  // where its control socket is to be; empty: it has none
+    std::string record{};   // where its record goes; empty: it writes none
+    bool blocked = false;   // stdout and stderr are full pipes that nobody reads
+    /// The master of a pseudo-terminal that becomes its own: stdin, stdout and stderr are that one,
+    /// which is full and not read. It hangs up when the test closes the master. -1: none.
+    int terminal = -1;
     bool needs_button = false; // a dead man's switch, let go in the middle of a push
 };
 

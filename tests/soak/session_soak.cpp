@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M]: plays the attacked sessions of
-// the seeds FIRST .. FIRST + COUNT - 1, without or with keys, and of more seeds until so many
-// datagrams have reached their sides; with --peers instead sessions of N peers, or of N to M in
-// turn, one of whom is dead now and then. Prints every seed in which an invariant broke, and at the
-// end what was played. Exits 0 when none did.
+// soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M [--troubled]]: plays the attacked
+// sessions of the seeds FIRST .. FIRST + COUNT - 1, without or with keys, of two peers, N, or N to
+// M in turn, and of more seeds until so many datagrams have reached their sides; with --troubled
+// instead sessions without an attacker, one of whose peers is dead now and then. Prints every seed
+// in which an invariant broke, and at the end what was played. Exits 0 when none did.
 #include "tests/support/session/attacked_session.hpp"
 #include "tests/support/session/troubled_group.hpp"
 
@@ -33,38 +33,46 @@ void report(const Tally& tally)
     std::fflush(stdout);
 }
 
+/// How many peers play, and whether without an attacker.
+struct Kind {
+    std::size_t fewest = 2, most = 2;
+    bool is_troubled = false;
+
+    [[nodiscard]] bool is_known() const { return fewest >= 2 && fewest <= most && most <= 8; }
+    [[nodiscard]] std::size_t peers_of(std::uint64_t seed) const
+    {
+        return fewest + seed % (most - fewest + 1);
+    }
+    /// The options that play this seed alone.
+    [[nodiscard]] std::string options_of(std::uint64_t seed) const
+    {
+        if (most == 2 && !is_troubled) return "";
+        return fmt::format(" --peers {}{}", peers_of(seed), is_troubled ? " --troubled" : "");
+    }
+};
+
 /// What is judged of either kind of session.
-hapnet::test::AttackedSession play(std::uint64_t seed, std::size_t peers, hapnet::test::Seal seal)
+hapnet::test::AttackedSession play(std::uint64_t seed, const Kind& kind, hapnet::test::Seal seal)
 {
-    if (peers == 0) return hapnet::test::play_attacked(seed, seal);
+    const std::size_t peers = kind.peers_of(seed);
+    if (!kind.is_troubled) return hapnet::test::play_attacked(seed, seal, peers);
     const auto group = hapnet::test::play_troubled_group(seed, peers, seal);
     return {.complaint = group.complaint, .datagrams = group.datagrams, .compared = group.compared};
 }
 
-/// How many peers play; 0 and 0: not a group.
-struct Peers {
-    std::size_t fewest = 0, most = 0;
-
-    [[nodiscard]] bool are_known() const
-    {
-        return most == 0 || (fewest >= 2 && fewest <= most && most <= 8);
-    }
-    [[nodiscard]] std::size_t of(std::uint64_t seed) const
-    {
-        return fewest + seed % (most - fewest + 1);
-    }
-};
-
-/// What stands after --peers, taken out of the arguments.
-Peers taken_peers(std::vector<std::string>& arguments)
+/// What stands after --peers, and --troubled, taken out of the arguments.
+Kind taken_kind(std::vector<std::string>& arguments)
 {
+    Kind kind;
+    kind.is_troubled = std::erase(arguments, "--troubled") > 0;
     const auto option = std::ranges::find(arguments, "--peers");
-    if (arguments.end() - option < 2) return {};
+    if (arguments.end() - option < 2) return kind;
     char* end = nullptr;
-    const auto fewest = std::strtoull((option + 1)->c_str(), &end, 10);
-    const auto most = *end == '-' ? std::strtoull(end + 1, &end, 10) : fewest;
+    kind.fewest = std::strtoull((option + 1)->c_str(), &end, 10);
+    kind.most = *end == '-' ? std::strtoull(end + 1, &end, 10) : kind.fewest;
+    if (*end != '\0') kind.most = 0;
     arguments.erase(option, option + 2);
-    return *end == '\0' ? Peers{fewest, std::max<std::size_t>(most, 1)} : Peers{1, 1};
+    return kind;
 }
 
 } // namespace
@@ -72,13 +80,13 @@ Peers taken_peers(std::vector<std::string>& arguments)
 int main(int argc, char** argv)
 {
     std::vector<std::string> arguments(argv + 1, argv + argc);
-    const Peers peers = taken_peers(arguments);
+    const Kind kind = taken_kind(arguments);
     const bool keys = !arguments.empty() && arguments[0] == "keys";
     const bool are_known = arguments.size() >= 3 && arguments.size() <= 4 &&
-                           (keys || arguments[0] == "none") && peers.are_known();
+                           (keys || arguments[0] == "none") && kind.is_known();
     if (!are_known) {
-        fmt::print(stderr,
-                   "usage: soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M]\n");
+        fmt::print(stderr, "usage: soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M "
+                           "[--troubled]]\n");
         return 2;
     }
     const auto seal = keys ? hapnet::test::Seal::keys : hapnet::test::Seal::none;
@@ -89,7 +97,7 @@ int main(int argc, char** argv)
     Tally tally;
     for (std::uint64_t seed = number(1); tally.played < number(2) || tally.datagrams < number(3);
          ++seed) {
-        const auto session = play(seed, peers.of(seed), seal);
+        const auto session = play(seed, kind, seal);
         ++tally.played;
         tally.compared += session.compared ? 1 : 0;
         tally.datagrams += session.datagrams;
@@ -97,9 +105,7 @@ int main(int argc, char** argv)
         if (session.complaint) {
             ++tally.broken;
             fmt::print("  seed {}: {} (repeat it: build/release/bin/soak_session {} {} 1{})\n",
-                       seed, *session.complaint, arguments[0], seed,
-                       peers.most == 0 ? std::string{}
-                                       : fmt::format(" --peers {}", peers.of(seed)));
+                       seed, *session.complaint, arguments[0], seed, kind.options_of(seed));
         }
         if (tally.played % often == 0) report(tally);
     }

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 // A foot switch of the kernel as a dead man's switch. The switch is emulated: what is real is the
 // daemons.
+#include "proto/net/clock.hpp"
+#include "proto/record/reader.hpp"
 #include "tests/e2e/peer.hpp"
 #include "tests/support/umockdev/handler.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -12,7 +15,9 @@
 #include <gtest/gtest.h>
 #include <linux/input.h>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace hapnet::e2e {
 
@@ -42,10 +47,17 @@ public:
         event.value = down ? 1 : 0;
         events_.push_back(event);
     }
-    void unplug()
+    /// From now on it cannot be read: ENODEV when it has been unplugged.
+    void fail(int error)
     {
         const std::lock_guard lock{mutex_};
-        has_gone_ = true;
+        error_ = error;
+    }
+    /// When the program came to know of each end of a press: a release, or the first error.
+    [[nodiscard]] std::vector<base::TimePoint> ends()
+    {
+        const std::lock_guard lock{mutex_};
+        return ends_;
     }
     [[nodiscard]] bool is_grabbed()
     {
@@ -72,11 +84,14 @@ private:
     [[nodiscard]] bool on_read(const umockdev::Request& request) override
     {
         const std::lock_guard lock{mutex_};
-        if (has_gone_) {
-            request.fail(ENODEV);
+        if (error_ != 0) {
+            if (!has_failed_) ends_.push_back(net::monotonic_now());
+            has_failed_ = true;
+            request.fail(error_);
         } else if (events_.empty()) {
             request.fail(EAGAIN);
         } else {
+            if (events_.front().value == 0) ends_.push_back(net::monotonic_now());
             umockdev::Memory buffer = request.buffer();
             buffer.write_as(events_.front());
             events_.pop_front();
@@ -89,46 +104,105 @@ private:
     std::deque<input_event> events_;
     bool is_down_ = false;
     bool is_grabbed_ = false;
-    bool has_gone_ = false;
+    int error_ = 0;
+    bool has_failed_ = false;
+    std::vector<base::TimePoint> ends_;
     umockdev::Testbed testbed_;
     std::optional<umockdev::Attachment> attachment_; // last: it ends before what it uses
 };
 
+/// A hand that plays with a pedal, and the other one.
+class PedalSession {
+public:
+    PedalSession() : options_{"--task", "T3", "--duration", "120s"}
+    {
+        std::vector<std::string> with_pedal = options_;
+        with_pedal.insert(with_pedal.end(), {"--dead-man", std::string{"evdev:"} + FootSwitch::node,
+                                             "--control", socket_});
+        a_.emplace(1, place_a_, place_b_, with_pedal);
+        b_.emplace(2, place_b_, place_a_, options_);
+        EXPECT_TRUE(pedal.is_grabbed());
+        EXPECT_TRUE(a_->says("session started"));
+    }
+    [[nodiscard]] bool comes_to_be_pushed() const
+    {
+        const auto is_pushed = [&] {
+            return answer_of(socket_, "show").value("force_n", 0.0) > 0.1;
+        };
+        return comes_true(is_pushed, 60s);
+    }
+    [[nodiscard]] bool comes_to_be_withheld() const
+    {
+        return comes_true([&] {
+            const auto shown = answer_of(socket_, "show");
+            return shown.value("force_withheld", false) && shown.value("force_n", 1.0) == 0.0;
+        });
+    }
+    /// Ends it, and expects each end of a press to have ended the force two ticks later at most.
+    void expect_all_ends_in_time(std::size_t ends)
+    {
+        a_->stop_on_a_busy_machine();
+        b_->stop_on_a_busy_machine();
+        EXPECT_GT(a_->statistics()["governor"]["withheld"], 10);
+        const auto recorded = record::read(a_->record());
+        ASSERT_TRUE(recorded.has_value());
+        ASSERT_EQ(pedal.ends().size(), ends);
+        for (const base::TimePoint end : pedal.ends()) expect_zero_after(recorded->ticks, end);
+        expect_the_same_forces_again(a_->record());
+    }
+
+    FootSwitch pedal; // of the first
+
+private:
+    static void expect_zero_after(const std::vector<record::TickRow>& ticks, base::TimePoint end)
+    {
+        constexpr std::ptrdiff_t lately = 200;
+        const auto first = std::find_if(ticks.begin(), ticks.end(),
+                                        [&](const record::TickRow& row) { return row.at() > end; });
+        ASSERT_GE(ticks.end() - first, 10);
+        ASSERT_GE(first - ticks.begin(), lately);
+        const auto has_force = [](const record::TickRow& row) {
+            return row.device != base::Force{};
+        };
+        EXPECT_TRUE(std::any_of(first - lately, first, has_force)) << "there was a force to end";
+        EXPECT_TRUE(std::none_of(first + 2, first + 10, has_force));
+    }
+
+    TemporaryFolder folder_;
+    std::string socket_ = folder_.file("a.sock");
+    std::string place_a_ = free_place();
+    std::string place_b_ = free_place();
+    std::vector<std::string> options_;
+    std::optional<Peer> a_;
+    std::optional<Peer> b_;
+};
+
 } // namespace
 
-TEST(DeadMan, IsAFootSwitchWhoseReleaseOrUnpluggingEndsTheForce)
+TEST(DeadMan, IsAFootSwitchWhoseReleaseOrUnpluggingEndsTheForceWithinTwoTicks)
 {
-    FootSwitch pedal;
-    const TemporaryFolder folder;
-    const std::string socket = folder.file("a.sock");
-    const std::vector<std::string> task{"--task", "T3", "--duration", "120s"};
-    std::vector<std::string> options = task;
-    options.insert(options.end(),
-                   {"--dead-man", std::string{"evdev:"} + FootSwitch::node, "--control", socket});
-    const std::string place_a = free_place();
-    const std::string place_b = free_place();
-    Peer a{1, place_a, place_b, options};
-    Peer b{2, place_b, place_a, task};
-    EXPECT_TRUE(pedal.is_grabbed());
-    EXPECT_TRUE(a.says("session started"));
-    const auto is_pushed = [&] { return answer_of(socket, "show").value("force_n", 0.0) > 0.1; };
-    const auto is_withheld = [&] {
-        const auto shown = answer_of(socket, "show");
-        return shown.value("force_withheld", false) && shown.value("force_n", 1.0) == 0.0;
-    };
-    EXPECT_TRUE(comes_true(is_withheld));
-    pedal.press(true);
-    EXPECT_TRUE(comes_true(is_pushed, 60s));
-    pedal.press(false);
-    EXPECT_TRUE(comes_true(is_withheld));
-    pedal.press(true);
-    EXPECT_TRUE(comes_true(is_pushed, 60s));
-    pedal.unplug();
-    EXPECT_TRUE(comes_true(is_withheld));
-    a.stop_on_a_busy_machine();
-    b.stop_on_a_busy_machine();
-    EXPECT_GT(a.statistics()["governor"]["withheld"], 10);
-    expect_the_same_forces_again(a.record());
+    PedalSession session;
+    EXPECT_TRUE(session.comes_to_be_withheld());
+    for (const bool is_unplugged : {false, true}) {
+        session.pedal.press(true);
+        EXPECT_TRUE(session.comes_to_be_pushed());
+        if (is_unplugged)
+            session.pedal.fail(ENODEV);
+        else
+            session.pedal.press(false);
+        EXPECT_TRUE(session.comes_to_be_withheld());
+    }
+    session.expect_all_ends_in_time(2);
+}
+
+TEST(DeadMan, IsAFootSwitchThatEndsTheForceWithinTwoTicksWhenItCannotBeRead)
+{
+    PedalSession session;
+    session.pedal.press(true);
+    EXPECT_TRUE(session.comes_to_be_pushed());
+    session.pedal.fail(EIO);
+    EXPECT_TRUE(session.comes_to_be_withheld());
+    session.expect_all_ends_in_time(1);
 }
 
 } // namespace hapnet::e2e

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/session/attacked_session.hpp"
 
+#include "scene/text/text.hpp"
 #include "tests/support/multiplications.hpp"
 #include "tests/support/session/draws.hpp"
 #include "tests/support/session/mallory.hpp"
 #include "tests/support/session/work_of_5s.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -22,26 +24,33 @@ using namespace std::chrono_literals;
 using lab::virtual_time::Setting;
 using lab::virtual_time::VirtualPlayer;
 using lab::virtual_time::VirtualWorld;
+using peer::Peer;
 using peer::Phase;
 
 constexpr base::Duration length = 10s; // 7 s hands on
 // With keys the two may first have to wait for 5 s, when both answered what the other has given up.
 constexpr base::Duration sealed_length = 18s;
-constexpr base::Duration attack_max = 8s;            // over before the hands let go
-constexpr base::Duration agree_within = 1200ms;      // of hands off
+constexpr base::Duration attack_max = 8s;       // over before the hands let go
+constexpr base::Duration agree_within = 1200ms; // of hands off
+constexpr base::Duration longest_delay = 2s;
 constexpr base::Duration jump_max = 500ms;           // both still let go together for long enough
 constexpr base::Duration silent_after = 300ms + 2ms; // held, faded, and a tick of each side
+constexpr base::Duration fade_takes = 50ms + 2ms;
 constexpr double force_max_n = 3.3 + 1e-12;
 constexpr double work_max_j = 0.15;
 constexpr double agreement_m = 0.1e-3;
-// The 1 m that a remote side may claim, and then a push of 3.3 N against 10 N s/m for all of 9 s.
-constexpr double cube_within_m = 1.0 + 0.33 * 9.0;
+// The 1 m that a remote side may claim, and then a push of 3.3 N of each hand against 10 N s/m for
+// all of 9 s; each of the others' is part of what the first claims where there are two.
+double body_within_m(std::size_t peers)
+{
+    return 1.0 + 0.33 * 9.0 * static_cast<double>(peers - 1);
+}
 
 /// Delay to 2 s, loss to 99.9 %, bursts, copies, damage.
 emulator::Conditions drawn_conditions(Draws& draw)
 {
     emulator::Conditions conditions;
-    const base::Duration delay = draw.up_to(draw.one_in(4) ? 2s : 200ms);
+    const base::Duration delay = draw.up_to(draw.one_in(4) ? longest_delay : 200ms);
     conditions.delay = emulator::constant(delay);
     const base::Duration jitter = draw.up_to(delay);
     conditions.jitter.law = emulator::UniformLaw{{}, jitter};
@@ -63,6 +72,13 @@ emulator::Conditions drawn_conditions(Draws& draw)
     }
     return conditions;
 }
+
+/// What is played.
+struct Asked {
+    std::uint64_t seed = 0;
+    Seal seal = Seal::none;
+    std::size_t peers = 2;
+};
 
 Habits drawn_habits(Draws& draw)
 {
@@ -88,33 +104,72 @@ Habits drawn_habits(Draws& draw)
     return habits;
 }
 
-Setting drawn_setting(base::Seed seed, Draws& draw, base::Duration heals_at, Seal seal)
+/// What becomes of every path when all is well again.
+const emulator::Patch healed{.loss = std::vector<emulator::LossLaw>{},
+                             .corrupt = emulator::Corruption{},
+                             .delay = emulator::constant(20ms),
+                             .jitter = emulator::Variation{}};
+
+/// Draws tasks, algorithms and the path of two.
+void draw_pair(Setting& setting, Draws& draw, base::Duration heals_at)
 {
     constexpr std::array tasks{device::Task::p1, device::Task::t1, device::Task::t3};
     constexpr std::array algorithms{"base", "base", "dead-reckoning", "sep"};
-    Setting setting;
     setting.task = tasks.at(draw.below(tasks.size()));
-    setting.seed = seed;
-    setting.length = length;
-    setting.energy_limit = true;
     setting.profile.path.up = drawn_conditions(draw);
     setting.profile.path.down = drawn_conditions(draw);
-    const emulator::Patch healed{.loss = std::vector<emulator::LossLaw>{},
-                                 .corrupt = emulator::Corruption{},
-                                 .delay = emulator::constant(20ms),
-                                 .jitter = emulator::Variation{}};
     setting.profile.timeline = {{.time = heals_at, .ramp = {}, .up = healed, .down = healed}};
     const auto algorithm = peer::algorithm_named(algorithms.at(draw.below(algorithms.size())));
+    for (auto& player : setting.players) player.algorithm = algorithm.value();
+}
+
+emulator::Patch all_of(const emulator::Conditions& conditions)
+{
+    return {.loss = conditions.loss,
+            .corrupt = conditions.corrupt,
+            .duplicate = conditions.duplicate,
+            .delay = conditions.delay,
+            .jitter = conditions.jitter,
+            .order = conditions.order};
+}
+
+/// Draws the algorithm and the paths of more than two, each its own.
+void draw_group(Setting& setting, Draws& draw, base::Duration heals_at)
+{
+    constexpr std::array algorithms{"base", "base", "remote-proxy", "wave"};
+    setting.task = device::Task::t7;
+    setting.scene = scene::load_scene("carry", {}).value();
+    emulator::Change heals{.time = heals_at, .ramp = {}, .up = {}, .down = {}};
+    for (const std::string& link : lab::virtual_time::links_between(setting.players.size())) {
+        const emulator::Patch up = all_of(drawn_conditions(draw));
+        setting.profile.paths.push_back({link, up, all_of(drawn_conditions(draw))});
+        heals.paths.push_back({link, healed, healed});
+    }
+    setting.profile.timeline = {std::move(heals)};
+    if (draw.one_in(2)) setting.wait_for = 2;
+    const auto algorithm = peer::algorithm_named(algorithms.at(draw.below(algorithms.size())));
+    for (auto& player : setting.players) player.algorithm = algorithm.value();
+}
+
+Setting drawn_setting(const Asked& asked, Draws& draw, base::Duration heals_at)
+{
+    Setting setting;
+    setting.seed = base::Seed{asked.seed};
+    setting.length = length;
+    setting.energy_limit = true;
+    setting.players.resize(asked.peers);
+    (asked.peers == 2 ? draw_pair : draw_group)(setting, draw, heals_at);
     for (auto& player : setting.players) {
-        player.algorithm = algorithm.value();
         player.phase = draw.up_to(999us);
         player.clock_ahead = draw.up_to(2000s) - 1000s;
-        if (seal == Seal::keys) player.circle = seed;
+        if (asked.seal == Seal::keys) player.circle = setting.seed;
     }
-    if (seal == Seal::keys) {
+    if (asked.seal == Seal::keys) {
         setting.length = sealed_length;
         // Damage is the attacker's alone: he keeps the book.
         setting.profile.path.up.corrupt = setting.profile.path.down.corrupt = {};
+        for (emulator::PathPatch& path : setting.profile.paths)
+            path.up.corrupt = path.down.corrupt = emulator::Corruption{};
     }
     return setting;
 }
@@ -147,7 +202,13 @@ struct Watch {
     WorkOf5s work;
     std::optional<base::Position> hip;
     base::Force held;
-    std::optional<base::TimePoint> settled_since; // hands off, and the other side is heard
+    std::optional<base::TimePoint> settled_since; // hands off, and all others are heard
+    struct Heard {
+        std::optional<base::TimePoint> arrived; // its newest state, by the side's clock
+        base::TimePoint at;
+        std::optional<base::TimePoint> touches_unheard_since{}; // and is not gone
+    };
+    std::vector<Heard> others; // in the order of the side's lines
 };
 
 std::uint64_t heard(const peer::Counters& c)
@@ -158,15 +219,23 @@ std::uint64_t heard(const peer::Counters& c)
 
 class Play {
 public:
-    Play(std::uint64_t seed, Seal seal);
+    explicit Play(const Asked& asked);
     [[nodiscard]] AttackedSession run() &&;
 
 private:
     [[nodiscard]] base::Duration elapsed() const { return world_.now() - VirtualWorld::start; }
+    [[nodiscard]] std::size_t sides() const { return world_.sides(); }
+    [[nodiscard]] bool is_damaged() const;
+    void draw_troubles();
+    void begin_watch(std::size_t index);
     void set_clocks();
     void let_die();
     void judge(std::size_t index);
+    void judge_links(std::size_t index);
     void judge_forces(std::size_t index);
+    void judge_energy(std::size_t index);
+    void judge_others(std::size_t index);
+    [[nodiscard]] bool is_settled(std::size_t index) const;
     void judge_agreement();
     void judge_multiplications();
     [[nodiscard]] bool is_over() const;
@@ -176,9 +245,10 @@ private:
         if (result_.complaint) return;
         const Setting& setting = world_.setting();
         result_.complaint =
-            fmt::format("{}, {}, attacked for {:.3f} s, after {:.6f} s: ", name_of(setting.task),
-                        peer::algorithm_names.at(setting.players[0].algorithm.index()),
-                        base::to_seconds(attack_), base::to_seconds(elapsed())) +
+            fmt::format(
+                "{} of {}, {}, attacked for {:.3f} s, after {:.6f} s: ", name_of(setting.task),
+                sides(), peer::algorithm_names.at(setting.players[0].algorithm.index()),
+                base::to_seconds(attack_), base::to_seconds(elapsed())) +
             fmt::format(words, std::forward<Values>(values)...);
     }
 
@@ -187,47 +257,77 @@ private:
     VirtualWorld world_;
     Habits habits_;
     Mallory mallory_;
-    std::array<Clock, 2> clocks_;
+    std::vector<Clock> clocks_;
     std::vector<Death> deaths_;
-    std::array<Watch, 2> watches_;
+    std::vector<Watch> watches_;
     std::uint64_t multiplied_ = 0; // on the curve, before the step
     AttackedSession result_;
 };
 
-Play::Play(std::uint64_t seed, Seal seal)
-    : draw_{base::Seed{seed}, "attacked session"},
+Play::Play(const Asked& asked)
+    : draw_{base::Seed{asked.seed}, "attacked session"},
       attack_{2s + draw_.up_to(attack_max - 2s)},
-      world_{drawn_setting(base::Seed{seed}, draw_, attack_, seal),
-             {.datagrams_max = 16'384, .bytes_max = 16U << 20}},
+      world_{drawn_setting(asked, draw_, attack_),
+             {.datagrams_max = asked.peers == 2 ? 16'384U : 4096U, .bytes_max = 16U << 20}},
       habits_{drawn_habits(draw_)},
-      mallory_{world_, base::Seed{seed}, habits_}
+      mallory_{world_, base::Seed{asked.seed}, habits_},
+      clocks_(asked.peers),
+      watches_(asked.peers)
 {
-    const auto is_damaged = [this](std::size_t side) {
-        const emulator::Path& path = world_.setting().profile.path;
-        const emulator::Conditions& way = side == 0 ? path.up : path.down;
-        return way.corrupt.share.fraction() > 0.0;
+    draw_troubles();
+    // A hello that this side's former run sent is that of another peer with its id.
+    const bool claims_its_id = habits_.reflect > 0.0 && !deaths_.empty();
+    // To a pair what another says is forged.
+    const bool crosses = habits_.reflect > 0.0 && sides() > 2;
+    const bool is_taken_for_true =
+        claims_its_id || crosses || is_damaged() ||
+        habits_.forge + habits_.flip + habits_.splice + habits_.storm > 0.0;
+    result_.is_forged = asked.seal == Seal::none && is_taken_for_true;
+}
+
+bool Play::is_damaged() const
+{
+    const emulator::Profile& profile = world_.setting().profile;
+    const auto is_way = [](const auto& conditions) {
+        return conditions.corrupt.share.fraction() > 0.0;
     };
-    for (const std::size_t side : {0U, 1U}) {
-        Clock& clock = clocks_.at(side);
+    const auto is_patched = [](const emulator::Patch& patch) {
+        return patch.corrupt && patch.corrupt->share.fraction() > 0.0;
+    };
+    return is_way(profile.path.up) || is_way(profile.path.down) ||
+           std::ranges::any_of(profile.paths, [&](const emulator::PathPatch& path) {
+               return is_patched(path.up) || is_patched(path.down);
+           });
+}
+
+/// Clocks that are wrong, and deaths.
+void Play::draw_troubles()
+{
+    for (std::size_t side = 0; side < sides(); ++side) {
+        Clock& clock = clocks_[side];
         clock.ahead = world_.side(side).clock_ahead;
         if (!draw_.one_in(3)) clock.skew = 200e-6 * (2.0 * draw_.share() - 1.0);
         if (draw_.one_in(6)) {
             clock.jump = draw_.up_to(jump_max);
             clock.jumps_at = draw_.up_to(attack_);
         }
-        watches_.at(side).last_taken = world_.now();
+        begin_watch(side);
     }
-    for (const std::size_t side : {0U, 1U}) {
+    for (std::size_t side = 0; side < sides(); ++side) {
         if (!draw_.one_in(3)) continue;
         const base::Duration at = draw_.up_to(attack_);
         deaths_.push_back({side, at, draw_.up_to(attack_ - at)}); // one a side at most
     }
-    // A hello that this side's former run sent is that of another peer with its id.
-    const bool claims_its_id = habits_.reflect > 0.0 && !deaths_.empty();
-    const bool is_taken_for_true =
-        claims_its_id || is_damaged(0) || is_damaged(1) ||
-        habits_.forge + habits_.flip + habits_.splice + habits_.storm > 0.0;
-    result_.is_forged = seal == Seal::none && is_taken_for_true;
+}
+
+/// Of a new run.
+void Play::begin_watch(std::size_t index)
+{
+    Watch& watch = watches_[index];
+    watch = Watch{};
+    watch.let_in_before = mallory_.let_in(index);
+    watch.last_taken = world_.now();
+    watch.others.assign(sides() - 1, {std::nullopt, world_.now(), {}});
 }
 
 AttackedSession Play::run() &&
@@ -238,7 +338,7 @@ AttackedSession Play::run() &&
         let_die(); // those that are started again multiply before their first tick
         multiplied_ = multiplications();
         world_.step();
-        for (const std::size_t side : {0U, 1U}) judge(side);
+        for (std::size_t side = 0; side < sides(); ++side) judge(side);
         judge_agreement();
         if (!is_healed && elapsed() >= attack_) {
             is_healed = true;
@@ -248,8 +348,8 @@ AttackedSession Play::run() &&
         judge_multiplications();
     }
     const bool must_agree = !result_.is_forged && !result_.compared;
-    if (must_agree) complain("the two never played together once all was well");
-    result_.datagrams = mallory_.given(0) + mallory_.given(1);
+    if (must_agree) complain("they never played together once all was well");
+    for (std::size_t side = 0; side < sides(); ++side) result_.datagrams += mallory_.given(side);
     return result_;
 }
 
@@ -257,16 +357,19 @@ bool Play::is_over() const
 {
     if (elapsed() > attack_ + world_.setting().length + 10s) return true;
     if (elapsed() < attack_) return false;
-    const auto is_done = [&](std::size_t side) {
-        return world_.is_alive(side) && world_.side(side).last().phase == Phase::ended;
-    };
-    return result_.compared || (is_done(0) && is_done(1));
+    if (result_.compared) return true;
+    for (std::size_t side = 0; side < sides(); ++side) {
+        const bool is_done =
+            world_.is_alive(side) && world_.side(side).last().phase == Phase::ended;
+        if (!is_done) return false;
+    }
+    return true;
 }
 
 void Play::set_clocks()
 {
-    for (const std::size_t side : {0U, 1U}) {
-        if (world_.is_alive(side)) world_.side(side).clock_ahead = clocks_.at(side).at(elapsed());
+    for (std::size_t side = 0; side < sides(); ++side) {
+        if (world_.is_alive(side)) world_.side(side).clock_ahead = clocks_[side].at(elapsed());
     }
 }
 
@@ -277,15 +380,13 @@ void Play::let_die()
         if (!is_dead && elapsed() >= death.at && death.lasts > base::Duration{0}) {
             world_.kill(death.side);
             result_.work_5s_max_j =
-                std::max(result_.work_5s_max_j, watches_.at(death.side).work.most_j());
+                std::max(result_.work_5s_max_j, watches_[death.side].work.most_j());
         } else if (is_dead && elapsed() >= death.at + death.lasts) {
             world_.revive(death.side);
             death.lasts = {};
-            watches_.at(death.side) = Watch{};
-            watches_.at(death.side).let_in_before = mallory_.let_in(death.side);
+            begin_watch(death.side);
             mallory_.note_restart(death.side);
             world_.side(death.side).date_ahead = draw_.up_to(48h) - 24h;
-            watches_.at(death.side).last_taken = world_.now();
             set_clocks();
         }
     }
@@ -294,24 +395,34 @@ void Play::let_die()
 void Play::judge(std::size_t index)
 {
     if (!world_.is_alive(index)) return;
-    const auto& link = world_.link(index, 1 - index).statistics();
-    if (link.received + link.duplicated != link.delivered + link.dropped_total() + link.in_flight) {
-        complain("link of side {}: its counters do not add up", index);
-    }
+    judge_links(index);
     if (world_.side(index).stepped_at != world_.now()) return;
     const peer::Counters& counters = world_.side(index).peer().counters();
-    const std::uint64_t given = mallory_.let_in(index) - watches_.at(index).let_in_before;
+    const std::uint64_t given = mallory_.let_in(index) - watches_[index].let_in_before;
     if (heard(counters) != given) {
         complain("side {}: {} messages in its counters, {} given", index, heard(counters), given);
     }
     if (mallory_.breach()) complain("side {}: {}", index, *mallory_.breach());
     judge_forces(index);
+    judge_energy(index);
+    judge_others(index);
+}
+
+void Play::judge_links(std::size_t index)
+{
+    for (std::size_t to = 0; to < sides(); ++to) {
+        if (to == index) continue;
+        const auto& link = world_.link(index, to).statistics();
+        if (link.received + link.duplicated !=
+            link.delivered + link.dropped_total() + link.in_flight)
+            complain("link from {} to {}: its counters do not add up", index, to);
+    }
 }
 
 void Play::judge_forces(std::size_t index)
 {
     const VirtualPlayer& side = world_.side(index);
-    Watch& watch = watches_.at(index);
+    Watch& watch = watches_[index];
     const std::uint64_t states = side.peer().counters().states;
     if (states != watch.states) watch.last_taken = world_.now();
     watch.states = states;
@@ -326,40 +437,87 @@ void Play::judge_forces(std::size_t index)
                  silence / 1ms);
     }
     const base::Position body = side.peer().position();
-    if (!base::is_finite(body) || std::abs(body.x()) > cube_within_m) {
-        complain("side {}: its cube is at x = {} m", index, body.x());
+    if (!base::is_finite(body) || std::abs(body.x()) > body_within_m(sides())) {
+        complain("side {}: its body is at x = {} m", index, body.x());
     }
+}
+
+void Play::judge_energy(std::size_t index)
+{
+    const VirtualPlayer& side = world_.side(index);
+    Watch& watch = watches_[index];
     const base::Position hip = side.side->sample().hip;
     if (watch.hip) {
         const double work_j = glm::dot(watch.held.value, (hip - *watch.hip).value);
         watch.work.add(work_j, world_.now() + side.clock_ahead);
     }
     watch.hip = hip;
-    watch.held = told;
+    watch.held = side.told();
     result_.work_5s_max_j = std::max(result_.work_5s_max_j, watch.work.most_j());
     if (watch.work.most_j() > work_max_j) {
         complain("side {}: {} J into the hand within 5 s", index, watch.work.most_j());
     }
 }
 
+/// No hand counts that was not heard lately. Beside one that may be on the body, unheard, a side
+/// feels nothing until that one counts as gone. It may come to be such a one late, too: when its
+/// goodbye turns out to have been forged.
+void Play::judge_others(std::size_t index)
+{
+    const VirtualPlayer& side = world_.side(index);
+    const base::TimePoint here = world_.now() + side.clock_ahead;
+    for (std::size_t i = 0; i < side.peer().others().size(); ++i) {
+        const peer::Member& other = side.peer().others()[i];
+        Watch::Heard& heard = watches_[index].others[i];
+        const auto arrived = other.remote().arrived();
+        if (arrived != heard.arrived) heard = {arrived, world_.now(), heard.touches_unheard_since};
+        const base::Duration silence = world_.now() - heard.at;
+        if (silence > silent_after && other.freshness(here) > 0.0)
+            complain("side {}: counts a hand unheard for {} ms", index, silence / 1ms);
+        const bool is_gone = !arrived || other.is_gone() || here - *arrived > Peer::gone_after;
+        const bool touches_unheard =
+            !is_gone && other.freshness(here) < 1.0 && other.remote().state()->touching;
+        if (!touches_unheard) heard.touches_unheard_since.reset();
+        if (!touches_unheard) continue;
+        const auto since = heard.touches_unheard_since.value_or(world_.now());
+        heard.touches_unheard_since = since;
+        if (world_.now() - since > fade_takes && side.told() != base::Force{})
+            complain("side {}: {} N beside a hand that touched, unheard for {} ms", index,
+                     base::norm(side.told()), silence / 1ms);
+    }
+}
+
+/// Its hands are off, and it hears all others.
+bool Play::is_settled(std::size_t index) const
+{
+    return world_.side(index).last().phase == Phase::hands_off &&
+           std::ranges::all_of(watches_[index].others, [&](const Watch::Heard& heard) {
+               return heard.arrived && world_.now() - heard.at < silent_after;
+           });
+}
+
 void Play::judge_agreement()
 {
-    if (elapsed() < attack_ || !world_.is_alive(0) || !world_.is_alive(1)) return;
+    if (elapsed() < attack_ || result_.compared) return;
     bool all_settled = true;
-    for (const std::size_t side : {0U, 1U}) {
-        Watch& watch = watches_.at(side);
-        const bool is_settled = world_.side(side).last().phase == Phase::hands_off &&
-                                world_.now() - watch.last_taken < silent_after;
-        if (!is_settled) watch.settled_since.reset();
-        if (is_settled && !watch.settled_since) watch.settled_since = world_.now();
-        all_settled =
-            all_settled && is_settled && world_.now() - *watch.settled_since >= agree_within;
+    for (std::size_t side = 0; side < sides(); ++side) {
+        if (!world_.is_alive(side)) return;
+        Watch& watch = watches_[side];
+        if (!is_settled(side))
+            watch.settled_since.reset();
+        else if (!watch.settled_since)
+            watch.settled_since = world_.now();
+        all_settled = all_settled && watch.settled_since &&
+                      world_.now() - *watch.settled_since >= agree_within;
     }
-    if (!all_settled || result_.compared) return;
+    if (!all_settled) return;
     result_.compared = true;
-    const double apart =
-        std::abs(world_.side(0).peer().position().x() - world_.side(1).peer().position().x());
-    if (apart > agreement_m) complain("the copies are {} mm apart", 1e3 * apart);
+    const base::Position first = world_.side(0).peer().position();
+    for (std::size_t side = 1; side < sides(); ++side) {
+        const double apart = base::norm(world_.side(side).peer().position() - first);
+        if (apart > agreement_m)
+            complain("the copies of 0 and {} are {} mm apart", side, 1e3 * apart);
+    }
 }
 
 /// Of each side at most one in its tick, and none for what comes in.
@@ -367,13 +525,16 @@ void Play::judge_multiplications()
 {
     const std::uint64_t made = multiplications() - multiplied_;
     std::uint64_t ticks = 0;
-    for (const std::size_t side : {0U, 1U})
+    for (std::size_t side = 0; side < sides(); ++side)
         if (world_.is_alive(side) && world_.side(side).stepped_at == world_.now()) ++ticks;
     if (made > ticks) complain("{} multiplications on the curve in {} ticks", made, ticks);
 }
 
 } // namespace
 
-AttackedSession play_attacked(std::uint64_t seed, Seal seal) { return Play{seed, seal}.run(); }
+AttackedSession play_attacked(std::uint64_t seed, Seal seal, std::size_t peers)
+{
+    return Play{{seed, seal, peers}}.run();
+}
 
 } // namespace hapnet::test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,7 +20,7 @@ struct AttackedSession {
     bool is_forged = false;
 };
 
-/// Whether the two sides have keys.
+/// Whether the sides have keys.
 enum class Seal : std::uint8_t { none, keys };
 
 /// Plays a session whose path, tasks, algorithms, clocks, deaths and attacker are drawn from the
@@ -29,6 +30,10 @@ enum class Seal : std::uint8_t { none, keys };
 /// 0.1 mm within 1.2 s of hands off. With keys also: nothing is accepted that the other side has
 /// not sealed for this run, nothing twice, opening takes no memory, and a side multiplies on the
 /// curve at most once in a tick.
-[[nodiscard]] AttackedSession play_attacked(std::uint64_t seed, Seal seal);
+///
+/// More than two carry together (T7), with a link of its own between any two, and the attacker on
+/// all of them; he also sends to one pair what another has said. Judged as well: a hand that was
+/// not heard for 300 ms counts no more, and while it may be on the body the others feel nothing.
+[[nodiscard]] AttackedSession play_attacked(std::uint64_t seed, Seal seal, std::size_t peers = 2);
 
 } // namespace hapnet::test

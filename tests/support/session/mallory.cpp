@@ -33,89 +33,109 @@ constexpr std::size_t sequence_at = 8;
 } // namespace
 
 Mallory::Mallory(lab::virtual_time::VirtualWorld& world, base::Seed seed, const Habits& habits)
-    : world_{world}, habits_{habits}, draw_{seed.stream("mallory")}
+    : world_{world},
+      habits_{habits},
+      draw_{seed.stream("mallory")},
+      given_(world.sides()),
+      let_in_(world.sides()),
+      runs_(world.sides())
 {
+    for (std::size_t to = 0; to < world.sides(); ++to) {
+        for (std::size_t from = 0; from < world.sides(); ++from) {
+            if (from != to)
+                ways_.push_back({.from = from, .to = to, .line = from < to ? from : from - 1});
+        }
+    }
     world_.intercept([this](const lab::virtual_time::VirtualWorld::Arrival& arrival) {
-        on_arrival(arrival.to, arrival.datagram, arrival.at);
+        on_arrival(way_between(arrival.from, arrival.to), arrival.datagram, arrival.at);
     });
 }
 
-void Mallory::on_arrival(std::size_t to, std::span<const std::byte> datagram,
+std::size_t Mallory::way_between(std::size_t from, std::size_t to) const
+{
+    return to * (world_.sides() - 1) + (from < to ? from : from - 1);
+}
+
+void Mallory::on_arrival(std::size_t index, std::span<const std::byte> datagram,
                          base::TimePoint arrived)
 {
-    remember(to, datagram);
+    Way& way = ways_[index];
+    remember(way, datagram);
     if (is_there_ && happens(habits_.redirect)) {
-        return give_from(to, datagram, secure::Place{std::byte{0xee}}, arrived);
+        return give_from(way, datagram, secure::Place{std::byte{0xee}}, arrived);
     }
-    if (!is_there_) return give(to, datagram, arrived);
-    if (arrived < silent_until_.at(to) || happens(habits_.drop)) return;
-    if (happens(habits_.copy)) hold(to, datagram);
-    if (happens(habits_.hold)) return hold(to, datagram);
+    if (!is_there_) return give(way, datagram, arrived);
+    if (arrived < way.silent_until || happens(habits_.drop)) return;
+    if (happens(habits_.copy)) hold(way, datagram);
+    if (happens(habits_.hold)) return hold(way, datagram);
     const bool flips = happens(habits_.flip);
     const bool resizes = happens(habits_.resize);
-    if (!flips && !resizes) return give(to, datagram, arrived);
+    if (!flips && !resizes) return give(way, datagram, arrived);
     Bytes bytes{datagram.begin(), datagram.end()};
     if (flips) damage(bytes);
     if (resizes) bytes.resize(below(bytes.size() + 20));
-    give(to, bytes, arrived);
+    give(way, bytes, arrived);
 }
 
-/// Keeps an even choice of all that ever went to this side (reservoir sampling, J. S. Vitter 1985).
-void Mallory::remember(std::size_t to, std::span<const std::byte> datagram)
+/// Keeps an even choice of all that ever went this way (reservoir sampling, J. S. Vitter 1985).
+void Mallory::remember(Way& way, std::span<const std::byte> datagram)
 {
     if (const auto message = wire::decode(datagram)) {
-        if (const auto* state = std::get_if<wire::State>(&*message)) state_.at(to) = *state;
-        if (const auto* hello = std::get_if<wire::Hello>(&*message)) hello_.at(to) = *hello;
+        if (const auto* state = std::get_if<wire::State>(&*message)) way.state = *state;
+        if (const auto* hello = std::get_if<wire::Hello>(&*message)) way.hello = *hello;
     }
-    book_.at(to).try_emplace(text_of(datagram), Entry{runs_.at(to), false});
-    auto& kept = remembered_.at(to);
-    const std::uint64_t number = seen_.at(to)++;
-    if (kept.size() < remembered_max) {
-        kept.emplace_back(datagram.begin(), datagram.end());
+    way.book.try_emplace(text_of(datagram), Entry{runs_[way.to], false});
+    const std::uint64_t number = way.seen++;
+    if (way.remembered.size() < remembered_max) {
+        way.remembered.emplace_back(datagram.begin(), datagram.end());
         return;
     }
     const auto place = static_cast<std::size_t>(chance() * static_cast<double>(number));
-    if (place < kept.size()) kept[place].assign(datagram.begin(), datagram.end());
+    if (place < way.remembered.size())
+        way.remembered[place].assign(datagram.begin(), datagram.end());
 }
 
-void Mallory::give(std::size_t to, std::span<const std::byte> datagram, base::TimePoint arrived)
+void Mallory::give(const Way& way, std::span<const std::byte> datagram, base::TimePoint arrived)
 {
-    give_from(to, datagram, lab::virtual_time::place_of(1 - to), arrived);
+    give_from(way, datagram, lab::virtual_time::place_of(way.from), arrived);
 }
 
-void Mallory::give_from(std::size_t to, std::span<const std::byte> datagram,
+void Mallory::give_from(const Way& way, std::span<const std::byte> datagram,
                         const secure::Place& from, base::TimePoint arrived)
 {
-    if (!world_.is_alive(to)) return;
-    ++given_.at(to);
-    lab::virtual_time::VirtualPlayer& victim = world_.side(to);
+    if (!world_.is_alive(way.to)) return;
+    ++given_[way.to];
+    lab::virtual_time::VirtualPlayer& victim = world_.side(way.to);
+    peer::line::Line& line = victim.lines[way.line];
     const base::TimePoint at = arrived + victim.clock_ahead;
     const std::uint64_t taken = allocations();
-    const auto message = victim.lines[0].open(datagram, from, at);
+    const auto message = line.open(datagram, from, at);
     if (allocations() != taken) breach_ = "opening a datagram takes memory";
     if (!message) return;
-    ++let_in_.at(to);
-    if (victim.lines[0].is_sealed()) audit(to, datagram);
-    victim.side->on_datagram(*message, at);
+    ++let_in_[way.to];
+    if (line.is_sealed()) audit(way_between(way.from, way.to), datagram);
+    victim.side->on_datagram(*message, at, way.line);
 }
 
-/// What was let in must have come over the path as it is, in this run, and once.
-void Mallory::audit(std::size_t to, std::span<const std::byte> datagram)
+/// What was let in must have come this way as it is, to this run, and once.
+void Mallory::audit(std::size_t way, std::span<const std::byte> datagram)
 {
-    const auto found = book_.at(to).find(text_of(datagram));
-    if (found == book_.at(to).end()) {
+    auto& book = ways_[way].book;
+    const auto found = book.find(text_of(datagram));
+    if (found == book.end()) {
         breach_ = "a message was accepted that the other side has not sealed";
         return;
     }
     if (found->second.is_accepted) breach_ = "a message was accepted twice";
-    if (found->second.run != runs_.at(to)) breach_ = "a message to an earlier run was accepted";
+    if (found->second.run != runs_[ways_[way].to])
+        breach_ = "a message to an earlier run was accepted";
     found->second.is_accepted = true;
 }
 
-void Mallory::hold(std::size_t to, std::span<const std::byte> datagram)
+void Mallory::hold(const Way& way, std::span<const std::byte> datagram)
 {
-    held_.push_back(
-        {to, Bytes{datagram.begin(), datagram.end()}, world_.now() + up_to(habits_.held_for)});
+    held_.push_back({way_between(way.from, way.to), Bytes{datagram.begin(), datagram.end()},
+                     world_.now() + up_to(habits_.held_for)});
 }
 
 void Mallory::act()
@@ -127,11 +147,11 @@ void Mallory::act()
             ++i;
             continue;
         }
-        give(held_[i].to, held_[i].bytes, world_.now());
+        give(ways_[held_[i].way], held_[i].bytes, world_.now());
         std::swap(held_[i], held_.back());
         held_.pop_back();
     }
-    for (const std::size_t to : {0U, 1U}) attack(to);
+    for (Way& way : ways_) attack(way);
 }
 
 void Mallory::leave()
@@ -140,46 +160,54 @@ void Mallory::leave()
     held_.clear();
 }
 
-void Mallory::attack(std::size_t to)
+void Mallory::attack(Way& way)
 {
-    if (happens(habits_.silence)) silent_until_.at(to) = world_.now() + up_to(habits_.held_for);
-    if (happens(habits_.replay)) replay(to, to);
-    if (happens(habits_.reflect)) replay(to, 1 - to);
-    if (happens(habits_.splice)) splice(to);
-    if (happens(habits_.forge)) forge(to);
-    if (happens(habits_.storm)) storm(to);
+    if (happens(habits_.silence)) way.silent_until = world_.now() + up_to(habits_.held_for);
+    if (happens(habits_.replay)) replay(way, way);
+    if (happens(habits_.reflect)) replay(way, another(way));
+    if (happens(habits_.splice)) splice(way);
+    if (happens(habits_.forge)) forge(way);
+    if (happens(habits_.storm)) storm(way);
 }
 
-/// A datagram that was on its way to `sent_to`.
-void Mallory::replay(std::size_t to, std::size_t sent_to)
+/// Of two sides the way back; of more any other one.
+const Mallory::Way& Mallory::another(const Way& way)
 {
-    const auto& kept = remembered_.at(sent_to);
-    if (!kept.empty()) give(to, view(kept[below(kept.size())]), world_.now());
+    if (ways_.size() == 2) return ways_[way_between(way.to, way.from)];
+    const std::size_t other = below(ways_.size() - 1);
+    return ways_[other < way_between(way.from, way.to) ? other : other + 1];
 }
 
-void Mallory::splice(std::size_t to)
+/// A datagram that was on its way along `source`.
+void Mallory::replay(const Way& way, const Way& source)
 {
-    const auto& kept = remembered_.at(to);
+    const auto& kept = source.remembered;
+    if (!kept.empty()) give(way, view(kept[below(kept.size())]), world_.now());
+}
+
+void Mallory::splice(const Way& way)
+{
+    const auto& kept = way.remembered;
     if (kept.size() < 2) return;
     Bytes bytes = kept[below(kept.size())];
     const Bytes& other = kept[below(kept.size())];
     const std::size_t from = below(std::min(bytes.size(), other.size()));
     bytes.resize(from);
     bytes.insert(bytes.end(), other.begin() + static_cast<std::ptrdiff_t>(from), other.end());
-    give(to, bytes, world_.now());
+    give(way, bytes, world_.now());
 }
 
-void Mallory::forge(std::size_t to)
+void Mallory::forge(const Way& way)
 {
-    if (!world_.is_alive(to)) return;
-    if (world_.side(to).lines[0].is_sealed() && happens(0.7)) return forge_sealed(to);
-    forge_plain(to);
+    if (!world_.is_alive(way.to)) return;
+    if (world_.side(way.to).lines[way.line].is_sealed() && happens(0.7)) return forge_sealed(way);
+    forge_plain(way);
 }
 
 /// A message under a key that he has seen, with another number, and perhaps noise behind it.
-void Mallory::forge_sealed(std::size_t to)
+void Mallory::forge_sealed(const Way& way)
 {
-    const auto& kept = remembered_.at(to);
+    const auto& kept = way.remembered;
     if (kept.empty()) return;
     Bytes bytes = kept[below(kept.size())];
     if (bytes.size() <= clear_head) return;
@@ -189,27 +217,27 @@ void Mallory::forge_sealed(std::size_t to)
     for (std::size_t i = clear_head; is_noise && i < bytes.size(); ++i) {
         bytes[i] = static_cast<std::byte>(below(256));
     }
-    give(to, bytes, world_.now());
+    give(way, bytes, world_.now());
 }
 
-void Mallory::forge_plain(std::size_t to)
+void Mallory::forge_plain(const Way& way)
 {
-    const auto& session = world_.side(to).peer().session();
-    if (happens(0.1) && hello_.at(to)) {
-        give(to, wire::encode(forged(*hello_.at(to))).bytes(), world_.now());
+    const auto& session = world_.side(way.to).peer().others()[way.line].session();
+    if (happens(0.1) && way.hello) {
+        give(way, wire::encode(forged(*way.hello)).bytes(), world_.now());
     } else if (session && happens(0.02)) {
         constexpr std::array reasons{wire::ByeReason::finished, wire::ByeReason::interrupted,
                                      wire::ByeReason::other_scene};
         const wire::Bye bye{session->number, reasons.at(below(reasons.size()))};
-        give(to, wire::encode(bye).bytes(), world_.now());
-    } else if (state_.at(to)) {
-        give(to, wire::encode(forged(*state_.at(to))).bytes(), world_.now());
+        give(way, wire::encode(bye).bytes(), world_.now());
+    } else if (way.state) {
+        give(way, wire::encode(forged(*way.state)).bytes(), world_.now());
     } else if (session) { // behind a seal he sees no state: he makes one up
         wire::State state;
         state.session = session->number;
         state.sequence = 1 + static_cast<std::uint32_t>(below(10'000));
         state.sent = world_.now();
-        give(to, wire::encode(forged(state)).bytes(), world_.now());
+        give(way, wire::encode(forged(state)).bytes(), world_.now());
     }
 }
 
@@ -252,17 +280,17 @@ wire::Hello Mallory::forged(wire::Hello hello)
     return hello;
 }
 
-void Mallory::storm(std::size_t to)
+void Mallory::storm(const Way& way)
 {
     constexpr int burst = 200;
     for (int i = 0; i < burst; ++i) {
-        if (hello_.at(to) && i % 2 == 0) {
-            wire::Hello hello = *hello_.at(to);
+        if (way.hello && i % 2 == 0) {
+            wire::Hello hello = *way.hello;
             hello.nonce += static_cast<std::uint32_t>(1 + below(1'000'000));
-            give(to, wire::encode(hello).bytes(), world_.now());
+            give(way, wire::encode(hello).bytes(), world_.now());
             continue;
         }
-        const auto& kept = remembered_.at(to);
+        const auto& kept = way.remembered;
         if (kept.empty()) return;
         Bytes bytes = kept[below(kept.size())]; // a true handshake, or a true head and noise
         const bool is_handshake = bytes.size() == secure::initiation_bytes &&
@@ -271,7 +299,7 @@ void Mallory::storm(std::size_t to)
             bytes[at] = static_cast<std::byte>(below(256));
         }
         if (!is_handshake && bytes.size() > 3) bytes[3] = static_cast<std::byte>(0x80 + below(16));
-        give(to, bytes, world_.now());
+        give(way, bytes, world_.now());
     }
 }
 

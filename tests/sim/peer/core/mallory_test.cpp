@@ -9,12 +9,12 @@
 namespace hapnet::test {
 namespace {
 
-void expect_to_hold(std::uint64_t seed, Seal seal)
+void expect_to_hold(std::uint64_t seed, Seal seal, std::size_t peers = 2)
 {
-    const AttackedSession session = play_attacked(seed, seal);
+    const AttackedSession session = play_attacked(seed, seal, peers);
     EXPECT_FALSE(session.complaint)
         << *session.complaint << "\nrepeat it: build/release/bin/soak_session "
-        << (seal == Seal::keys ? "keys " : "none ") << seed << " 1";
+        << (seal == Seal::keys ? "keys " : "none ") << seed << " 1 --peers " << peers;
     EXPECT_GT(session.datagrams, 0U);
 }
 
@@ -29,6 +29,18 @@ TEST_P(MalloryWithoutKey, HasNothingAcceptedThatTheOtherSideHasNotSealed)
 }
 INSTANTIATE_TEST_SUITE_P(Seed, MalloryWithoutKey,
                          testing::Range(std::uint64_t{0}, test::seeds(30)));
+
+/// On all links of three to five, of which each seed plays one.
+class MalloryAmongMany : public testing::TestWithParam<std::uint64_t> {};
+TEST_P(MalloryAmongMany, BringsNoForceBeyondItsLimits)
+{
+    expect_to_hold(GetParam(), Seal::none, 3 + GetParam() % 3);
+}
+TEST_P(MalloryAmongMany, WithoutKeyHasNothingAcceptedThatTheOthersHaveNotSealed)
+{
+    expect_to_hold(GetParam(), Seal::keys, 3 + GetParam() % 3);
+}
+INSTANTIATE_TEST_SUITE_P(Seed, MalloryAmongMany, testing::Range(std::uint64_t{0}, test::seeds(15)));
 
 // Both sides were started again with their dates hours back, and each took an initiation of the
 // other's former run, of a later date: they shut each other out for those hours.
