@@ -51,13 +51,16 @@ std::uint64_t total_of(const Json& dropped)
     return total;
 }
 
-bool is_from_peer(const Json& reply) { return at(reply, "/program") == "hapnet-peer"; }
+/// A peer of a session in virtual time is one, too.
+bool is_from_peer(const Json& reply) { return !at(reply, "/peer_id").is_null(); }
 
 std::string peer_text(const Json& reply)
 {
-    std::string text = fmt::format("hapnet-peer {}, started {:.2f} s ago, {}: {}\n",
-                                   text_at(reply, "/peer_id"), number_at(reply, "/elapsed_s"),
-                                   text_at(reply, "/state"), text_at(reply, "/says"));
+    std::string text =
+        fmt::format("{} {}, started {:.2f} s ago, {}: {}\n",
+                    at(reply, "/program") == "hapnet-lab" ? "hapnet-lab, peer" : "hapnet-peer",
+                    text_at(reply, "/peer_id"), number_at(reply, "/elapsed_s"),
+                    text_at(reply, "/state"), text_at(reply, "/says"));
     text += fmt::format(
         "task {}, scene {}, algorithm {}, seed {}, session {} s, force limit {} N\n",
         text_at(reply, "/task"), text_at(reply, "/scene"), text_at(reply, "/algorithm"),

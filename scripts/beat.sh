@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What is claimed of remote-proxy beyond the paper's algorithms: claims.csv, sessions.csv.
+# What is claimed of remote-proxy beyond the paper's algorithms: claims.csv,
+# claims_quantiles.csv, sessions.csv.
 # Options: scripts/experiment.sh --help.
 set -euo pipefail
 exec "$(dirname "${BASH_SOURCE[0]}")/experiment.sh" beat "$@"

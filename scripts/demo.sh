@@ -103,8 +103,10 @@ run_circle() {
     echo
     "$bin/hapnet-lab" analyse "${records[@]}" | tee "$folder/table.txt"
     "$bin/hapnet-lab" report "${records[@]}" >/dev/null
+    "$bin/hapnet-lab" demo-report "$out" --command "$command_line" --start "$start" \
+        --wall-time $((SECONDS - started))
     printf '\ndemo: the report with plots, a page to open: %s\n' "$folder/report.html"
-    printf 'demo: records, rows (CSV) and statistics are beside it\n'
+    printf 'demo: records, rows (CSV) and statistics are beside it, manifest.json is in %s\n' "$out"
 }
 
 # show_page: the live page, until Ctrl-C.
@@ -144,6 +146,8 @@ if [[ -n $web ]]; then
 fi
 if [[ -n $circle ]]; then
     [[ -n $programs ]] || build_programs hapnet-emulator hapnet-peer hapnet-lab
+    start=$(date -u +%FT%TZ)
+    started=$SECONDS
     seconds=${seconds:-20} task=T7
     [[ -z $scene ]] || task=T8
     run_circle "$task"

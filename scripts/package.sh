@@ -25,7 +25,10 @@ out=
 only=
 while (($# > 0)); do
     case $1 in
-    --out) out=${2:?$usage} && shift 2 ;;
+    --out)
+        [[ -n ${2-} ]] || refuse "--out: which folder?"
+        out=$2 && shift 2
+        ;;
     --only)
         [[ ${2-} == emulator ]] || refuse "--only: emulator"
         only=emulator && shift 2

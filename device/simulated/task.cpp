@@ -33,8 +33,10 @@ base::Result<Task> task_named(std::string_view name)
         fmt::format("unknown task '{}': use {}", name, fmt::join(base::names_of_enum<Task>, ", ")));
 }
 
-std::string_view scene_of(Task task)
+std::string_view scene_of(Task task, std::size_t peers)
 {
+    const bool is_for_many = task == Task::t1 || task == Task::t2 || task == Task::t3;
+    if (is_for_many && peers > 2) return "carry";
     if (task == Task::t4) return "lift";
     if (task == Task::t5) return "wall";
     if (task == Task::t7) return "carry";

@@ -7,6 +7,7 @@
 #include "proto/base/result.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -39,8 +40,9 @@ inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3, Ta
 /// "P1", "T1", ... "T10"
 [[nodiscard]] base::Result<Task> task_named(std::string_view name);
 
-/// The name of the built-in scene that the task is made for.
-[[nodiscard]] std::string_view scene_of(Task task);
+/// The name of the built-in scene that the task is made for. Where two play T1, T2 or T3 in the
+/// paper's scene, more play in one with room for their hands.
+[[nodiscard]] std::string_view scene_of(Task task, std::size_t peers = 2);
 
 /// The x of the path that the cube is to follow, metres, `seconds` from the start: the sum of
 /// four sines, cut off at the static cube, fitted so that the one-way delay of 160 ms alone gives

@@ -9,26 +9,57 @@
 #include "proto/net/result_file.hpp"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab {
 
+namespace {
+
+bool is_analysed(const std::string& task_folder)
+{
+    return std::filesystem::exists(task_folder + "/analysis.json");
+}
+
+void write_manifest(const DemoReportCommand& command, const nlohmann::ordered_json& manifest)
+{
+    net::ResultFile{command.folder + "/manifest.json"}.commit(manifest.dump(2) + '\n');
+}
+
+/// Of --peers and of --scene, whose page and table are those of its one session.
+base::Result<bool> conclude_circle(const DemoReportCommand& command, const std::string& task,
+                                   const results::Circumstances& circumstances)
+{
+    auto files = read_session_files(command.folder + '/' + task);
+    if (!files) return tl::unexpected{files.error()};
+    const results::CircleDemo demo{task, *std::move(files)};
+    write_manifest(command, circle_demo_manifest(demo, circumstances));
+    fmt::print("{}", circle_demo_verdict(demo));
+    return true;
+}
+
+} // namespace
+
 base::Result<bool> conclude_demo(const DemoReportCommand& command)
 {
-    for (const char* name : {"/p1/analysis.json", "/t3/analysis.json"}) {
-        if (std::filesystem::exists(command.folder + name)) continue;
-        return base::fail(fmt::format("{0} is not a folder of scripts/demo.sh: {0}{1} is missing",
-                                      command.folder, name));
+    const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
+                                               host()};
+    for (const char* task : {"t7", "t8"}) {
+        if (is_analysed(command.folder + '/' + task))
+            return conclude_circle(command, task, circumstances);
+    }
+    for (const char* task : {"/p1", "/t3"}) {
+        if (is_analysed(command.folder + task)) continue;
+        return base::fail(
+            fmt::format("{0} is not a folder of scripts/demo.sh: {0}{1}/analysis.json is missing",
+                        command.folder, task));
     }
     auto p1 = read_session_files(command.folder + "/p1");
     if (!p1) return tl::unexpected{p1.error()};
     auto t3 = read_session_files(command.folder + "/t3");
     if (!t3) return tl::unexpected{t3.error()};
     const results::DemoRun run{*std::move(p1), *std::move(t3)};
-    const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
-                                               host()};
-    net::ResultFile{command.folder + "/manifest.json"}.commit(
-        demo_manifest(run, circumstances).dump(2) + '\n');
+    write_manifest(command, demo_manifest(run, circumstances));
     const auto page = write_report({command.folder, {}});
     if (!page) return tl::unexpected{page.error()};
     fmt::print("{}", demo_table(run));

@@ -142,7 +142,8 @@ void add_demo_report(cli::Command& command, DemoReportCommand& demo)
 {
     command.describe("The last step of scripts/demo.sh: reads the records in a folder, prints them "
                      "beside the paper's Table 1, and writes manifest.json. Exit code 1: outside "
-                     "the bands.");
+                     "the bands. Of T7 or T8 it writes manifest.json and says whether the run is "
+                     "valid.");
     command.positional("DIR", "The folder of scripts/demo.sh", cli::into(demo.folder))
         .required("results/demo");
     command.add_exit_codes(demo_exit_codes);
@@ -154,7 +155,8 @@ void add_report(cli::Command& command, ReportCommand& report)
     command.describe(
         "Writes report.html, one self-contained page; also figures/*.svg. Of a folder: "
         "the results of its experiments beside the paper, of the demo, or of a "
-        "recorded session. Of two records or more: their session; the page is written "
+        "recorded session; of a folder of such folders, without a manifest.json of its own, it "
+        "writes one. Of two records or more: their session; the page is written "
         "beside the first.");
     command.add_exit_codes(exit_codes_without_run);
     command

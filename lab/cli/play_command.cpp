@@ -101,7 +101,8 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
             {algorithm, experiment.hands, experiment.tasks.front(), experiment.first_seed,
              experiment::parties_of(experiment).front()},
             experiment.path);
-        const auto trace = virtual_time::play(spec.setting);
+        const auto trace =
+            virtual_time::play(spec.setting, nullptr, virtual_time::Settling::always);
         if (!trace) return tl::unexpected{trace.error()};
         json["sessions"].push_back(
             {{"algorithm", algorithm.name}, {"metrics", to_json(metrics::metrics_of(*trace))}});
@@ -166,26 +167,28 @@ int play_live(const PlayCommand& command, live::Session& session, base::Duration
     if (!command.out.empty()) create_folder(command.out);
     SavedExperiments saved{command.out};
     live::Pace pace{command.pace, !command.paused};
+    bool is_over = false;
     const live::Controlled controlled{
-        session, pace, [&saved](const std::string& text) { return saved.save(text); }};
+        session, pace, [&saved](const std::string& text) { return saved.save(text); },
+        [&is_over] { is_over = true; }};
     std::vector<Served> all;
     all.push_back(
         {std::make_unique<control::Server>(command.control, limits), live::subject_of(controlled)});
     for (std::size_t seat = 0; seat < session.peers(); ++seat) {
         all.push_back({std::make_unique<control::Server>(
                            fmt::format("{}.peer-{}", command.control, seat + 1), limits),
-                       live::peer_subject(session, seat)});
+                       live::peer_subject(controlled, seat)});
     }
     std::vector<int> descriptors{stop.descriptor()};
     for (const Served& one : all) descriptors.push_back(one.server->descriptor());
     fmt::print("ready control={} peers={}\n", command.control, session.peers());
     std::fflush(stdout);
     auto last = net::monotonic_now();
-    while (!stop.requested()) {
+    while (!stop.requested() && !is_over) {
         const auto now = net::monotonic_now();
         play_a_turn(session, pace, now - std::exchange(last, now), tick);
         const auto end = now + turn;
-        while (!stop.requested()) {
+        while (!stop.requested() && !is_over) {
             auto deadline = std::optional{end};
             for (const Served& one : all) {
                 one.server->serve(one.subject, net::monotonic_now(), std::nullopt);

@@ -3,9 +3,12 @@
 #include "lab/cli/report_command.hpp"
 
 #include "lab/cli/files.hpp"
+#include "lab/cli/host.hpp"
 #include "lab/records/analysis.hpp"
 #include "lab/report/report.hpp"
 #include "lab/results/results.hpp"
+#include "lab/results/several.hpp"
+#include "proto/base/version.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
@@ -212,6 +215,21 @@ void say_what_is_replaced(const fs::path& path, std::string_view page)
                                         : fmt::format("a page about {}, not {}", before, now)));
 }
 
+/// Of a folder whose subfolders alone have one.
+void write_manifest(const Source& source)
+{
+    const auto& runs = source.results.runs;
+    const auto root = source.folder.generic_string();
+    const bool has_own = std::ranges::find(runs, root, &results::Run::folder) != runs.end();
+    if (runs.empty() || has_own) return;
+    const results::Circumstances circumstances{.command = "hapnet-lab report " + root,
+                                               .start = {},
+                                               .host = host(),
+                                               .program = base::version_line("hapnet-lab")};
+    net::ResultFile{root + "/manifest.json"}.commit(
+        several_manifest(source.results, root, circumstances).dump(2) + '\n');
+}
+
 } // namespace
 
 base::Result<std::string> write_report(const ReportCommand& command)
@@ -224,6 +242,7 @@ base::Result<std::string> write_report(const ReportCommand& command)
         if (file.path == "report.html") say_what_is_replaced(path, file.text);
         net::ResultFile{path.string()}.commit(file.text);
     }
+    if (command.record_b.empty()) write_manifest(*source);
     return (source->folder / "report.html").string();
 }
 

@@ -5,7 +5,6 @@
 #include "lab/experiment/grid.hpp"
 #include "lab/virtual_time/world.hpp"
 #include "proto/base/ensure.hpp"
-#include "scene/text/text.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -54,13 +53,6 @@ emulator::Path path_of(const ClaimCell& cell, const emulator::Path& ground)
                     {cell.burst_of_100 * thousand});
 }
 
-scene::Description carry()
-{
-    auto scene = scene::load_scene("carry", {});
-    base::ensure(scene.has_value());
-    return *std::move(scene);
-}
-
 /// The sessions of one algorithm.
 class CellSpecs {
 public:
@@ -73,11 +65,9 @@ public:
         const auto person = device::operator_named(cell.hands);
         base::ensure(person.has_value());
         const Hands hands{*person, *person};
-        auto spec = make_session_spec(experiment_,
-                                      {algorithm_, hands, task, seed, Party{.peers = cell.peers}},
-                                      path_of(cell, experiment_.path));
-        if (cell.peers > 2) spec.setting.scene = carry();
-        return spec;
+        return make_session_spec(experiment_,
+                                 {algorithm_, hands, task, seed, Party{.peers = cell.peers}},
+                                 path_of(cell, experiment_.path));
     }
 
 private:

@@ -21,7 +21,7 @@ struct ClaimCell {
     std::int64_t burst_of_100 = 0; // messages lost in a row
     std::vector<device::Task> tasks{};
     std::string_view hands = "nominal";
-    std::uint32_t peers = 2; // more than two play in the scene carry
+    std::uint32_t peers = 2;
 };
 [[nodiscard]] std::span<const ClaimCell> claim_cells();
 

@@ -18,10 +18,10 @@ namespace {
 /// 64 bits: among 10^5 sessions two are alike by chance once in 10^9 experiments.
 std::uint64_t hash_of(std::string_view text) { return base::Seed{}.stream(text).bits(0); }
 
-/// The scene that a task is made for.
-scene::Description scene_for(device::Task task)
+/// The scene that a task of so many peers is made for.
+scene::Description scene_for(device::Task task, std::size_t peers)
 {
-    const auto name = device::scene_of(task);
+    const auto name = device::scene_of(task, peers);
     if (name == "paper") return scene::paper_scene();
     const auto built_in = scene::load_scene(
         std::string{name}, [](const std::string& file) { return base::fail(file); });
@@ -60,7 +60,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     setting.task = one.task;
     setting.task_options = experiment.task_options;
     const auto& scene = one.party.scene;
-    setting.scene = scene ? experiment.scenes[*scene].scene : scene_for(one.task);
+    setting.scene = scene ? experiment.scenes[*scene].scene : scene_for(one.task, one.party.peers);
     setting.seed = base::Seed{one.seed};
     setting.length = experiment.duration;
     setting.tick = experiment.tick;

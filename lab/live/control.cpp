@@ -135,6 +135,14 @@ std::string shown(const std::string& reply, const Controlled& controlled)
     return control::line_of(json);
 }
 
+std::string stopped(Members& members, const Controlled& controlled)
+{
+    const auto whole = members.finish(true);
+    if (!whole) return control::refusal(whole.error().message);
+    controlled.stop();
+    return control::line_of(Json{{"ok", true}, {"stopping", true}, {"program", "hapnet-lab"}});
+}
+
 control::Answer answer_to(std::string_view line, const Controlled& controlled)
 {
     const auto json = control::parse_object(line);
@@ -142,7 +150,7 @@ control::Answer answer_to(std::string_view line, const Controlled& controlled)
     Members members{*json};
     const std::string command = members.text("command");
     if (command == "pace") return pace_reply(members, controlled);
-    if (command == "stop") return control::refusal("it ends with the program that plays it");
+    if (command == "stop") return stopped(members, controlled);
     auto answer = controlled.session.answer(line);
     const auto* reply = std::get_if<std::string>(&answer);
     if (command == "show" && reply != nullptr) return shown(*reply, controlled);
@@ -160,18 +168,16 @@ control::Subject subject_of(const Controlled& controlled)
             [controlled] { return controlled.session.watch(); }};
 }
 
-control::Subject peer_subject(Session& session, std::size_t seat)
+control::Subject peer_subject(const Controlled& controlled, std::size_t seat)
 {
-    return peer::subject_of({.show = [&session, seat] { return session.show_peer(seat); },
-                             .statistics =
-                                 [&session] {
-                                     return Json{{"program", "hapnet-lab"},
-                                                 {"elapsed_s", base::to_seconds(session.at())}};
-                                 },
-                             .stop = [] {},
-                             .stop_in_emergency = [] {},
-                             .scene = [&session] { return peer::scene_json(session.scene()); },
-                             .frames = [&session, seat] { return session.watch_peer(seat); }});
+    Session& session = controlled.session;
+    return peer::subject_of(
+        {.show = [&session, seat] { return session.show_peer(seat); },
+         .statistics = [&session, seat] { return session.peer_statistics(seat); },
+         .stop = controlled.stop,
+         .stop_in_emergency = controlled.stop,
+         .scene = [&session] { return peer::scene_json(session.scene()); },
+         .frames = [&session, seat] { return session.watch_peer(seat); }});
 }
 
 } // namespace hapnet::lab::live

@@ -18,12 +18,14 @@ struct Controlled {
     Pace& pace;
     /// Keeps the text of an experiment; gives the name of its file.
     std::function<base::Result<std::string>(const std::string& text)> save;
+    /// Ends it, as SIGTERM does.
+    std::function<void()> stop;
 };
 
 /// The socket of the network and of the pace: requests of an emulator, and `pace`.
 [[nodiscard]] control::Subject subject_of(const Controlled& controlled);
 
-/// The socket of a peer, which is only looked at.
-[[nodiscard]] control::Subject peer_subject(Session& session, std::size_t seat);
+/// The socket of a peer, which is looked at. A stop ends the session, of all its peers.
+[[nodiscard]] control::Subject peer_subject(const Controlled& controlled, std::size_t seat);
 
 } // namespace hapnet::lab::live

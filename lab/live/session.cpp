@@ -5,6 +5,7 @@
 #include "emulator/control/reply.hpp"
 #include "emulator/control/settings.hpp"
 #include "lab/experiment/session_spec.hpp"
+#include "peer/control/statistics.hpp"
 #include "proto/base/version.hpp"
 #include "proto/record/rows.hpp"
 
@@ -260,19 +261,10 @@ void Session::append_others(std::string& text) const
     text += "]}";
 }
 
-nlohmann::ordered_json Session::show_peer(std::size_t seat) const
+/// What both replies of a peer begin with.
+nlohmann::ordered_json Session::introduce_peer(std::size_t seat) const
 {
-    const virtual_time::VirtualPlayer& player = world_->side(seat);
     const virtual_time::Setting& setting = settings_.front();
-    const auto& session = player.peer().session();
-    const auto phase = std::string{record::name_of(player.last().phase)};
-    Json agreed = nullptr;
-    if (session) {
-        const base::TimePoint start = session->start - player.clock_ahead;
-        agreed = {{"number", session->number},
-                  {"role", seat % 2 == 0 ? "L" : "R"},
-                  {"at_s", base::to_seconds(world_->now() - start)}};
-    }
     return {{"program", "hapnet-lab"},
             {"version", base::version()},
             {"peer_id", seat + 1},
@@ -282,16 +274,49 @@ nlohmann::ordered_json Session::show_peer(std::size_t seat) const
             {"seed", setting.seed.value()},
             {"duration_s", base::to_seconds(setting.length)},
             {"device", "simulated Omni, in virtual time"},
-            {"tick_rate_hz", 1.0 / base::to_seconds(setting.tick)},
-            {"boot_id", "virtual time"},
-            {"held_s", nullptr},
-            {"elapsed_s", base::to_seconds(at())},
-            {"state", phase},
-            {"says", "plays in virtual time"},
-            {"phase", phase},
-            {"session", std::move(agreed)},
-            {"governor", device::name_of(player.rig.governor().state())},
-            {"fault", nullptr}};
+            {"force_limit_n", world_->side(seat).rig.governor().limits().force_max_n},
+            {"elapsed_s", base::to_seconds(at())}};
+}
+
+nlohmann::ordered_json Session::peer_statistics(std::size_t seat) const
+{
+    const virtual_time::VirtualPlayer& player = world_->side(seat);
+    const Json punctual{{"p50", 0.0}, {"p90", 0.0}, {"p99", 0.0}, {"p999", 0.0}, {"max", 0.0}};
+    Json statistics = introduce_peer(seat);
+    statistics["tick"] = {{"count", journals_[seat].ticks()},
+                          {"missed", 0},
+                          {"missed_share", 0.0},
+                          {"late_us", punctual}};
+    statistics["messages"] = peer::messages_json(player.peer().counters());
+    statistics["governor"] = peer::governor_json(peer::governor_figures(player.rig));
+    statistics["valid"] = true;
+    return statistics;
+}
+
+nlohmann::ordered_json Session::show_peer(std::size_t seat) const
+{
+    const virtual_time::VirtualPlayer& player = world_->side(seat);
+    const auto& session = player.peer().session();
+    const auto phase = std::string{record::name_of(player.last().phase)};
+    Json agreed = nullptr;
+    if (session) {
+        const base::TimePoint start = session->start - player.clock_ahead;
+        agreed = {{"number", session->number},
+                  {"role", seat % 2 == 0 ? "L" : "R"},
+                  {"at_s", base::to_seconds(world_->now() - start)}};
+    }
+    Json shown = introduce_peer(seat);
+    shown.update({{"tick_rate_hz", 1.0 / base::to_seconds(settings_.front().tick)},
+                  {"boot_id", "virtual time"},
+                  {"held_s", nullptr},
+                  {"state", phase},
+                  {"says", "plays in virtual time"},
+                  {"phase", phase},
+                  {"session", std::move(agreed)},
+                  {"force_n", base::norm(player.told())},
+                  {"governor", device::name_of(player.rig.governor().state())},
+                  {"fault", nullptr}});
+    return shown;
 }
 
 nlohmann::ordered_json Session::steps() const

@@ -64,6 +64,8 @@ public:
     [[nodiscard]] control::FrameSource watch_peer(std::size_t seat) { return taps_[seat].watch(); }
     /// What a peer says of itself, as a daemon does.
     [[nodiscard]] nlohmann::ordered_json show_peer(std::size_t seat) const;
+    /// Its counters, as far as there are any without sockets and a clock.
+    [[nodiscard]] nlohmann::ordered_json peer_statistics(std::size_t seat) const;
     [[nodiscard]] std::size_t peers() const { return settings_.front().players.size(); }
     [[nodiscard]] const scene::Description& scene() const { return settings_.front().scene; }
 
@@ -93,6 +95,7 @@ private:
     void note(const virtual_time::VirtualPlayer& player);
     [[nodiscard]] std::string apply(const std::string& line);
     void append_others(std::string& text) const;
+    [[nodiscard]] nlohmann::ordered_json introduce_peer(std::size_t seat) const;
 
     experiment::Experiment experiment_;
     std::vector<virtual_time::Setting> settings_; // of each algorithm

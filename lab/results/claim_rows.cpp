@@ -158,7 +158,7 @@ public:
         : experiment_{experiment}, criteria_{criteria}, sessions_{sessions}
     {}
 
-    std::vector<ClaimRow> rows() &&
+    ClaimTables tables() &&
     {
         claim_usable();
         claim_stiffness();
@@ -167,7 +167,7 @@ public:
         claim_contact_and_energy();
         claim_three();
         claim_silence();
-        return std::move(rows_);
+        return std::move(tables_);
     }
 
 private:
@@ -217,11 +217,13 @@ private:
     }
     void add(std::string claim, const std::vector<Number>& numbers)
     {
-        ClaimRow& row = rows_.emplace_back();
+        tables_.quantiles.push_back(
+            {.claim = claim,
+             .quantile = joined(numbers, [](const Number& n) { return said(n, n.all, 0.9); }),
+             .seeds = experiment_.seeds});
+        ClaimRow& row = tables_.claims.emplace_back();
         row.claim = std::move(claim);
-        row.seeds = experiment_.seeds;
         row.value = joined(numbers, [](const Number& n) { return said(n, n.judging, 1.0); });
-        row.quantile = joined(numbers, [](const Number& n) { return said(n, n.all, 0.9); });
         row.accept = joined(numbers, accepted);
         const auto is_empty = [](const Number& n) { return n.judging.empty(); };
         if (std::ranges::any_of(numbers, is_empty)) {
@@ -329,7 +331,7 @@ private:
     const experiment::Experiment& experiment_;
     const metrics::Criteria& criteria_;
     const ClaimSessions& sessions_;
-    std::vector<ClaimRow> rows_;
+    ClaimTables tables_;
 };
 
 using Stiffness = decltype(metrics::Metrics::stiffness_n_per_m);
@@ -384,11 +386,10 @@ ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
     return found;
 }
 
-std::vector<ClaimRow> make_claim_rows(const experiment::Experiment& experiment,
-                                      const metrics::Criteria& criteria,
-                                      const ClaimSessions& sessions)
+ClaimTables make_claim_tables(const experiment::Experiment& experiment,
+                              const metrics::Criteria& criteria, const ClaimSessions& sessions)
 {
-    return ClaimBook{experiment, criteria, sessions}.rows();
+    return ClaimBook{experiment, criteria, sessions}.tables();
 }
 
 std::vector<ClaimSessionRow> make_claim_session_rows(const metrics::Criteria& criteria,

@@ -28,15 +28,25 @@ struct ClaimRow {
     std::string value;  // its numbers: of the worst seed, or of their mean where the claim says so
     std::string accept; // what they have to keep
     ClaimVerdict verdict{};
-    std::string quantile;    // the numbers again: that which 9 of 10 of all seeds keep, or the mean
-    std::uint32_t seeds = 0; // all of them
 };
 constexpr auto fields_of(base::Tag<ClaimRow>)
 {
     using Row = ClaimRow;
     return base::fields("claims", base::field("claim", &Row::claim),
                         base::field("value", &Row::value), base::field("accept", &Row::accept),
-                        base::field("verdict", &Row::verdict),
+                        base::field("verdict", &Row::verdict));
+}
+
+/// Of claims_quantiles.csv: the numbers of the same claim in all seeds, which do not judge.
+struct ClaimQuantileRow {
+    std::string claim;
+    std::string quantile; // that which 9 of 10 seeds keep, or the mean
+    std::uint32_t seeds = 0;
+};
+constexpr auto fields_of(base::Tag<ClaimQuantileRow>)
+{
+    using Row = ClaimQuantileRow;
+    return base::fields("claims' quantiles", base::field("claim", &Row::claim),
                         base::field("quantile", &Row::quantile), base::field("seeds", &Row::seeds));
 }
 
@@ -102,9 +112,14 @@ struct ClaimSessions {
 [[nodiscard]] ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
                                               std::span<const experiment::JobResult> results);
 
-[[nodiscard]] std::vector<ClaimRow> make_claim_rows(const experiment::Experiment& experiment,
-                                                    const metrics::Criteria& criteria,
-                                                    const ClaimSessions& sessions);
+/// One row for each claim, in both.
+struct ClaimTables {
+    std::vector<ClaimRow> claims;
+    std::vector<ClaimQuantileRow> quantiles;
+};
+[[nodiscard]] ClaimTables make_claim_tables(const experiment::Experiment& experiment,
+                                            const metrics::Criteria& criteria,
+                                            const ClaimSessions& sessions);
 
 [[nodiscard]] std::vector<ClaimSessionRow>
 make_claim_session_rows(const metrics::Criteria& criteria, const ClaimSessions& sessions);

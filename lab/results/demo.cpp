@@ -160,6 +160,15 @@ std::vector<std::string> invalid_because(const DemoRun& run)
     return reasons;
 }
 
+std::string verdict_on(const std::vector<std::string>& reasons)
+{
+    if (reasons.empty()) return "The run is valid: it kept its own timing budget.\n";
+    std::string out =
+        "The run is NOT VALID; its numbers say more about this machine than about Hapnet:\n";
+    for (const std::string& reason : reasons) out += "  " + reason + '\n';
+    return out;
+}
+
 Json configuration_of(const SessionFiles& task)
 {
     Json configuration;
@@ -180,17 +189,38 @@ std::vector<records::TextTable> demo_tables(const DemoRun& run)
 std::string demo_table(const DemoRun& run)
 {
     const records::TextTable paper = against_paper(run);
-    auto out = fmt::format("{}\n{}\n{}\n", paper.caption, to_text(paper), to_text(both_tasks(run)));
-    const auto reasons = invalid_because(run);
-    if (reasons.empty()) return out + "The run is valid: it kept its own timing budget.\n";
-    out += "The run is NOT VALID; its numbers say more about this machine than about Hapnet:\n";
-    for (const std::string& reason : reasons) out += "  " + reason + '\n';
-    return out;
+    const auto out =
+        fmt::format("{}\n{}\n{}\n", paper.caption, to_text(paper), to_text(both_tasks(run)));
+    return out + verdict_on(invalid_because(run));
 }
 
 bool demo_is_met(const DemoRun& run)
 {
     return mean_is_met(run) && accounts_for_all(run.p1) && accounts_for_all(run.t3);
+}
+
+std::string circle_demo_verdict(const CircleDemo& demo)
+{
+    return verdict_on(demo.files.invalid_because());
+}
+
+Json circle_demo_manifest(const CircleDemo& demo, const Circumstances& circumstances)
+{
+    const auto reasons = demo.files.invalid_because();
+    const Json peers = demo.files.peer.value("peers", Json::array());
+    Json configuration = configuration_of(demo.files);
+    configuration["peers"] = peers;
+    Json manifest = manifest_head(circumstances);
+    manifest.update({{"kind", "demo"},
+                     {"title", fmt::format("{} peers, one cube, task {}", peers.size(),
+                                           demo.files.peer.value("task", ""))},
+                     {"configuration", {{demo.folder, std::move(configuration)}}},
+                     {"seeds",
+                      {{"peers", demo.files.peer.value("seed", Json{})},
+                       {"emulator", demo.files.emulator.value("seed", Json{})}}},
+                     {"valid", reasons.empty()},
+                     {"invalid_because", reasons}});
+    return manifest;
 }
 
 Json demo_manifest(const DemoRun& run, const Circumstances& circumstances)

@@ -28,6 +28,19 @@ struct DemoRun {
 /// task has accounted for every datagram.
 [[nodiscard]] bool demo_is_met(const DemoRun& run);
 
+/// Another task of the demo, of two hands or more: T7 or T8.
+struct CircleDemo {
+    std::string folder; // that of the task: "t7", "t8"
+    SessionFiles files;
+};
+
+/// Whether the session counts, in words.
+[[nodiscard]] std::string circle_demo_verdict(const CircleDemo& demo);
+
+/// The manifest of the folder in which that of the task is.
+[[nodiscard]] nlohmann::ordered_json circle_demo_manifest(const CircleDemo& demo,
+                                                          const Circumstances& circumstances);
+
 /// The manifest of the demo's folder.
 [[nodiscard]] nlohmann::ordered_json demo_manifest(const DemoRun& run,
                                                    const Circumstances& circumstances);

@@ -227,8 +227,10 @@ struct ResultsOf {
     base::Result<std::vector<File>> operator()(const experiment::Claims&) const
     {
         const auto sessions = claim_sessions_of(experiment, results);
+        const ClaimTables tables = make_claim_tables(experiment, criteria, sessions);
         return std::vector<File>{
-            {"claims.csv", base::csv_text(make_claim_rows(experiment, criteria, sessions))},
+            {"claims.csv", base::csv_text(tables.claims)},
+            {"claims_quantiles.csv", base::csv_text(tables.quantiles)},
             {"sessions.csv", base::csv_text(make_claim_session_rows(criteria, sessions))}};
     }
 

@@ -4,6 +4,7 @@
 
 #include "lab/records/recorded_trace.hpp"
 #include "lab/results/party_columns.hpp"
+#include "lab/results/several.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ Outcome add_run(const File& file, Results& results)
         file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
         false);
     if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
+    if (is_of_several(json)) return {}; // the folders that it names have their own
     Run run{folder_of(file.path), std::move(json), std::nullopt};
     const auto criteria = run.manifest.find("criteria");
     if (criteria != run.manifest.end() && criteria->is_string()) {
@@ -126,6 +128,7 @@ constexpr std::array kinds{FileKind{"manifest.json", add_run},
                            FileKind{"qos.csv", add_rows<&Results::qos>},
                            FileKind{"qos_by_point.csv", add_points},
                            FileKind{"claims.csv", add_rows<&Results::claims>},
+                           FileKind{"claims_quantiles.csv", add_rows<&Results::claims_quantiles>},
                            FileKind{"real_time.csv", add_rows<&Results::real_time>}};
 
 constexpr FileKind replay_kind{"*.csv", add_replay};

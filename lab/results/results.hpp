@@ -52,6 +52,7 @@ struct Results {
     std::vector<PointQosRow> qos_by_point;
     std::vector<RealTimeRow> real_time;
     std::vector<ClaimRow> claims;
+    std::vector<ClaimQuantileRow> claims_quantiles;
     std::vector<SessionRow> rows_of_sessions; // of the experiments of Table 1
     std::vector<AxisLimitRow> limits_by_axis;
     std::vector<PairedRow> paired;

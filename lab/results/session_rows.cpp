@@ -135,7 +135,7 @@ private:
                 .hands = name_of(hands),
                 .peers = party.peers,
                 .scene = party.scene ? experiment_.scenes[*party.scene].name
-                                     : std::string{device::scene_of(task)},
+                                     : std::string{device::scene_of(task, party.peers)},
                 .duration_s = base::to_seconds(experiment_.duration)};
     }
 

@@ -27,6 +27,8 @@ public:
     /// After each of its ticks.
     void on_tick();
 
+    /// Its ticks so far.
+    [[nodiscard]] std::uint64_t ticks() const { return tick_; }
     /// Whether its bodies have rows of their own.
     [[nodiscard]] bool has_bodies() const { return has_bodies_; }
 

@@ -46,8 +46,11 @@ bool is_playing(const VirtualPlayer& player) { return player.last().phase == pee
 /// A session on its way.
 class Play {
 public:
-    explicit Play(VirtualWorld& world)
-        : world_{world}, tick_{world.setting().tick}, tracks_(world.setting().players.size())
+    Play(VirtualWorld& world, Settling settling)
+        : world_{world},
+          settling_{settling},
+          tick_{world.setting().tick},
+          tracks_(world.setting().players.size())
     {}
 
     /// Until it is over; false when `stop` became true before.
@@ -72,6 +75,7 @@ private:
     [[nodiscard]] bool has_any_session() const;
 
     VirtualWorld& world_;
+    Settling settling_;
     base::Duration tick_;
     std::vector<Track> tracks_; // of each side
     std::vector<Settled> settled_;
@@ -106,12 +110,14 @@ bool Play::has_any_session() const
     return false;
 }
 
-/// Plays on with hands off where the copies of what is shared take their time to agree again.
+/// Plays on with hands off.
 void Play::settle()
 {
     const peer::Peer& peer = world_.side(0).peer();
     const base::Duration hands_off = peer.length() - peer.hands_on();
-    if (peer::is_one_without_turning(peer.shared()) || hands_off <= settles_within) return;
+    const bool agrees_soon = peer::is_one_without_turning(peer.shared());
+    if (settling_ == Settling::where_it_takes_time && agrees_soon) return;
+    if (hands_off <= settles_within) return;
     const base::TimePoint let_go = world_.now();
     while (world_.now() < let_go + hands_off) {
         world_.step();
@@ -206,22 +212,22 @@ Trace Play::trace() &&
 
 } // namespace
 
-std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop)
+std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop, Settling settling)
 {
-    Play session{world};
+    Play session{world, settling};
     if (!session.run(stop)) return std::nullopt;
     return std::move(session).trace();
 }
 
-base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop)
+base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop, Settling settling)
 {
     if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     VirtualWorld world{setting};
-    std::optional<Trace> trace = play_out(world, stop);
+    std::optional<Trace> trace = play_out(world, stop, settling);
     if (trace && has_overflowed(world)) {
         // Datagrams were in flight by the thousand: again, with the memory that the emulator has.
         VirtualWorld roomy{setting, {}};
-        trace = play_out(roomy, stop);
+        trace = play_out(roomy, stop, settling);
     }
     if (!trace) return base::fail("stopped before its end");
     return *std::move(trace);

@@ -207,15 +207,6 @@ base::Result<void> check_circle(const Options& options)
     return {};
 }
 
-/// That of the task; what two carry in the paper's scene, more carry in one with room for them.
-std::string_view scene_for(const Options& options)
-{
-    using device::Task;
-    const bool is_carried =
-        options.task == Task::t1 || options.task == Task::t2 || options.task == Task::t3;
-    return device::scene_of(is_carried && !options.is_pair() ? Task::t7 : options.task);
-}
-
 base::Result<std::size_t> parse_wait_for(const std::string& text)
 {
     if (text == "all") return std::size_t{0};
@@ -300,7 +291,8 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
         "--scene", "FILE|NAME",
         "A scene in TOML, or a built-in one by name; at most 8 of its bodies are movable "
         "(default: the task's; lift for T4, wall for T5, carry for T7, turning for T8, "
-        "stack-of-three for T9, bench for T10, paper for the others)",
+        "stack-of-three for T9, bench for T10, paper for the others; carry for T1, T2 and T3 of "
+        "more than two)",
         [&options](const std::string& text) { return take_scene(text, options); });
     add_force_options(program, options);
     program.option("--task", "P1|T1|...|T10", "What the hands do, simulated or yours (default P1)",
@@ -345,7 +337,9 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
     if (auto fine = check_results(options); !fine) return fine;
     if (auto fine = cli::check_keep(options.keep, options.control.has_value()); !fine) return fine;
     if (!program.is_given("--scene")) {
-        const auto taken = take_scene(std::string{scene_for(options)}, options);
+        const std::size_t peers = options.is_pair() ? 2 : 1 + options.others.size();
+        const auto scene = device::scene_of(options.task, peers);
+        const auto taken = take_scene(std::string{scene}, options);
         if (!taken) return base::fail(fmt::format("--scene: {}", taken.error().message));
     }
     const auto played = check_bodies_of(options.algorithm, shared_bodies(options.scene).value());

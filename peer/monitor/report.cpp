@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/report.hpp"
 
+#include "peer/control/statistics.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/monitor/monitor.hpp"
 #include "proto/base/text.hpp"
@@ -62,19 +63,11 @@ std::uint64_t strangers_of(const loop::ServoStatus& status)
 
 json messages_json(const Run& run)
 {
-    const Counters& c = run.status.messages;
-    return {{"states_sent", c.sent},
-            {"states_received", c.states},
-            {"outdated", c.outdated},
-            {"other_session", c.other_session},
-            {"hellos", c.hellos},
-            {"byes", c.byes},
-            {"malformed", c.malformed},
-            {"other_version", c.other_version},
-            {"implausible", c.implausible},
-            {"strangers", strangers_of(run.status)},
-            {"overflowed", run.status.overflowed},
-            {"send_failed", run.status.loop.send_failures}};
+    json out = peer::messages_json(run.status.messages);
+    out["strangers"] = strangers_of(run.status);
+    out["overflowed"] = run.status.overflowed;
+    out["send_failed"] = run.status.loop.send_failures;
+    return out;
 }
 
 /// null without a key.
@@ -197,43 +190,16 @@ json others_json(const loop::ServoStatus& status)
 json governor_json(const Run& run)
 {
     const loop::ServoStatus& status = run.status;
-    const device::GovernorCounters& c = status.governor;
-    const device::RigCounters& device = status.device;
-    return {{"state", device::name_of(status.governor_state)},
-            {"fault", device::name_of(status.fault.fault)},
-            {"tripped_by", device::name_of(status.fault.trip)},
-            {"force_limit_n", status.force_limit_n},
-            {"motor_heat", status.motor_heat},
-            {"not_finite", c.not_finite},
-            {"clamped", c.clamped},
-            {"heat_limited", c.heat_limited},
-            {"joint_limited", c.joint_limited},
-            {"flattened", c.flattened},
-            {"outside", c.outside},
-            {"slewed", c.slewed},
-            {"faded", c.faded},
-            {"stalled", c.stalled},
-            {"silent", c.silent},
-            {"docked", c.docked},
-            {"uncalibrated", c.uncalibrated},
-            {"too_fast", c.too_fast},
-            {"faults",
-             {{"device", c.device_faults},
-              {"silence", c.silence_faults},
-              {"loop", c.loop_faults},
-              {"speed", c.speed_trips},
-              {"jump", c.jump_trips},
-              {"nonsense", c.nonsense_trips},
-              {"frozen", c.frozen_trips},
-              {"runaway", c.runaway_trips}}},
-            {"resets", c.resets},
-            {"watchdog_halts", run.status.watchdog_halts},
-            {"withheld", run.status.loop.withheld},
-            {"unusable_samples", run.status.messages.unusable_hand},
-            {"device",
-             {{"reads", device.reads},
-              {"repeated", device.repeated},
-              {"repeated_most", device.repeated_most}}}};
+    json out = peer::governor_json({.state = status.governor_state,
+                                    .fault = status.fault,
+                                    .force_limit_n = status.force_limit_n,
+                                    .motor_heat = status.motor_heat,
+                                    .counters = status.governor,
+                                    .device = status.device});
+    out["watchdog_halts"] = status.watchdog_halts;
+    out["withheld"] = status.loop.withheld;
+    out["unusable_samples"] = status.messages.unusable_hand;
+    return out;
 }
 
 json energy_json(const loop::ServoStatus& status)

@@ -29,6 +29,11 @@ for peers in 2 3; do
     grep -q '^cube  ' "$out/said" || fail "no table of bodies of $peers hands"
     head -n 1 "$folder/t8/peer-1-bodies.csv" | grep -q '^time_s,tick,body,.*,orientation_w' ||
         fail "the rows of bodies"
+    jq -e --argjson peers "$peers" '.kind == "demo" and (.command | startswith("scripts/demo.sh "))
+        and (.configuration.t8.peers | length) == $peers and .configuration.t8.task == "T8"
+        and .seeds == {"peers": 1, "emulator": 42} and .wall_time_s >= 6
+        and (.valid == ((.invalid_because | length) == 0)) and (.host | type) == "object"' \
+        "$folder/manifest.json" >/dev/null || fail "the manifest: $(<"$folder/manifest.json")"
     # The copies agree again by the end.
     jq -e '.bodies["0"].name == "cube" and .bodies["0"].turned_apart_deg.max >= 0
         and .settled_discrepancy_mm <= 0.1 and .settled_turned_apart_deg <= 0.1' \

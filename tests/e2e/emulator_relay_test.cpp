@@ -258,6 +258,23 @@ TEST(Emulator, IsNotValidWhenItHasNoRoomForWhatIsInFlight)
     EXPECT_EQ(statistics["valid"], false);
 }
 
+TEST(Emulator, SaysOfAFewLateDatagramsWhatItsStatisticsSay)
+{
+    Host a;
+    Host b;
+    Emulator emulator{naming(a, b, {"--delay", "1ms", "--budget", "1ns"})};
+    a.send(emulator.a(), 0);
+    ASSERT_EQ(b.receive(1, 5s).size(), 1U);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["valid"], false);
+    EXPECT_EQ(statistics["down"]["valid"], true);
+    const std::string& summary = emulator.process().err();
+    EXPECT_EQ(times_in(summary, "NOT VALID"), 1) << summary;
+    EXPECT_NE(summary.find("p99 of so few datagrams is the latest of them"), std::string::npos)
+        << summary;
+    EXPECT_EQ(summary.find("too few datagrams"), std::string::npos) << summary;
+}
+
 TEST(Emulator, SurvivesRandomBytesOfAllSizesOnBothSockets)
 {
     Host a;

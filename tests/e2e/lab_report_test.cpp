@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace hapnet::e2e {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 constexpr const char* table1 =
     "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,verdict,class,"
@@ -49,6 +51,48 @@ TEST(LabReport, WritesThePageAndItsFiguresOfAFolderAndItsSubfolders)
     EXPECT_NE(page.find("Data: <a href='qos.csv'>"), std::string::npos);
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     EXPECT_EQ(text_of((folder / "report.html").string()), page) << "made again, it is the same";
+}
+
+TEST(LabReport, WritesTheManifestOfAFolderOfResultsAndAgainWhenOneHasChanged)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("all");
+    const auto part = [](const std::string& start, bool is_valid) {
+        return Json{{"command", "hapnet-lab run"},
+                    {"title", "a title"},
+                    {"seeds", {1, 2}},
+                    {"configuration", "kind = \"plane\"\n"},
+                    {"start", start},
+                    {"wall_time_s", 1.5},
+                    {"valid", is_valid}}
+            .dump();
+    };
+    write_file(folder / "qos/manifest.json", part("2026-11-25T10:00:00Z", true));
+    write_file(folder / "table1/manifest.json", part("2026-11-25T09:00:00Z", true));
+    write_file(folder / "table1/table1.csv", table1);
+    ASSERT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
+    auto manifest = Json::parse(text_of((folder / "manifest.json").string()));
+    EXPECT_EQ(manifest["kind"], "several");
+    EXPECT_EQ(manifest["start"], "2026-11-25T09:00:00Z");
+    EXPECT_EQ(manifest["wall_time_s"], 3.0);
+    EXPECT_EQ(manifest["valid"], true);
+    ASSERT_EQ(manifest["results"].size(), 2U);
+    EXPECT_EQ(manifest["results"][0]["folder"], "qos");
+    EXPECT_EQ(manifest["results"][1]["folder"], "table1");
+    EXPECT_EQ(manifest["seeds"]["qos"], (Json{1, 2}));
+    const auto page = text_of((folder / "report.html").string());
+
+    write_file(folder / "qos/manifest.json", part("2026-11-25T10:00:00Z", false));
+    ASSERT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
+    manifest = Json::parse(text_of((folder / "manifest.json").string()));
+    EXPECT_EQ(manifest["results"].size(), 2U) << "it does not name itself";
+    EXPECT_EQ(manifest["valid"], false);
+    EXPECT_EQ(manifest["invalid_because"][0], "qos is not valid");
+
+    write_file(folder / "manifest.json", part("2026-11-25T11:00:00Z", true));
+    ASSERT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
+    EXPECT_EQ(text_of((folder / "manifest.json").string()), part("2026-11-25T11:00:00Z", true))
+        << "that of a run stays";
 }
 
 /// The record of a peer that moved the cube to x and took part for a second.

@@ -8,6 +8,7 @@ import { cpus, loadavg, platform, release } from "node:os";
 import { parseArgs } from "node:util";
 
 import { missing, openPage, startBrowser, startWeb } from "../../web/browser.mjs";
+import { rowOf } from "./rows.mjs";
 
 const { values: chosen } = parseArgs({
   options: { quick: { type: "boolean", default: false }, json: { type: "string" } },
@@ -190,7 +191,10 @@ try {
     load: loadavg()[0], browser: browser.version(),
   };
   console.log(JSON.stringify(host));
-  if (chosen.json) writeFileSync(chosen.json, `${JSON.stringify({ host, rows }, null, 1)}\n`);
+  if (chosen.json) {
+    const written = rows.map((row) => rowOf({ ...row, subject: "hapnet-web" }));
+    writeFileSync(chosen.json, `${JSON.stringify({ host, rows: written }, null, 1)}\n`);
+  }
 } finally {
   await browser.close();
   await web.stop();

@@ -21,6 +21,7 @@ const Json emulator{{"elapsed_s", 2.0},
                       {"lateness_us", {{"p99", 84.5}}}}},
                     {"down", {{"received", 5}}}};
 const Json peer{{"program", "hapnet-peer"},
+                {"peer_id", 2},
                 {"elapsed_s", 2.0},
                 {"messages", {{"states_sent", 9}, {"states_received", 2000}}},
                 {"governor", {{"state", "ready"}, {"fault", nullptr}}}};
@@ -67,6 +68,23 @@ TEST(InWords, TellsHowLongWasWaited)
               "up.received>1000: not met within 200ms (2.44 s after the start)\n");
     reply["met"] = true;
     EXPECT_EQ(in_words(options, reply), "up.received>1000: met 2.44 s after the start\n");
+}
+
+TEST(InWords, TellsAPeerInVirtualTimeFromTheEmulatorBesideIt)
+{
+    Json reply{{"program", "hapnet-lab"}, {"peer_id", 2},       {"task", "T3"},
+               {"elapsed_s", 3.25},       {"state", "running"}, {"says", "plays in virtual time"}};
+    const std::string shown = in_words(asked("show"), reply);
+    EXPECT_EQ(shown.rfind("hapnet-lab, peer 2, started 3.25 s ago, running: plays in virtual "
+                          "time\ntask T3, ",
+                          0),
+              0U)
+        << shown;
+    Json statistics = peer;
+    statistics["program"] = "hapnet-lab";
+    EXPECT_EQ(WatchPrinter{false}.next(statistics), WatchPrinter{false}.next(peer));
+    reply.erase("peer_id");
+    EXPECT_EQ(in_words(asked("show"), reply).rfind("# generation ", 0), 0U);
 }
 
 TEST(InWords, TellsTheTimeOfThePeerFromThatOfItsSession)

@@ -119,6 +119,20 @@ TEST(Play, OfASessionThatOneSideHearsOfLateBeginsWithThatSide)
     EXPECT_NEAR(trace->overlap, 1.0 - base::to_seconds(trace->begin) / 5.0, 0.001);
 }
 
+TEST(Play, OfOneBodyThatCannotTurnSaysHowItSettlesWhereThatIsAsked)
+{
+    Setting setting = under(Task::t3, {.delay = emulator::constant(80ms)});
+    setting.length = 6s;
+    const auto usual = play(setting);
+    const auto settled = play(setting, nullptr, Settling::always);
+    ASSERT_TRUE(usual && settled);
+    EXPECT_TRUE(usual->settled.empty());
+    ASSERT_EQ(settled->settled.size(), 1U);
+    EXPECT_LT(settled->settled[0].metres, 1e-5) << "all let go two seconds ago";
+    EXPECT_GT(settled->simulated, usual->simulated + 2s);
+    EXPECT_EQ(settled->sides[0].size(), usual->sides[0].size()) << "hands off is not scored";
+}
+
 TEST(Play, EndsWhenItIsStopped)
 {
     const std::atomic<bool> stop{true};

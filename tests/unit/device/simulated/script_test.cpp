@@ -209,6 +209,13 @@ TEST(Tasks, AreMadeForScenes)
     EXPECT_EQ(scene_of(Task::p1), "paper");
     EXPECT_EQ(scene_of(Task::t4), "lift");
     EXPECT_EQ(scene_of(Task::t5), "wall");
+    EXPECT_EQ(scene_of(Task::t7), "carry");
+    for (const Task task : {Task::t1, Task::t2, Task::t3}) {
+        EXPECT_EQ(scene_of(task), "paper");
+        EXPECT_EQ(scene_of(task, 3), "carry");
+    }
+    EXPECT_EQ(scene_of(Task::p1, 3), "paper");
+    EXPECT_EQ(scene_of(Task::t4, 3), "lift");
 }
 
 } // namespace

@@ -128,7 +128,7 @@ TEST(ExperimentText, HasConditionsOfSingleLinksBesideThoseOfAll)
 
 TEST(ExperimentText, BecomesOneBySettings)
 {
-    const std::string plane = "kind = \"plane\"\ntasks = \"T3\"\nalgorithms = \"base\"\npeers = 3\n"
+    const std::string plane = "kind = \"plane\"\ntasks = \"T6\"\nalgorithms = \"base\"\npeers = 3\n"
                               "[plane]\ndelay = [\"0ms\"]\njitter = [\"0ms\"]\nloss = [\"0%\"]\n";
     expect_words(complaint(plane), {"mine.toml:", "the scene 'paper' has 2 hands"});
     EXPECT_EQ(complaint(plane, {"scene=carry"}), "");
@@ -145,9 +145,11 @@ TEST(ExperimentText, SaysWhoCannotPlay)
                               "loss = [\"0%\"]\n";
     const auto says = [&](std::vector<std::string> settings) { return complaint(plane, settings); };
     EXPECT_EQ(says({"tasks=T7", "algorithms=base", "peers=8"}), "");
-    expect_words(says({"tasks=T3", "algorithms=base", "peers=3"}),
+    expect_words(says({"tasks=T6", "algorithms=base", "peers=3"}),
+                 {"T6, 3 peers", "the scene 'paper' has 2 hands"});
+    expect_words(says({"tasks=T3", "algorithms=base", "peers=3", "scene=paper"}),
                  {"T3, 3 peers", "the scene 'paper' has 2 hands"});
-    EXPECT_EQ(says({"tasks=T3", "algorithms=base", "peers=3", "scene=carry"}), "");
+    EXPECT_EQ(says({"tasks=[\"T1\", \"T2\", \"T3\"]", "algorithms=base", "peers=[2, 3]"}), "");
     expect_words(says({"tasks=T7", "algorithms=[\"base\", \"sep\"]", "peers=3"}),
                  {"sep is made for two", "use base"});
     expect_words(says({"tasks=T7", "algorithms=base", "peers=9"}), {"peers", "2", "8"});

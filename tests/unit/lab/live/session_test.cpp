@@ -193,11 +193,11 @@ TEST(LiveControl, PausesSeeksAndSaves)
     const auto session = session_of(of_text());
     Pace pace{1.0, true};
     std::string saved;
-    const auto subject =
-        subject_of({*session, pace, [&](const std::string& text) {
-                        saved = text;
-                        return base::Result<std::string>{"/there/experiment-1.toml"};
-                    }});
+    const auto save = [&](const std::string& text) {
+        saved = text;
+        return base::Result<std::string>{"/there/experiment-1.toml"};
+    };
+    const auto subject = subject_of({*session, pace, save, [] { FAIL() << "nobody stops it"; }});
     const auto said = [&](const std::string& line) {
         return nlohmann::json::parse(std::get<std::string>(subject.answer(line, {})));
     };
@@ -210,7 +210,7 @@ TEST(LiveControl, PausesSeeksAndSaves)
          {R"({"command":"pace"})", R"({"command":"pace","do":"fly"})",
           R"({"command":"pace","do":"seek"})", R"({"command":"pace","do":"seek","to_s":-1})",
           R"({"command":"pace","do":"factor","factor":1000})",
-          R"({"command":"pace","do":"play","more":1})", R"({"command":"stop"})"}) {
+          R"({"command":"pace","do":"play","more":1})", R"({"command":"stop","more":1})"}) {
         EXPECT_FALSE(said(wrong)["ok"]) << wrong;
     }
     EXPECT_EQ(session->at(), 4016ms) << "what is refused does nothing";
@@ -219,6 +219,46 @@ TEST(LiveControl, PausesSeeksAndSaves)
     const auto shown = said(R"({"command":"show"})");
     EXPECT_EQ(shown["peers"], 2);
     EXPECT_EQ(shown["conditions"]["up.delay"], "20ms");
+}
+
+TEST(LiveControl, CountsWhatItsPeersDo)
+{
+    const auto session = session_of(of_text());
+    Pace pace{1.0, true};
+    const auto subject = peer_subject({*session, pace, {}, [] {}}, 1);
+    session->play_to(4s);
+    const auto statistics = subject.statistics();
+    EXPECT_EQ(statistics["program"], "hapnet-lab");
+    EXPECT_EQ(statistics["peer_id"], 2);
+    EXPECT_EQ(statistics["elapsed_s"], 4.0);
+    EXPECT_NEAR(statistics["tick"]["count"].get<double>(), 4000.0, 1.0);
+    EXPECT_EQ(statistics["tick"]["late_us"]["p99"], 0.0);
+    // In session after a second; a tenth is lost, 20 ms are on their way.
+    EXPECT_NEAR(statistics["messages"]["states_sent"].get<double>(), 3000.0, 100.0);
+    EXPECT_NEAR(statistics["messages"]["states_received"].get<double>(), 2680.0, 150.0);
+    EXPECT_EQ(statistics["governor"]["force_limit_n"], 3.3);
+    const auto shown =
+        nlohmann::json::parse(std::get<std::string>(subject.answer(R"({"command":"show"})", {})));
+    EXPECT_EQ(shown["state"], "running");
+    EXPECT_EQ(shown["force_limit_n"], 3.3);
+    EXPECT_TRUE(shown["force_n"].is_number());
+}
+
+TEST(LiveControl, EndsByAnyOfItsSockets)
+{
+    const auto session = session_of(of_text());
+    Pace pace{1.0, true};
+    int stops = 0;
+    const Controlled controlled{*session, pace, {}, [&stops] { ++stops; }};
+    const auto says = [](const control::Subject& subject, const std::string& line) {
+        return nlohmann::json::parse(std::get<std::string>(subject.answer(line, {})));
+    };
+    EXPECT_EQ(says(subject_of(controlled), R"({"command":"stop"})")["program"], "hapnet-lab");
+    EXPECT_EQ(stops, 1);
+    EXPECT_TRUE(says(peer_subject(controlled, 0), R"({"command":"stop"})")["stopping"]);
+    EXPECT_EQ(stops, 2);
+    EXPECT_TRUE(says(peer_subject(controlled, 1), R"({"command":"estop"})")["ok"]);
+    EXPECT_EQ(stops, 3);
 }
 
 TEST(Pace, OwesWholeTicks)

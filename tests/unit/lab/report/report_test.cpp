@@ -59,10 +59,12 @@ TEST(Report, ShowsNumbersBesideThePapersWithTheirBandsAndMissesInRed)
 
 TEST(Report, ShowsWhatIsClaimedBeyondThePaperAndWhatOfItIsMissed)
 {
-    const std::string page = page_of({sample_claims()});
+    const std::string page = page_of({sample_claims(), sample_claims_quantiles()});
     EXPECT_TRUE(holds(page, "2 claims, made before the first run; 1 missed"));
-    EXPECT_TRUE(holds(page, "<td class='ours'>5.97, 5.42</td>"));
-    EXPECT_TRUE(holds(page, "<td class='ours missed'>0.98 to 1.46</td>"));
+    EXPECT_TRUE(holds(page, "<td class='ours'>5.97, 5.42</td><td class='ours'>5.96, 5.41</td>"));
+    EXPECT_TRUE(
+        holds(page, "<td class='ours missed'>0.98 to 1.46</td><td class='ours'>0.98 to 1.32</td>"));
+    EXPECT_FALSE(holds(page_of({sample_claims()}), "0.98 to 1.32")) << "one file alone is shown";
     EXPECT_TRUE(holds(page, "<span class='badge missed'>missed</span>"));
 }
 

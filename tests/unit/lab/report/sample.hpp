@@ -118,17 +118,25 @@ inline results::File sample_replay()
 
 inline results::File sample_claims()
 {
-    return {"r/beat/claims.csv",
-            "claim,value,accept,verdict,quantile,seeds\n"
-            "\"mean discrepancy: P1, T1\",\"5.97, 5.42\",\"<= 6, <= 7\",met,\"5.97, 5.42\",40\n"
-            "stiffness at 100 ms,0.98 to 1.46,0.75 to 1.25,missed,0.98 to 1.32,40\n"};
+    return {"r/beat/claims.csv", "claim,value,accept,verdict\n"
+                                 "\"mean discrepancy: P1, T1\",\"5.97, 5.42\",\"<= 6, <= 7\",met\n"
+                                 "stiffness at 100 ms,0.98 to 1.46,0.75 to 1.25,missed\n"};
+}
+
+inline results::File sample_claims_quantiles()
+{
+    return {"r/beat/claims_quantiles.csv", "claim,quantile,seeds\n"
+                                           "stiffness at 100 ms,0.98 to 1.32,40\n"
+                                           "\"mean discrepancy: P1, T1\",\"5.96, 5.41\",40\n"};
 }
 
 inline std::vector<results::File> whole_sample()
 {
-    return {sample_manifest(),    sample_table1(),    sample_tasks(),       sample_limits(),
-            sample_loss_limits(), sample_curves(),    sample_conventions(), sample_trajectories(),
-            sample_qos(),         sample_real_time(), sample_replay(),      sample_claims()};
+    return {sample_manifest(),        sample_table1(),       sample_tasks(),
+            sample_limits(),          sample_loss_limits(),  sample_curves(),
+            sample_conventions(),     sample_trajectories(), sample_qos(),
+            sample_real_time(),       sample_replay(),       sample_claims(),
+            sample_claims_quantiles()};
 }
 
 /// The files of the report of these; must be readable.

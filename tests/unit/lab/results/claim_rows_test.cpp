@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/claim_rows.hpp"
 
+#include "proto/base/csv.hpp"
+
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -48,7 +50,7 @@ ClaimSessions perfect(const experiment::Experiment& experiment)
 ClaimRow row_of(const experiment::Experiment& experiment, const ClaimSessions& sessions,
                 std::string_view claim)
 {
-    const auto rows = make_claim_rows(experiment, metrics::Criteria{}, sessions);
+    const auto rows = make_claim_tables(experiment, metrics::Criteria{}, sessions).claims;
     const auto found = std::ranges::find(rows, claim, &ClaimRow::claim);
     return found == rows.end() ? ClaimRow{} : *found;
 }
@@ -65,9 +67,18 @@ metrics::Scores& scores_in(ClaimSessions& sessions, std::string_view cell, Task 
 TEST(ClaimRows, AreAllMetByPerfectSessions)
 {
     const auto experiment = claims_of(4, 2);
-    const auto rows = make_claim_rows(experiment, metrics::Criteria{}, perfect(experiment));
+    const auto [rows, of_all] =
+        make_claim_tables(experiment, metrics::Criteria{}, perfect(experiment));
     EXPECT_EQ(rows.size(), 15U);
     for (const ClaimRow& row : rows) EXPECT_EQ(row.verdict, ClaimVerdict::met) << row.claim;
+    ASSERT_EQ(of_all.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(of_all[i].claim, rows[i].claim);
+        EXPECT_EQ(of_all[i].seeds, 4U);
+    }
+    const std::string csv = base::csv_text(rows);
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), "claim,value,accept,verdict")
+        << "others read these columns";
 }
 
 TEST(ClaimRows, AreJudgedByTheWorstOfTheSeedsThatJudgeAndByNoOther)
@@ -80,7 +91,9 @@ TEST(ClaimRows, AreJudgedByTheWorstOfTheSeedsThatJudgeAndByNoOther)
     ClaimRow row = row_of(experiment, sessions, claim);
     EXPECT_EQ(row.verdict, ClaimVerdict::met);
     EXPECT_EQ(row.value, "1");
-    EXPECT_EQ(row.quantile, "0.1"); // a tenth of four is the least
+    const auto of_all = make_claim_tables(experiment, metrics::Criteria{}, sessions).quantiles;
+    EXPECT_EQ(std::ranges::find(of_all, claim, &ClaimQuantileRow::claim)->quantile, "0.1")
+        << "a tenth of four is the least";
     auto& judging = scores_in(sessions, "300ms", Task::t2, first_seed + 1);
     judging.stiffness_ratio[metrics::judged_press] = 0.55;
     row = row_of(experiment, sessions, claim);

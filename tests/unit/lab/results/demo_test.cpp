@@ -113,5 +113,23 @@ TEST(DemoReport, MissingNumbersAreDashesAndNoSuccess)
     EXPECT_NE(demo_table(empty).find(" -"), std::string::npos);
 }
 
+TEST(DemoReport, OfManyHandsSaysWhoPlayedAndWhetherItCounts)
+{
+    CircleDemo demo{"t7", task(2.0)};
+    demo.files.peer["task"] = "T7";
+    demo.files.peer["peers"] = {1, 2, 3};
+    Json manifest = circle_demo_manifest(demo, {.command = "demo", .start = "now"});
+    EXPECT_EQ(manifest["kind"], "demo");
+    EXPECT_EQ(manifest["title"], "3 peers, one cube, task T7");
+    EXPECT_EQ(manifest["configuration"]["t7"]["task"], "T7");
+    EXPECT_EQ(manifest["seeds"]["emulator"], 42);
+    EXPECT_EQ(manifest["valid"], true);
+    demo.files.emulator["valid"] = false;
+    manifest = circle_demo_manifest(demo, {.command = "demo", .start = "now"});
+    EXPECT_EQ(manifest["valid"], false);
+    EXPECT_EQ(manifest["invalid_because"].size(), 1U);
+    EXPECT_NE(circle_demo_verdict(demo).find("NOT VALID"), std::string::npos);
+}
+
 } // namespace
 } // namespace hapnet::lab::results
