@@ -74,7 +74,7 @@ class Honest : public testing::TestWithParam<Task> {};
 
 TEST_P(Honest, HandsNeverNeedMoreThanTheBudgetAndKeepTheirBits)
 {
-    // Bodies that turn, and several, are for base alone.
+    // Of these, base alone plays with bodies that turn, and several.
     const bool is_for_base = GetParam() >= Task::t8;
     for (const std::string name : {"base", "dead-reckoning", "sep"}) {
         if (is_for_base && name != "base") continue;
