@@ -3,7 +3,9 @@
 #include "scene/world.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/math.hpp"
 #include "scene/fields.hpp"
+#include "scene/maths/rotation.hpp"
 #include "scene/rigid/joint_order.hpp"
 
 #include <array>
@@ -295,6 +297,19 @@ std::optional<Refusal> World::shift(BodyId body, base::Displacement way)
     state_.bodies.position.put(slot, place);
     std::visit([&](auto& stepper) { stepper.on_body_shifted(state_, body); }, stepper_);
     return std::nullopt;
+}
+
+std::optional<Refusal> World::shift(BodyId body, base::Displacement way, const glm::dvec3& turn)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(turn, base::two_pi)) return refuse(*why);
+    const Slot before = state_.bodies.slot_of[body];
+    const glm::dquat orientation = state_.bodies.orientation.at(before);
+    const glm::dvec3 by = about_unlocked_axes(state_.bodies.properties[before], turn);
+    state_.bodies.orientation.put(before, rotated(orientation, by));
+    const auto refused = shift(body, way);
+    if (refused) state_.bodies.orientation.put(before, orientation);
+    return refused;
 }
 
 std::optional<Refusal> World::drive(BodyId body, base::Velocity velocity,

@@ -76,6 +76,9 @@ public:
     /// Moves a movable body by a little; hands that hold it, or press on one of its faces, go on
     /// doing so. Locked coordinates stay as they are.
     std::optional<Refusal> shift(BodyId body, base::Displacement way);
+    /// The same, and turns it about its centre by so many radians (world's frame), as far as it can
+    /// turn; its angular momentum stays.
+    std::optional<Refusal> shift(BodyId body, base::Displacement way, const glm::dvec3& turn);
 
     /// A kinematic body moves on like that from where it is, until it is told otherwise.
     std::optional<Refusal> drive(BodyId body, base::Velocity velocity,

@@ -54,13 +54,14 @@ std::vector<SharedBody> shared_bodies_of(const Settings& settings)
     return *std::move(bodies);
 }
 
-std::optional<BaseBodies> base_bodies_of(const Settings& settings,
-                                         const std::vector<SharedBody>& shared)
+std::optional<SharedPoses> poses_of(const Settings& settings, const std::vector<SharedBody>& shared)
 {
     if (is_one_without_turning(shared)) return std::nullopt;
-    // check_bodies_of() leaves no other.
-    const auto& base = std::get<BaseAlgorithm>(settings.algorithm);
-    return BaseBodies{shared, settings.introduction.id, base.options()};
+    const auto* const base = std::get_if<BaseAlgorithm>(&settings.algorithm);
+    const AtRest::Times times = base == nullptr ? AtRest::usual()
+                                                : AtRest::Times{base->options().settle_after,
+                                                                base->options().settle_within};
+    return SharedPoses{shared, settings.introduction.id, times};
 }
 
 scene::World world_of(const Settings& settings)
@@ -104,7 +105,7 @@ Peer::Peer(const Settings& settings)
       others_(settings.roster.others.size()),
       shared_{shared_bodies_of(settings)},
       body_{shared_.front().id},
-      base_bodies_{base_bodies_of(settings, shared_)},
+      poses_{poses_of(settings, shared_)},
       world_{world_of(settings)},
       friction_{friction_of(settings)},
       intention_{dynamics_of(settings.introduction.hand)},
@@ -224,7 +225,7 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
 
 inline bool Peer::is_shared(const wire::BodyState& body) const
 {
-    if (!base_bodies_) return body.body == body_ && !body.turning;
+    if (!poses_) return body.body == body_ && !body.turning;
     return std::ranges::any_of(shared_, [&](const SharedBody& shared) {
         return shared.id == body.body && shared.turns() == body.turning.has_value();
     });
@@ -354,8 +355,8 @@ void Peer::take_bodies_over()
     if (body_known_) return;
     for (const Other& other : others_) {
         if (other.remote->bodies_known() < shared_.size()) continue;
-        if (base_bodies_) {
-            base_bodies_->take_over(world_, *other.remote);
+        if (poses_) {
+            poses_->take_over(world_, *other.remote);
         } else {
             const wire::BodyState& body = *other.remote->body();
             world_.place(body_, body.position, body.velocity);
@@ -405,7 +406,8 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .lower_ids = circle_.rank(),
                               .hands = &settings_.scene.hands,
                               .start = session()->start,
-                              .number = ticks_played_++};
+                              .number = ticks_played_++,
+                              .poses = poses_ ? &*poses_ : nullptr};
     note_places();
     if (body_known_) move_world(tick, situation, input);
     keep_within_reach();
@@ -452,10 +454,8 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandI
         rubbing = friction_->on_body(hand, world_.body(body_));
         world_.push(body_, rubbing);
     }
-    const Outcome outcome = base_bodies_
-                                ? base_bodies_->tick(world_, situation)
-                                : std::visit([&](auto& one) { return one.tick(world_, situation); },
-                                             settings_.algorithm);
+    const Outcome outcome =
+        std::visit([&](auto& one) { return one.tick(world_, situation); }, settings_.algorithm);
     tick.touched = outcome.touched;
     tick.remote_touching = outcome.remote_touching;
     tick.remote_force = outcome.remote_force;
@@ -473,32 +473,32 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandI
 
 void Peer::account(const Tick& tick, base::TimePoint now)
 {
-    using Mover = BaseBodies::Mover;
-    if (base_bodies_) {
+    using Mover = SharedPoses::Mover;
+    if (poses_) {
         for (std::size_t i = 0; i < shared_.size(); ++i)
-            account_for(i, base_bodies_->mover(i), tick, now);
+            account_for(i, poses_->mover(i), tick, now);
         return;
     }
     const Mover of_others = tick.remote_touching ? Mover::others : Mover::none;
     account_for(0, tick.touched.touching ? Mover::own : of_others, tick, now);
 }
 
-inline void Peer::account_for(std::size_t body, BaseBodies::Mover mover, const Tick& tick,
+inline void Peer::account_for(std::size_t body, SharedPoses::Mover mover, const Tick& tick,
                               base::TimePoint now)
 {
     Effect& effect = effects_[body];
     const SharedBody& shared = shared_[body];
-    if (mover == BaseBodies::Mover::own) {
+    if (mover == SharedPoses::Mover::own) {
         effect.last_touch = now;
         if (tick.touched.body == shared.id) add_push(body, tick.touched);
-    } else if (mover == BaseBodies::Mover::others) {
+    } else if (mover == SharedPoses::Mover::others) {
         effect.last_touch.reset(); // another hand has taken the body over
     }
     // The body still coasts from this hand's push for a while after it.
     const bool ours = effect.last_touch && now - *effect.last_touch < push_lasts;
     const base::Displacement moved = world_.position(shared.id) - effect.place_before;
     if (ours) effect.sums.add(moved);
-    bool stirs = mover == BaseBodies::Mover::own || base::norm(moved) > 1e-9;
+    bool stirs = mover == SharedPoses::Mover::own || base::norm(moved) > 1e-9;
     if (shared.turns()) {
         const glm::dvec3 turned =
             scene::turn_between(effect.orientation_before, world_.body(shared.id).orientation);

@@ -8,7 +8,7 @@
 #include "peer/core/intention.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/algorithm.hpp"
-#include "peer/core/sync/base_bodies.hpp"
+#include "peer/core/sync/shared_poses.hpp"
 #include "proto/record/rows.hpp"
 
 #include <optional>
@@ -151,11 +151,11 @@ public:
     [[nodiscard]] const scene::World& world() const { return world_; }
     /// All of them: every movable body of the scene, by their ids.
     [[nodiscard]] std::span<const SharedBody> shared() const { return shared_; }
-    /// Whose copy of the i-th of them counts: BaseBodies::owner(); 0 where one is shared that does
+    /// Whose copy of the i-th of them counts: SharedPoses::owner(); 0 where one is shared that does
     /// not turn.
     [[nodiscard]] std::uint16_t owner(std::size_t body) const
     {
-        return base_bodies_ ? base_bodies_->owner(body) : std::uint16_t{0};
+        return poses_ ? poses_->owner(body) : std::uint16_t{0};
     }
     /// The first shared body in this copy of the scene.
     [[nodiscard]] scene::BodyState body() const { return world_.body(body_); }
@@ -217,7 +217,7 @@ private:
     void keep_within_reach();
     void note_places();
     void account(const Tick& tick, base::TimePoint now);
-    void account_for(std::size_t body, BaseBodies::Mover mover, const Tick& tick,
+    void account_for(std::size_t body, SharedPoses::Mover mover, const Tick& tick,
                      base::TimePoint now);
     void add_push(std::size_t body, const scene::HandTouch& touch);
     [[nodiscard]] wire::BodyState body_state(std::size_t body) const;
@@ -239,9 +239,8 @@ private:
     Circle circle_;
     std::vector<Other> others_; // of this tick, as the algorithm is to see them
     std::vector<SharedBody> shared_;
-    scene::BodyId body_; // the first of them
-    /// Moves them, unless they are one without turning: then the algorithm of the settings does.
-    std::optional<BaseBodies> base_bodies_;
+    scene::BodyId body_;               // the first of them
+    std::optional<SharedPoses> poses_; // unless they are one without turning
     scene::World world_;
     std::optional<FingerFriction> friction_; // where the scene's hands have any
     Intention intention_;                    // of this hand

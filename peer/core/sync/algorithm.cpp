@@ -92,13 +92,13 @@ bool is_loaded(const Algorithm& algorithm)
 
 base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const SharedBody> bodies)
 {
-    if (is_one_without_turning(bodies)) return {};
+    if (is_one_without_turning(bodies) || std::holds_alternative<RemoteProxy>(algorithm)) return {};
     const auto* const base = std::get_if<BaseAlgorithm>(&algorithm);
     if (base == nullptr) {
-        return base::fail(fmt::format(
-            "'{}' is for one body that does not turn: use base, or a scene with one movable body "
-            "that has turning = \"locked\"",
-            name_of(algorithm)));
+        return base::fail(fmt::format("'{}' is for one body that does not turn: use base or "
+                                      "remote-proxy, or a scene with one "
+                                      "movable body that has turning = \"locked\"",
+                                      name_of(algorithm)));
     }
     BaseOptions rest = base->options(); // but for what these bodies have, too
     rest.stale = {};

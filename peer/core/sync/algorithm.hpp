@@ -58,7 +58,7 @@ void prepare(Algorithm& algorithm, std::size_t others, const scene::World& world
 [[nodiscard]] bool is_loaded(const Algorithm& algorithm);
 
 /// Whether it can play these bodies; the error says what it cannot. Bodies that turn, and several,
-/// are for base alone, with the readings of the paper that they have, too.
+/// are for remote-proxy, and for base with the readings of the paper that they have, too.
 [[nodiscard]] base::Result<void> check_bodies_of(const Algorithm& algorithm,
                                                  std::span<const SharedBody> bodies);
 /// The same of the scene's hands. Where they have dry friction, which comes from outside of the

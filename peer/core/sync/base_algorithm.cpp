@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/base_algorithm.hpp"
 
+#include "peer/core/sync/base_bodies.hpp"
+
 #include <algorithm>
 
 namespace hapnet::peer {
@@ -25,6 +27,7 @@ void BaseAlgorithm::forget()
 
 Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation)
 {
+    if (situation.poses != nullptr) return tick_bodies(world, situation, options_);
     return tick(world, situation, presence_of(situation, options_));
 }
 

@@ -139,6 +139,27 @@ void ProxyHand::forget()
     trust_ = 1.0;
 }
 
+/// As deep in the body as it is over there, also where that is turned otherwise, and with the
+/// body's motion there.
+void ProxyHand::enter(const View& view)
+{
+    is_there_ = true;
+    trust_ = 1.0;
+    const base::Position hip = view.other.remote->state()->hip;
+    glm::dvec3 lever = (hip - view.there->position).value;
+    glm::dvec3 pull = intention_ - hip.value;
+    motion_.speed = view.body.velocity.value;
+    if (view.there->turning) {
+        const glm::dquat turn =
+            view.body.orientation * glm::conjugate(view.there->turning->orientation.quaternion());
+        lever = turn * lever;
+        pull = turn * pull;
+        motion_.speed += glm::cross(view.body.angular_velocity, lever);
+    }
+    motion_.place = view.body.position.value + lever;
+    anchor_ = motion_.place + pull;
+}
+
 void ProxyHand::look(const View& view)
 {
     const double tick_s = base::to_seconds(view.tick);
@@ -146,21 +167,14 @@ void ProxyHand::look(const View& view)
     ages_.fade(tick_s);
     ages_.add(age_s);
     const auto& state = view.other.remote->state();
-    const auto& body = view.other.remote->body();
-    const bool acts = has_heard_ && state && body && (state->touching || state->holding) &&
+    const bool acts = has_heard_ && state && view.there && (state->touching || state->holding) &&
                       view.other.freshness > 0.0;
     if (!acts) {
         is_there_ = false;
         return;
     }
     gripping_ = state->holding;
-    if (!is_there_) { // as deep in the body as it is over there
-        is_there_ = true;
-        trust_ = 1.0;
-        motion_.place = view.body.position.value + (state->hip - body->position).value;
-        motion_.speed = view.body.velocity.value;
-        anchor_ = motion_.place + (intention_ - state->hip.value);
-    }
+    if (!is_there_) enter(view);
     const double ahead_max_s = base::to_seconds(options_.ahead_max);
     const glm::dvec3 wanted = intention_ + (eta_ * std::min(age_s, ahead_max_s)) * velocity_;
     glm::dvec3 way = age_s < ahead_max_s ? (eta_ * tick_s) * velocity_ : glm::dvec3{0.0};

@@ -126,7 +126,8 @@ public:
     /// Comes, stays or goes as its owner's hand does, and looks where to be drawn to.
     struct View {
         const Other& other;
-        scene::BodyState body; // the shared one in this copy
+        const wire::BodyState* there = nullptr; // the body that its hand is on, as last heard
+        scene::BodyState body;                  // the same in this copy
         base::TimePoint now;
         base::Duration tick{};
         bool own_hand_touches = false;
@@ -153,6 +154,7 @@ private:
         glm::dvec3 place{0.0};
         glm::dvec3 velocity{0.0}; // smoothed
     };
+    void enter(const View& view);
     void take_dynamics(const wire::HandModel& said);
     void learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s);
     [[nodiscard]] const Heard* heard_at(std::uint32_t sequence);

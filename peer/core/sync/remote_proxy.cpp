@@ -16,15 +16,27 @@ std::uint32_t hand_of(std::size_t other)
     return own_hand + 1 + static_cast<std::uint32_t>(other);
 }
 
+/// One that does not turn: otherwise copies are kept together by PoseCorrection.
+bool has_one_without_turning(const scene::Bodies& bodies)
+{
+    return bodies.movable == 1 && bodies.properties.front().turning == scene::Turning::locked;
+}
+
 } // namespace
 
 RemoteProxy::RemoteProxy(const RemoteProxyOptions& options) : options_{options} {}
 
-void RemoteProxy::prepare(std::size_t others)
+void RemoteProxy::prepare(std::size_t others, const scene::World& world)
 {
     proxies_.assign(others, ProxyHand{options_.proxy});
     rubbing_.assign(others, base::Force{});
-    past_.assign(past_max, Past{});
+    const scene::Bodies& bodies = world.state().bodies;
+    if (has_one_without_turning(bodies)) {
+        past_.assign(past_max, Past{});
+    } else {
+        poses_.emplace(bodies.movable, PoseCorrection::Rates{options_.correction_rate_hz,
+                                                             options_.correction_speed_m_per_s});
+    }
 }
 
 void RemoteProxy::hear(const ReceivedState& received)
@@ -51,14 +63,41 @@ void RemoteProxy::lend()
 
 void RemoteProxy::look(const scene::World& world, const Situation& situation)
 {
+    if (poses_) {
+        for (std::size_t i = 0; i < proxies_.size(); ++i)
+            proxies_[i].look(view_of(i, world, situation));
+        return;
+    }
     const scene::BodyState body = world.body(situation.body);
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
         proxies_[i].look({.other = situation.others[i],
+                          .there = situation.others[i].remote->body(),
                           .body = body,
                           .now = situation.now,
                           .tick = situation.tick,
                           .own_hand_touches = own_hand_touches_});
     }
+}
+
+/// Of the body that its hand is on over there, where bodies turn or are several.
+ProxyHand::View RemoteProxy::view_of(std::size_t other, const scene::World& world,
+                                     const Situation& situation) const
+{
+    ProxyHand::View view{.other = situation.others[other],
+                         .there = situation.others[other].remote->touched(),
+                         .body = {},
+                         .now = situation.now,
+                         .tick = situation.tick};
+    if (view.there == nullptr) return view;
+    const SharedPoses& poses = *situation.poses;
+    const auto index = poses.index_of(view.there->body);
+    if (!index) {
+        view.there = nullptr;
+        return view;
+    }
+    view.body = world.body(view.there->body);
+    view.own_hand_touches = poses.mover(*index) == SharedPoses::Mover::own;
+    return view;
 }
 
 /// The share of the proxies' drives that the account covers.
@@ -102,6 +141,10 @@ Outcome RemoteProxy::tick(scene::World& world, const Situation& situation)
     if (own_hand_touches_) touched_ = situation.now;
     if (const auto& state = situation.remote.state()) outcome.remote_hip = state->hip;
     move_proxies(world, situation, share_now, outcome);
+    if (poses_) {
+        account_j_ -= poses_->keep_together({world, situation, proxies_});
+        return outcome;
+    }
     if (!own_hand_touches_) correct(world, situation);
     remember(world, situation);
     return outcome;
@@ -111,6 +154,7 @@ void RemoteProxy::move_proxies(const scene::World& world, const Situation& situa
                                Outcome& outcome)
 {
     proxy_force_ = glm::dvec3{0.0};
+    if (poses_) poses_->begin_pushes();
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
         ProxyHand& proxy = proxies_[i];
         if (!proxy.is_there()) continue;
@@ -124,6 +168,10 @@ void RemoteProxy::move_proxies(const scene::World& world, const Situation& situa
         outcome.remote_force = outcome.remote_force + on_body;
         outcome.remote_hip = proxy.place();
         proxy_force_ += on_body.value;
+        if (!poses_ || !touch.touching) continue;
+        const base::Displacement lever =
+            world.state().hands[hand_of(i)].position - world.position(touch.body);
+        poses_->add_push(*situation.poses->index_of(touch.body), on_body, lever);
     }
 }
 

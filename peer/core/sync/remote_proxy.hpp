@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/sync/pose_correction.hpp"
 #include "peer/core/sync/proxy_hand.hpp"
 
 #include <chrono>
@@ -48,8 +49,8 @@ public:
     RemoteProxy() : RemoteProxy(RemoteProxyOptions{}) {}
     explicit RemoteProxy(const RemoteProxyOptions& options);
 
-    /// Takes the memory for so many others.
-    void prepare(std::size_t others);
+    /// Takes the memory for so many others and the bodies of this world.
+    void prepare(std::size_t others, const scene::World& world);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
@@ -78,6 +79,8 @@ private:
     void lend();
     void look(const scene::World& world, const Situation& situation);
     void act(scene::World& world, const Situation& situation);
+    [[nodiscard]] ProxyHand::View view_of(std::size_t other, const scene::World& world,
+                                          const Situation& situation) const;
     [[nodiscard]] double share() const;
     void move_proxies(const scene::World& world, const Situation& situation, double share,
                       Outcome& outcome);
@@ -94,7 +97,8 @@ private:
     RemoteProxyOptions options_;
     std::vector<ProxyHand> proxies_; // of the others, in their order
     std::vector<base::Force> rubbing_;
-    std::vector<Past> past_; // a ring
+    std::optional<PoseCorrection> poses_; // of bodies that turn, or several; else the rest is used
+    std::vector<Past> past_;              // a ring
     std::uint64_t ticks_ = 0;
     double account_j_ = 0.0;
     double lent_j_ = 0.0; // the largest allowance so far

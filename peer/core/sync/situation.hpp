@@ -12,6 +12,8 @@
 
 namespace hapnet::peer {
 
+class SharedPoses;
+
 /// This peer's hand among those of its copy of the scene. The other side's is none of them: it is
 /// there by its force.
 inline constexpr std::uint32_t own_hand = 0;
@@ -74,6 +76,7 @@ struct Situation {
     const scene::HandDescription* hands = nullptr; // of the scene; nullptr: without friction
     base::TimePoint start{};                       // as in ReceivedState
     std::int64_t number = 0; // of this tick, from 0: so many states were sent in the session before
+    SharedPoses* poses = nullptr; // of the bodies; nullptr: one that does not turn is shared
 };
 
 /// The result of one tick of an algorithm.

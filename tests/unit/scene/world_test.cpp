@@ -245,6 +245,28 @@ TEST_P(EveryProfile, AShiftedBodyIsHeldAsBeforeAndAPlacedOneIsTakenAnew)
     EXPECT_EQ(shifted.hash(), before);
 }
 
+TEST(World, ShiftsABodyAndTurnsItAboutItsCentreAsFarAsItCanTurn)
+{
+    for (const Turning turning : {Turning::free, Turning::about_y, Turning::locked}) {
+        Description scene = paper_scene();
+        scene.bodies[0].turning = turning;
+        World world = World::freeze(scene).value();
+        const base::Position there = world.position(0) + base::Displacement{{1e-3, 0.0, 0.0}};
+        EXPECT_EQ(world.shift(0, {{1e-3, 0.0, 0.0}}, {0.1, 0.2, 0.0}), std::nullopt);
+        EXPECT_EQ(world.position(0), there);
+        const glm::dquat turned = world.body(0).orientation;
+        EXPECT_NEAR(turned.x, turning == Turning::free ? 0.05 : 0.0, 5e-4);
+        EXPECT_NEAR(turned.y, turning == Turning::locked ? 0.0 : 0.1, 5e-4);
+        EXPECT_EQ(turned.z, 0.0);
+        const auto before = world.hash();
+        expect_refused(world, Refusal::not_finite, world.shift(0, {}, {nan, 0.0, 0.0}));
+        expect_refused(world, Refusal::out_of_range, world.shift(0, {}, {7.0, 0.0, 0.0}));
+        expect_refused(world, Refusal::out_of_range,
+                       world.shift(0, {{1e9, 0.0, 0.0}}, {0.0, 0.1, 0.0}));
+        EXPECT_EQ(world.hash(), before);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(World, EveryProfile,
                          ::testing::Values(StepperKind::sliding, StepperKind::sliding_coulomb,
                                            StepperKind::lone, StepperKind::few, StepperKind::many),

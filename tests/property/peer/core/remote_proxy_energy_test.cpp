@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // What docs/design/algorithms.md says of the energy of remote-proxy, over random networks, hands,
 // numbers of peers and liars.
+#include "scene/text/text.hpp"
 #include "tests/support/seeds.hpp"
 #include "tests/support/session/energy_play.hpp"
 
@@ -49,6 +50,36 @@ TEST_P(RemoteProxyEnergy, OfAllHandsTogetherStaysAboveItsBound)
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, RemoteProxyEnergy, testing::Range(std::uint64_t{0}, seeds(48)));
+
+/// Those networks and hands, with a cube that turns: each of two copies or more can keep as much
+/// more as the cube stands on a corner.
+class TurningCubeEnergy : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(TurningCubeEnergy, OfAllHandsTogetherStaysAboveItsBound)
+{
+    EnergyCase one = drawn_energy_case(GetParam(), proxies(), length);
+    one.setting.task = device::Task::t8;
+    one.setting.scene = scene::load_scene("turning", {}).value();
+    const EnergyPlayed played = play_for_energy(one);
+    EXPECT_TRUE(played.is_finite) << one.words;
+    EXPECT_GT(played.work_j, 0.0) << one.words;
+    constexpr double on_a_corner_j = 0.0144; // 100 g, raised by 20 mm (sqrt(3) - 1)
+    const auto copies = static_cast<double>(one.setting.players.size());
+    EXPECT_GT(played.least_j, -bound_j(one, played) - copies * on_a_corner_j) << one.words;
+    RecordProperty("case", one.words);
+    RecordProperty("least_mj", std::to_string(1e3 * played.least_j));
+    RecordProperty("bound_mj", std::to_string(-1e3 * bound_j(one, played)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seed, TurningCubeEnergy, testing::Range(std::uint64_t{0}, seeds(24)));
+
+TEST(TurningCubeEnergy, IsTheSameToTheBitWhenMessagesComeTwiceAndLate)
+{
+    EnergyCase one = drawn_energy_case(2, proxies(), 8s);
+    one.setting.task = device::Task::t8;
+    one.setting.scene = scene::load_scene("turning", {}).value();
+    EXPECT_EQ(play_for_energy(one).hash, play_for_energy(one, Delivery::twice_and_late).hash);
+}
 
 /// A liar whose victim believes every word: it takes the intention for sure and projects nothing.
 EnergyCase believed_liar(double account_j)

@@ -126,7 +126,7 @@ TEST_P(Honest, HandsNeverNeedMoreThanTheBudgetAndKeepTheirBits)
 {
     for (const std::string_view name : peer::algorithm_names) {
         for (const base::Duration delay : {0ms, 80ms, 160ms}) {
-            if (test::is_sanitized && delay != 80ms) continue; // they take minutes
+            if (test::is_sanitized && (delay != 80ms || name != "base")) continue; // minutes
             // It plays past ticks again and again, which takes twenty times as long.
             if (name == "rollback" && delay != 160ms) continue;
             const Setting setting = playing(GetParam(), delay, peer::algorithm_named(name).value());

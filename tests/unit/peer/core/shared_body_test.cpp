@@ -115,18 +115,19 @@ TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
     EXPECT_NE(refusal_of(scene).find("32768"), std::string::npos);
 }
 
-TEST(SharedBodies, ThatTurnOrAreSeveralAreForBaseAsItIsByDefault)
+TEST(SharedBodies, ThatTurnOrAreSeveralAreForRemoteProxyAndForBaseAsItIsByDefault)
 {
     const auto one = shared_bodies(scene::paper_scene()).value();
     const auto several = shared_bodies(scene_of(2)).value();
     for (const char* name : {"base", "dead-reckoning", "sep"})
         EXPECT_TRUE(check_bodies_of(algorithm_named(name).value(), one)) << name;
     EXPECT_TRUE(check_bodies_of(BaseAlgorithm{}, several));
+    EXPECT_TRUE(check_bodies_of(RemoteProxy{}, several));
     for (const char* name : {"dead-reckoning", "sep"}) {
         const auto checked = check_bodies_of(algorithm_named(name).value(), several);
         ASSERT_FALSE(checked);
         EXPECT_NE(checked.error().message.find(name), std::string::npos);
-        EXPECT_NE(checked.error().message.find("use base"), std::string::npos);
+        EXPECT_NE(checked.error().message.find("use base or remote-proxy"), std::string::npos);
     }
     EXPECT_TRUE(
         check_bodies_of(BaseAlgorithm{{.stale = Stale::take, .settle_after = {}}}, several));

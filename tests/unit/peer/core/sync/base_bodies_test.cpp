@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/base_bodies.hpp"
 
+#include "peer/core/sync/shared_poses.hpp"
 #include "scene/maths/rotation.hpp"
 
 #include <chrono>
@@ -34,8 +35,7 @@ scene::Description cubes(std::size_t count, scene::Turning turning = scene::Turn
 class Copy {
 public:
     explicit Copy(const scene::Description& scene)
-        : world{scene::World::freeze(scene).value()},
-          bodies{shared_bodies(scene).value(), 2, BaseOptions{}}
+        : world{scene::World::freeze(scene).value()}, bodies{shared_bodies(scene).value(), 2}
     {}
 
     /// Of peer 1: its hand pushes the first of `states` so, from there; zero force: no touch.
@@ -55,11 +55,14 @@ public:
         now += 1ms;
         world.set_hand(own_hand, hand);
         const Other other{&remote, 1.0, 1};
-        return bodies.tick(world, {.now = now,
-                                   .others = {&other, 1},
-                                   .remote = remote,
-                                   .freshness = 1.0,
-                                   .yields = true});
+        return tick_bodies(world,
+                           {.now = now,
+                            .others = {&other, 1},
+                            .remote = remote,
+                            .freshness = 1.0,
+                            .yields = true,
+                            .poses = &bodies},
+                           BaseOptions{});
     }
     void tick_for(base::Duration duration)
     {
@@ -68,7 +71,7 @@ public:
 
     base::TimePoint now = begin;
     scene::World world;
-    BaseBodies bodies;
+    SharedPoses bodies;
     Remote remote{{}};
 
 private:
@@ -100,7 +103,7 @@ TEST(BaseBodies, ArePushedAndTurnedWhereTheOtherHandIsWhileThisOneTouches)
     // To the right, off the middle on the user's side: about +y.
     copy.hear({state_of(0, {}, {}, 1000)}, {{1.0, 0.0, 0.0}}, {{-0.02, 0.0, 0.01}});
     const Outcome outcome = copy.tick(holding);
-    EXPECT_EQ(copy.bodies.mover(0), BaseBodies::Mover::own);
+    EXPECT_EQ(copy.bodies.mover(0), SharedPoses::Mover::own);
     EXPECT_TRUE(outcome.remote_touching);
     EXPECT_EQ(outcome.remote_force, (base::Force{{1.0, 0.0, 0.0}}));
     const scene::BodyState body = copy.world.body(0);
@@ -116,12 +119,12 @@ TEST(BaseBodies, AreWhereTheOtherHasThemWhileItAloneTouches)
     copy.hear({state_of(0, {0.01, 0.02, 0.0}, turned, 1000), state_of(1, {0.3, 0.0, 0.0}, {})},
               {{1.0, 0.0, 0.0}});
     std::ignore = copy.tick();
-    EXPECT_EQ(copy.bodies.mover(0), BaseBodies::Mover::others);
+    EXPECT_EQ(copy.bodies.mover(0), SharedPoses::Mover::others);
     EXPECT_NEAR(copy.world.position(0).y(), 0.02, 1e-12);
     EXPECT_LT(
         angle_between(copy.world.body(0).orientation, scene::rotated({1.0, 0.0, 0.0, 0.0}, turned)),
         5e-6);
-    EXPECT_EQ(copy.bodies.mover(1), BaseBodies::Mover::none); // which touches nothing
+    EXPECT_EQ(copy.bodies.mover(1), SharedPoses::Mover::none); // which touches nothing
     EXPECT_EQ(copy.world.position(1).x(), 0.1);
 }
 
@@ -136,7 +139,7 @@ TEST(BaseBodies, ThatTouchEachOtherAreMovedTogether)
     const auto stands = state_of(1, {0.01, 0.04, 0.0}, {});
     copy.hear({state_of(0, {0.01, 0.0, 0.0}, {}, 1000), stands}, {{1.0, 0.0, 0.0}});
     std::ignore = copy.tick();
-    EXPECT_EQ(copy.bodies.mover(1), BaseBodies::Mover::others);
+    EXPECT_EQ(copy.bodies.mover(1), SharedPoses::Mover::others);
     EXPECT_NEAR(copy.world.position(1).x(), 0.01, 1e-6);
 }
 
@@ -178,7 +181,7 @@ TEST(BaseBodies, ComeSlowlyWhereThisHandIs)
         std::ignore = copy.tick(near);
         EXPECT_GT(copy.world.position(0).x(), before);
         EXPECT_LE(copy.world.position(0).x() - before, 0.5e-3 + 1e-8);
-        EXPECT_LE(base::norm(copy.world.velocity(0)), BaseBodies::approach_m_per_s);
+        EXPECT_LE(base::norm(copy.world.velocity(0)), SharedPoses::approach_m_per_s);
     }
 }
 

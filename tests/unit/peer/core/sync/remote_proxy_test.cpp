@@ -17,7 +17,7 @@ struct Pushed {
     static RemoteProxy prepared(const RemoteProxyOptions& options)
     {
         RemoteProxy algorithm{options};
-        algorithm.prepare(1);
+        algorithm.prepare(1, paper_world());
         return algorithm;
     }
 

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/proxy_hand.hpp"
+#include "peer/core/sync/shared_poses.hpp"
+#include "peer/core/sync/situation.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::peer {
+
+/// The part of remote-proxy that keeps together the copies of bodies that turn, and of several. A
+/// body that this hand leaves alone moves by a little in each tick: while others move it, to where
+/// it will be by now in the copy of the lowest id of those; once nobody does, by as much as its
+/// owner's copy was elsewhere at the same time in the past, of which both are known, so that the
+/// delay is not in the loop. SharedPoses takes away what is left after a while.
+class PoseCorrection {
+public:
+    struct Rates {
+        double rate_hz = 20.0;       // at which a difference decays
+        double speed_m_per_s = 0.25; // the most: of the body, and of its farthest point by turning
+    };
+    PoseCorrection(std::size_t bodies, const Rates& rates);
+
+    /// Before the pushes of a tick are told.
+    void begin_pushes();
+    /// What a proxy did to a body in the tick. `lever`: from its centre.
+    void add_push(std::size_t body, base::Force force, base::Displacement lever);
+
+    /// A copy of the scene after the world's tick, and the others in it.
+    struct Copy {
+        scene::World& world;
+        const Situation& situation;
+        std::span<const ProxyHand> proxies;
+    };
+    /// Returns the energy that the corrections gave to this copy, J: what they stretched in the
+    /// contacts of proxies, and lifted.
+    [[nodiscard]] double keep_together(const Copy& copy);
+
+private:
+    /// A way of a body, and a turn about its centre in radians.
+    struct Motion {
+        glm::dvec3 way{0.0};
+        glm::dvec3 turn{0.0};
+    };
+    /// A body in an earlier tick.
+    struct Past {
+        glm::dvec3 place{0.0};
+        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        Motion corrected;
+    };
+    struct Body {
+        Motion corrected;                       // the sum of all corrections
+        glm::dvec3 force{0.0};                  // of all proxies, in the last tick
+        glm::dvec3 torque{0.0};                 // likewise, about its centre
+        std::optional<base::TimePoint> touched; // by the own hand, itself or by way of others
+        std::vector<Past> past;                 // a ring
+    };
+
+    [[nodiscard]] double follow(const Copy& copy, std::size_t body, std::size_t leader);
+    [[nodiscard]] double settle(const Copy& copy, std::size_t body);
+    [[nodiscard]] std::optional<Motion> error_in_past(const Copy& copy, std::size_t body) const;
+    [[nodiscard]] double correct(const Copy& copy, std::size_t body, const Motion& error);
+    void remember(const Copy& copy);
+
+    static constexpr std::size_t past_max = 4096; // ticks
+
+    Rates rates_;
+    std::vector<Body> bodies_;
+    std::uint64_t ticks_ = 0;
+};
+
+} // namespace hapnet::peer

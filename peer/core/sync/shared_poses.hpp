@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/shared_body.hpp"
+#include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/ownership.hpp"
+#include "peer/core/sync/situation.hpp"
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::peer {
+
+/// Whose copy counts of bodies that turn, and of several: those that touch each other are one
+/// group, and move together. It finds whose hands move a group, and brings this copy's bodies that
+/// no hand moves to where their owner has them (Ownership).
+class SharedPoses {
+public:
+    /// Two that touched so long ago still count as touching: what rests on something leaves it for
+    /// a tick now and then.
+    static constexpr base::Duration contact_lasts{std::chrono::milliseconds{100}};
+    /// What is put elsewhere comes no faster near this hand, or near a body that it moves. A remote
+    /// hand carries a body at 0.3 m/s at most, in the paper's task.
+    static constexpr double approach_m_per_s = 0.5;
+
+    /// A copy so near another and at rest stays as it is, and may sleep. A hundredth of what counts
+    /// as agreement, and more than messages round.
+    static constexpr double same_place_m = 2e-6;
+    static constexpr double same_angle_rad = 2e-5;
+
+    /// Bodies as shared_bodies() gives them.
+    SharedPoses(std::vector<SharedBody> bodies, std::uint16_t own_id,
+                const AtRest::Times& times = AtRest::usual());
+
+    [[nodiscard]] std::span<const SharedBody> bodies() const { return bodies_; }
+    [[nodiscard]] std::optional<std::size_t> index_of(scene::BodyId id) const;
+
+    /// Another whose hand touches a body.
+    struct Toucher {
+        const Other* other = nullptr;
+        std::size_t index = 0; // of the other
+        std::size_t body = 0;
+    };
+    /// Those of a tick, in the order of their ids.
+    struct Touchers {
+        std::array<Toucher, 7> all{};
+        std::size_t count = 0;
+        [[nodiscard]] std::span<const Toucher> list() const { return {all.data(), count}; }
+    };
+    /// As they were last heard.
+    [[nodiscard]] Touchers touchers(const Situation& situation) const;
+
+    /// After the world's tick: whose hands moved which bodies.
+    void find_movers(const scene::World& world, const Situation& situation,
+                     const Touchers& touchers);
+    /// Whose hands moved a body in the last tick, by themselves or by way of others.
+    enum class Mover : std::uint8_t { none, own, others };
+    [[nodiscard]] Mover mover(std::size_t body) const { return movers_[body]; }
+    /// The one of the others with the lowest id whose hand moves a body; nullptr: none does.
+    [[nodiscard]] const Toucher* mover_among(const Touchers& touchers, std::size_t body) const;
+    /// Whose copy of a body counted in the last tick, as this peer sees it: its own while its hand
+    /// moves it, that of the lowest other while only others do, and else its owner's (Ownership).
+    /// 0 before the first.
+    [[nodiscard]] std::uint16_t owner(std::size_t body) const { return owners_[body]; }
+
+    /// Puts a body where one of the others has it.
+    void follow(scene::World& world, const Situation& situation, std::size_t body,
+                const Remote& other) const;
+    /// A body that nobody moves: after a while it goes to where its owner has it.
+    void settle(scene::World& world, const Situation& situation, std::size_t body);
+    /// Whether that while is over.
+    [[nodiscard]] bool is_settling(std::size_t body) const { return blends_[body].has_value(); }
+    /// Puts all bodies where one of the others has them, which has told of all.
+    void take_over(scene::World& world, const Remote& other) const;
+    /// As this copy's body can be: turned only as it may.
+    [[nodiscard]] scene::BodyState target_of(const scene::World& world, std::size_t body,
+                                             const wire::BodyState& there) const;
+
+private:
+    /// The way of a body that nobody moves to where its owner has it.
+    struct Blend {
+        std::uint16_t owner = 0;
+        base::TimePoint start;
+        scene::BodyState from;
+    };
+    /// Ids, ascending.
+    struct Present {
+        std::array<std::uint16_t, 8> ids{};
+        std::size_t count = 0;
+        [[nodiscard]] std::span<const std::uint16_t> list() const { return {ids.data(), count}; }
+    };
+
+    void note_contacts(const scene::World& world, base::TimePoint now);
+    void find_groups(base::TimePoint now);
+    [[nodiscard]] Present present_in(const Situation& situation) const;
+    void put(scene::World& world, const Situation& situation, std::size_t body,
+             const scene::BodyState& target) const;
+    void place(scene::World& world, std::size_t body, const scene::BodyState& there) const;
+    [[nodiscard]] bool is_near_hand(const scene::World& world, std::size_t body,
+                                    double within_m) const;
+
+    std::vector<SharedBody> bodies_;
+    std::uint16_t own_id_;
+    AtRest::Times times_;
+    Ownership ownership_;
+    std::array<std::array<std::optional<base::TimePoint>, wire::bodies_max>, wire::bodies_max>
+        touching_{};                                 // of two bodies, when last
+    std::array<BodySet, wire::bodies_max> groups_{}; // by body: those that it touches, and itself
+    std::array<Mover, wire::bodies_max> movers_{};
+    std::array<std::uint16_t, wire::bodies_max> owners_{};
+    std::array<std::optional<base::TimePoint>, wire::bodies_max> untouched_since_{};
+    std::array<std::optional<Blend>, wire::bodies_max> blends_{};
+};
+
+} // namespace hapnet::peer
