@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/live/pace.hpp"
+#include "lab/live/recording.hpp"
 #include "lab/live/session.hpp"
 #include "proto/control/core/conversation.hpp"
 
@@ -11,19 +12,22 @@
 
 namespace hapnet::lab::live {
 
-/// A session in virtual time as the clients of its control sockets see it: an emulator and peers
-/// as they are in real time, and its pace. Both parts outlive it.
+/// A session in virtual time, or a Recording of one, as the clients of its control sockets see it:
+/// an emulator and peers as they are in real time, and its pace. Both parts outlive it.
+template <typename Played>
 struct Controlled {
-    Session& session;
+    Played& session;
     Pace& pace;
     /// Keeps the text of an experiment; gives the name of its file.
     std::function<base::Result<std::string>(const std::string& text)> save;
 };
 
 /// The socket of the network and of the pace: requests of an emulator, and `pace`.
-[[nodiscard]] control::Subject subject_of(const Controlled& controlled);
+template <typename Played>
+[[nodiscard]] control::Subject subject_of(const Controlled<Played>& controlled);
 
 /// The socket of a peer, which is only looked at.
-[[nodiscard]] control::Subject peer_subject(Session& session, std::size_t seat);
+template <typename Played>
+[[nodiscard]] control::Subject peer_subject(Played& session, std::size_t seat);
 
 } // namespace hapnet::lab::live
