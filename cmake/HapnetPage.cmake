@@ -100,6 +100,7 @@ function(hapnet_page out)
     find_program(HAPNET_SED sed)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/page)
     set(strip ${PROJECT_SOURCE_DIR}/cmake/strip_comments.sed)
+    set(join ${PROJECT_SOURCE_DIR}/cmake/join_lines.sed)
     set(code "") # in assembler: the bytes as they are
     set(declared "")
     set(table "")
@@ -114,9 +115,10 @@ function(hapnet_page out)
         # A browser has no use for comments, and they were 10 kB of what it has to load.
         if(HAPNET_SED AND name MATCHES "[.](js|css)$" AND NOT name MATCHES "[.]min[.]")
             set(stripped ${folder}/${number}-stripped)
-            add_custom_command(OUTPUT ${stripped} DEPENDS ${file} ${strip}
+            add_custom_command(OUTPUT ${stripped} DEPENDS ${file} ${strip} ${join}
                 COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
-                COMMAND ${HAPNET_SED} -f ${strip} ${file} > ${stripped} VERBATIM)
+                COMMAND ${HAPNET_SED} -f ${strip} ${file} > ${stripped}
+                COMMAND ${HAPNET_SED} -z -i -f ${join} ${stripped} VERBATIM)
             set(file ${stripped})
         elseif(name MATCHES "[.]css$")
             add_custom_command(OUTPUT ${folder}/${number}-joined DEPENDS ${file}

@@ -25,7 +25,8 @@ program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ng
     ngtcp2-server openssl passt python3 slirp4netns)
 
 # A node that did not come from Debian has its own npm, and Debian's would not go with it.
-web_packages=(chromium tshark)
+# Of prometheus only promtool is used.
+web_packages=(chromium prometheus tshark)
 command -v node >/dev/null && command -v npm >/dev/null || web_packages+=(nodejs npm)
 # What runs the shards of a plan, and a cluster of one node.
 fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-wlm)

@@ -23,38 +23,10 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 using namespace std::chrono_literals;
-using Request = http::request<http::string_body>;
 
 constexpr auto idle_max = 60s; // until the next request begins
 constexpr auto sending_max = 5s;
 constexpr auto answering_max = 30s; // a record has megabytes
-
-/// Of a header; nullopt when it is not there, or twice: then it says nothing.
-std::optional<std::string_view> header_of(const Request& request, std::string_view name)
-{
-    const auto [first, last] = request.equal_range(boost::string_view{name.data(), name.size()});
-    if (first == last || std::next(first) != last) return std::nullopt;
-    return std::string_view{first->value().data(), first->value().size()};
-}
-
-std::string_view view(boost::string_view text) { return {text.data(), text.size()}; }
-
-bool is_upgrade(const Request& request)
-{
-    return beast::iequals(request[http::field::upgrade], "websocket");
-}
-
-Asked asked_of(const Request& request)
-{
-    return {.method = view(request.method_string()),
-            .target = view(request.target()),
-            .host = header_of(request, "Host"),
-            .origin = header_of(request, "Origin"),
-            .fetch_site = header_of(request, "Sec-Fetch-Site"),
-            .content_type = header_of(request, "Content-Type"),
-            .token = header_of(request, "X-Hapnet-Token"),
-            .is_upgrade = is_upgrade(request)};
-}
 
 /// What every answer says.
 template <typename Message>
@@ -119,7 +91,7 @@ private:
     beast::tcp_stream stream_;
     std::shared_ptr<Server::State> state_;
     beast::flat_buffer buffer_;
-    std::optional<http::request_parser<http::string_body>> parser_;
+    std::optional<RequestParser> parser_;
     Request request_;
     bool is_idle_ = true;
 };
@@ -127,7 +99,7 @@ private:
 Connection::Connection(asio::ip::tcp::socket socket, std::shared_ptr<Server::State> state)
     : stream_{std::move(socket)},
       state_{std::move(state)},
-      buffer_{state_->limits.header_bytes + state_->limits.body_bytes}
+      buffer_{state_->limits.request.header_bytes + state_->limits.request.body_bytes}
 {}
 
 void Connection::wait()
@@ -154,8 +126,7 @@ void Connection::read()
 {
     is_idle_ = false;
     parser_.emplace();
-    parser_->header_limit(state_->limits.header_bytes);
-    parser_->body_limit(state_->limits.body_bytes);
+    limit(*parser_, state_->limits.request);
     stream_.expires_after(sending_max);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t /*bytes*/) {

@@ -5,10 +5,10 @@
 #include "web/assets.hpp"
 #include "web/core/gate.hpp"
 #include "web/hub.hpp"
+#include "web/request.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <cstdint>
 #include <list>
 #include <memory>
 #include <string>
@@ -20,8 +20,7 @@ namespace hapnet::web {
 class Server {
 public:
     struct Limits {
-        std::uint32_t header_bytes = 8 * 1024;
-        std::uint64_t body_bytes = 64UL * 1024UL;
+        RequestLimits request{};
         std::size_t connections = 32;
         int posts_per_second = 40;
     };

@@ -27,7 +27,6 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
-using Upgrade = beast::http::request<beast::http::string_body>;
 
 constexpr std::size_t message_bytes_max = 256;
 constexpr std::uint64_t unacknowledged_max = 8;
@@ -57,7 +56,7 @@ public:
     Viewing(const Viewing&) = delete;
     Viewing& operator=(const Viewing&) = delete;
 
-    void begin(const Upgrade& request)
+    void begin(const Request& request)
     {
         stream_.read_message_max(message_bytes_max);
         stream_.set_option(websocket::stream_base::timeout{
@@ -208,7 +207,7 @@ private:
 
 } // namespace
 
-void view_live(asio::ip::tcp::socket socket, const Upgrade& request, Hub& hub, const Gate& gate)
+void view_live(asio::ip::tcp::socket socket, const Request& request, Hub& hub, const Gate& gate)
 {
     // The handshake answers from the request, which it reads at once.
     std::make_shared<Viewing>(std::move(socket), hub, gate)->begin(request);

@@ -283,15 +283,18 @@ void add_play(cli::Command& command, PlayCommand& play)
 {
     command.describe("Plays one session in virtual time and prints its numbers. With --control it "
                      "is there to be watched: hapnet-web --lab SOCKET shows it, and hapnet-ctl "
-                     "SOCKET changes its network.");
+                     "SOCKET changes its network. With two records it shows the session that they "
+                     "are of, as it was.");
     command.add_footer("Examples:\n"
                        "  hapnet-lab play --task T3 --loss 93% --json\n"
                        "  hapnet-lab play --algorithm base --algorithm sep --delay 160ms\n"
-                       "  hapnet-lab play --profile wifi-busy --control /tmp/lab.sock --pace 10");
+                       "  hapnet-lab play --profile wifi-busy --control /tmp/lab.sock --pace 10\n"
+                       "  hapnet-lab play a.rec b.rec --control /tmp/lab.sock");
     command.positional("EXPERIMENT",
                        "A file, or a built-in experiment: its first task and seed, and up to three "
-                       "algorithms, instead of the options",
+                       "algorithms, instead of the options. Or the record of one peer",
                        cli::into(play.experiment));
+    command.positional("RECORD", "The record of the other peer", cli::into(play.record));
     command.option("--task", "NAME", "P1 (default) or T1 to T10", cli::into(play.task));
     command
         .option("--algorithm", "NAME", "base (default); up to three play under the same network",
@@ -328,6 +331,19 @@ void add_play(cli::Command& command, PlayCommand& play)
 /// After the command line was read.
 base::Result<void> complete(PlayCommand& play, const cli::Command& command)
 {
+    if (!play.record.empty()) {
+        for (const char* option :
+             {"--task", "--algorithm", "--profile", "--delay", "--jitter", "--loss", "--set",
+              "--seed", "--duration", "--peers", "--json", "--out"}) {
+            if (command.is_given(option)) {
+                return base::fail(
+                    fmt::format("play: a record is played as it is: leave {} out", option));
+            }
+        }
+        if (play.control.empty()) {
+            return base::fail("play: records are played for those who watch: add --control SOCKET");
+        }
+    }
     if (play.algorithms.empty()) play.algorithms = {"base"};
     if (play.control.empty() && (!play.out.empty() || command.is_given("--pace"))) {
         return base::fail("play: --out and --pace go with --control");

@@ -24,9 +24,11 @@ struct AnalyseCommand {
     bool json = false;
 };
 
-/// `hapnet-lab play [EXPERIMENT] [--task T3 --algorithm sep ...] [--json | --control SOCKET]`
+/// `hapnet-lab play [EXPERIMENT] [--task T3 --algorithm sep ...] [--json | --control SOCKET]`, or
+/// `hapnet-lab play RECORD RECORD --control SOCKET`
 struct PlayCommand {
     std::string experiment; // a file, or the name of a built-in one; empty: what the options say
+    std::string record;     // of the second peer; `experiment` is that of the first then
     std::string task = "P1";
     std::vector<std::string> algorithms; // none: base
     std::string profile;                 // a file, or the name of a preset

@@ -151,8 +151,8 @@ private:
     int count_ = 0;
 };
 
-void play_a_turn(live::Session& session, live::Pace& pace, base::Duration passed,
-                 base::Duration tick)
+template <typename Played>
+void play_a_turn(Played& session, live::Pace& pace, base::Duration passed, base::Duration tick)
 {
     if (session.is_over()) return pace.pause(); // a seek back from there does not play on
     if (const auto due = pace.due(passed, tick)) return session.play_on(*due);
@@ -161,14 +161,15 @@ void play_a_turn(live::Session& session, live::Pace& pace, base::Duration passed
 }
 
 /// Until it is stopped.
-int play_live(const PlayCommand& command, live::Session& session, base::Duration tick)
+template <typename Played>
+int play_live(const PlayCommand& command, Played& session, base::Duration tick)
 {
     net::StopSignal stop;
     if (!command.out.empty()) create_folder(command.out);
     SavedExperiments saved{command.out};
     live::Pace pace{command.pace, !command.paused};
     bool is_over = false;
-    const live::Controlled controlled{
+    const live::Controlled<Played> controlled{
         session, pace, [&saved](const std::string& text) { return saved.save(text); },
         [&is_over] { is_over = true; }};
     std::vector<Served> all;
@@ -201,10 +202,26 @@ int play_live(const PlayCommand& command, live::Session& session, base::Duration
     return 0;
 }
 
+/// A session that is over.
+base::Result<int> play_records(const PlayCommand& command)
+{
+    const auto a = read_record(command.experiment);
+    if (!a) return tl::unexpected{a.error()};
+    const auto b = read_record(command.record);
+    if (!b) return tl::unexpected{b.error()};
+    const auto recording = live::Recording::make(*a, *b);
+    if (!recording) {
+        return base::fail(fmt::format("cannot play {} with {}: {}", command.experiment,
+                                      command.record, recording.error().message));
+    }
+    return play_live(command, **recording, (*recording)->tick());
+}
+
 } // namespace
 
 base::Result<int> play_session(const PlayCommand& command)
 {
+    if (!command.record.empty()) return play_records(command);
     auto experiment = experiment_of(command);
     if (!experiment) return tl::unexpected{experiment.error()};
     if (auto opened = load_own_algorithms(*experiment); !opened) {

@@ -22,16 +22,18 @@ using control::Members;
 
 Json factor_json(const Pace& pace) { return pace.factor() ? Json(*pace.factor()) : Json("max"); }
 
-Json pace_json(const Controlled& controlled)
+template <typename Played>
+Json pace_json(const Controlled<Played>& controlled)
 {
-    const Session& session = controlled.session;
+    const Played& session = controlled.session;
     const char* playing = controlled.pace.plays() ? "playing" : "paused";
     return {{"state", session.is_over() ? "ended" : playing},
             {"factor", factor_json(controlled.pace)},
             {"at_s", base::to_seconds(session.at())},
             {"length_s", base::to_seconds(session.length())},
             {"digest", fmt::format("{:016x}", session.digest())},
-            {"steps", session.steps()}};
+            {"steps", session.steps()},
+            {"read_only", Played::is_read_only}};
 }
 
 /// A number of seconds from `least` on; 0 where something else is there, and the fault is noted.
@@ -62,7 +64,8 @@ std::optional<double> factor_in(Members& members)
 }
 
 /// Does it, where nothing is wrong with it; the members that the reply has besides.
-base::Result<Json> pace_done(Members& members, const Controlled& controlled)
+template <typename Played>
+base::Result<Json> pace_done(Members& members, const Controlled<Played>& controlled)
 {
     auto& session = controlled.session;
     auto& pace = controlled.pace;
@@ -115,7 +118,8 @@ base::Result<Json> pace_done(Members& members, const Controlled& controlled)
     return act();
 }
 
-std::string pace_reply(Members& members, const Controlled& controlled)
+template <typename Played>
+std::string pace_reply(Members& members, const Controlled<Played>& controlled)
 {
     const auto done = pace_done(members, controlled);
     if (!done) return control::refusal(done.error().message);
@@ -125,7 +129,8 @@ std::string pace_reply(Members& members, const Controlled& controlled)
 }
 
 /// What an emulator says of itself, and what it has besides here.
-std::string shown(const std::string& reply, const Controlled& controlled)
+template <typename Played>
+std::string shown(const std::string& reply, const Controlled<Played>& controlled)
 {
     auto json = Json::parse(reply, nullptr, /*allow_exceptions*/ false);
     if (!json.is_object()) return reply;
@@ -135,7 +140,8 @@ std::string shown(const std::string& reply, const Controlled& controlled)
     return control::line_of(json);
 }
 
-std::string stopped(Members& members, const Controlled& controlled)
+template <typename Played>
+std::string stopped(Members& members, const Controlled<Played>& controlled)
 {
     const auto whole = members.finish(true);
     if (!whole) return control::refusal(whole.error().message);
@@ -143,7 +149,8 @@ std::string stopped(Members& members, const Controlled& controlled)
     return control::line_of(Json{{"ok", true}, {"stopping", true}, {"program", "hapnet-lab"}});
 }
 
-control::Answer answer_to(std::string_view line, const Controlled& controlled)
+template <typename Played>
+control::Answer answer_to(std::string_view line, const Controlled<Played>& controlled)
 {
     const auto json = control::parse_object(line);
     if (!json) return control::refusal(json.error().message);
@@ -159,7 +166,8 @@ control::Answer answer_to(std::string_view line, const Controlled& controlled)
 
 } // namespace
 
-control::Subject subject_of(const Controlled& controlled)
+template <typename Played>
+control::Subject subject_of(const Controlled<Played>& controlled)
 {
     return {[controlled](std::string_view line, base::TimePoint) {
                 return answer_to(line, controlled);
@@ -168,9 +176,10 @@ control::Subject subject_of(const Controlled& controlled)
             [controlled] { return controlled.session.watch(); }};
 }
 
-control::Subject peer_subject(const Controlled& controlled, std::size_t seat)
+template <typename Played>
+control::Subject peer_subject(const Controlled<Played>& controlled, std::size_t seat)
 {
-    Session& session = controlled.session;
+    Played& session = controlled.session;
     return peer::subject_of(
         {.show = [&session, seat] { return session.show_peer(seat); },
          .statistics = [&session, seat] { return session.peer_statistics(seat); },
@@ -179,5 +188,10 @@ control::Subject peer_subject(const Controlled& controlled, std::size_t seat)
          .scene = [&session] { return peer::scene_json(session.scene()); },
          .frames = [&session, seat] { return session.watch_peer(seat); }});
 }
+
+template control::Subject subject_of(const Controlled<Session>& controlled);
+template control::Subject subject_of(const Controlled<Recording>& controlled);
+template control::Subject peer_subject(const Controlled<Session>& controlled, std::size_t seat);
+template control::Subject peer_subject(const Controlled<Recording>& controlled, std::size_t seat);
 
 } // namespace hapnet::lab::live

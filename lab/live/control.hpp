@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/live/pace.hpp"
+#include "lab/live/recording.hpp"
 #include "lab/live/session.hpp"
 #include "proto/control/core/conversation.hpp"
 
@@ -11,10 +12,11 @@
 
 namespace hapnet::lab::live {
 
-/// A session in virtual time as the clients of its control sockets see it: an emulator and peers
-/// as they are in real time, and its pace. Both parts outlive it.
+/// A session in virtual time, or a Recording of one, as the clients of its control sockets see it:
+/// an emulator and peers as they are in real time, and its pace. Both parts outlive it.
+template <typename Played>
 struct Controlled {
-    Session& session;
+    Played& session;
     Pace& pace;
     /// Keeps the text of an experiment; gives the name of its file.
     std::function<base::Result<std::string>(const std::string& text)> save;
@@ -23,9 +25,11 @@ struct Controlled {
 };
 
 /// The socket of the network and of the pace: requests of an emulator, and `pace`.
-[[nodiscard]] control::Subject subject_of(const Controlled& controlled);
+template <typename Played>
+[[nodiscard]] control::Subject subject_of(const Controlled<Played>& controlled);
 
 /// The socket of a peer, which is looked at. A stop ends the session, of all its peers.
-[[nodiscard]] control::Subject peer_subject(const Controlled& controlled, std::size_t seat);
+template <typename Played>
+[[nodiscard]] control::Subject peer_subject(const Controlled<Played>& controlled, std::size_t seat);
 
 } // namespace hapnet::lab::live

@@ -4,9 +4,13 @@
 
 #include "proto/base/time.hpp"
 
+#include <chrono>
 #include <optional>
 
 namespace hapnet::lab::live {
+
+/// After a seek those who watch see the last of the way there.
+inline constexpr base::Duration shown_of_a_seek{std::chrono::milliseconds{20}};
 
 /// How fast virtual time goes by against a clock. Reads none: it is told the time.
 class Pace {

@@ -5,6 +5,7 @@
 #include "emulator/control/reply.hpp"
 #include "emulator/control/settings.hpp"
 #include "lab/experiment/session_spec.hpp"
+#include "lab/live/pace.hpp"
 #include "peer/control/statistics.hpp"
 #include "proto/base/version.hpp"
 #include "proto/record/rows.hpp"
@@ -28,8 +29,6 @@ using Json = nlohmann::ordered_json;
 constexpr base::Duration usual_countdown = 1s;
 /// What is changed at a time holds after the ticks of that time, as a step of a timeline then does.
 constexpr base::Duration after_the_ticks = 1ns;
-/// After a seek those who watch see the last of the way there.
-constexpr base::Duration shown_of_a_seek = 20ms;
 /// 16 s of datagrams, more than a page can ask for.
 constexpr emulator::QueueLimits roomy{.datagrams_max = 16384, .bytes_max = 64U << 20};
 

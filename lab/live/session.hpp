@@ -29,6 +29,7 @@ namespace hapnet::lab::live {
 class Session {
 public:
     static constexpr std::size_t algorithms_max = 3;
+    static constexpr bool is_read_only = false;
 
     /// The first task and seed of the experiment, and up to three of its algorithms. `presets`
     /// gives the text of a built-in profile.

@@ -33,10 +33,14 @@ export const missing = () => {
 /** The path of another program of the same build. */
 export const programBeside = (name) => join(dirname(program), name);
 
-/** {address, out, pid, stop} of a hapnet-web that plays its demo; files lie in `out`. */
+/**
+ * {address, out, pid, stop} of a hapnet-web that plays its demo, or shows what `more` says; files lie
+ * in `out`.
+ */
 export const startWeb = async (...more) => {
   const out = mkdtempSync(join(tmpdir(), "hapnet-web-"));
-  const child = spawn(program, ["--stage", "--port", "0", "--out", out, ...more]);
+  const what = more.includes("--lab") ? [] : ["--stage", "--out", out];
+  const child = spawn(program, ["--port", "0", ...what, ...more]);
   const ended = new Promise((resolve) => { child.on("exit", resolve); });
   const address = await new Promise((resolve, reject) => {
     ended.then((code) => reject(new Error(`hapnet-web ended with ${code}`)));

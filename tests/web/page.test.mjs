@@ -10,6 +10,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
+import { lowContrasts } from "./contrast.mjs";
 import { keepPicture, missing, openPage, patience, startBrowser, startWeb } from "./browser.mjs";
 
 const skip = missing();
@@ -215,6 +216,30 @@ test("every control has a name, and the keys reach them in order", { skip }, asy
   await page.waitForFunction(() => globalThis.hapnet?.model.frame && document.body.dataset.view);
   await page.keyboard.press("Tab");
   assert.equal(await page.evaluate(() => document.activeElement.className), "skip");
+});
+
+for (const scheme of ["light", "dark"]) {
+  test(`text stands out from its ground, ${scheme}`, { skip }, async () => {
+    await page.emulateMedia({ colorScheme: scheme });
+    await page.evaluate(() => {
+      for (const one of document.querySelectorAll("details")) one.open = true;
+    });
+    const { texts, low } = await lowContrasts(page);
+    assert.ok(texts > 100, `${texts} texts`);
+    assert.deepEqual(low, []);
+    await keepPicture(page, scheme);
+  });
+}
+
+test("the check of contrasts finds what does not stand out", { skip }, async () => {
+  await page.evaluate(() => {
+    const pale = document.createElement("p");
+    pale.textContent = "pale";
+    pale.style.cssText = "color: #8a8a8a; background: rgb(255 255 255 / 50%)";
+    document.querySelector("main").append(pale);
+  });
+  const { low } = await lowContrasts(page);
+  assert.deepEqual(low.map((one) => one.text), ["pale"]);
 });
 
 test("what the server does not offer is not there", { skip }, async () => {

@@ -112,6 +112,9 @@ nlohmann::ordered_json help_for(const EmulatorState& emulator, const std::vector
 
 std::string why_nothing_is_held(const EmulatorState& emulator, const std::vector<PeerState>& peers)
 {
+    if (member(member(emulator.shown, "pace"), "read_only") == true) {
+        return "what is shown comes from records: they are saved already";
+    }
     if (emulator.is_virtual()) {
         return "virtual time plays again from its seed: save it as an experiment";
     }

@@ -14,6 +14,7 @@ import { Network } from "./network.js";
 import { Orbit } from "./orbit.js";
 import { Pace } from "./pace.js";
 import { chartMaker, painterFor } from "./painters.js";
+import { Rhythm } from "./rhythm.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 import { Trap } from "./trap.js";
@@ -114,7 +115,12 @@ const describe = () => {
 const showState = (state) => {
   document.body.dataset.peers = String(model.peers.length);
   document.body.dataset.matrix = String(model.paths.length > 1);
-  say(byId("mode"), state.mode === "virtual" ? "virtual time" : "live UDP");
+  const isRecord = Boolean(state.pace?.read_only);
+  const time = isRecord ? "from records" : "virtual time";
+  say(byId("mode"), state.mode === "virtual" ? time : "live UDP");
+  byId("read-only").hidden = !isRecord;
+  byId("network-controls").inert = isRecord;
+  byId("wire").hidden = isRecord;
   byId("help").hidden = !state.help;
   say(byId("help-text"), state.help ?? "");
   showPath();
@@ -127,9 +133,13 @@ const connection = ({ open, says }) => {
   say(byId("connection"), says);
 };
 
+// Whatever changes costs a picture of the whole page: all of it changes in the same turns.
 let described = 0;
+document.addEventListener("visibilitychange", () => rhythm.rest());
+let rhythm = new Rhythm();
 const turn = (now) => {
   requestAnimationFrame(turn); // stands still while the tab is hidden
+  if (!rhythm.turn(now)) return;
   worlds.paint();
   lamps.draw(now);
   charts?.draw(now);
@@ -138,6 +148,12 @@ const turn = (now) => {
   described = now;
   describe();
 };
+
+/** Resolves once the browser has shown the page: what draws in space is loaded after that. */
+const painted = () => new Promise((resolve) => {
+  if (!PerformanceObserver.supportedEntryTypes?.includes("paint")) resolve();
+  else new PerformanceObserver(resolve).observe({ type: "paint", buffered: true });
+});
 
 const start = async () => {
   openFeed({
@@ -153,12 +169,16 @@ const start = async () => {
     reset: () => model.clear(),
     connection,
   });
-  const [painter, makeChart] = await Promise.all([painterFor(byId("worlds")), chartMaker()]);
-  worlds.painter = painter;
-  document.body.dataset.view = painter.kind;
-  charts = new ChartPanel(byId("charts"), byId("chart-table"), model, makeChart);
+  await painted();
+  charts = new ChartPanel(byId("charts"), byId("chart-table"), model, await chartMaker());
   if (model.state) showPath();
   requestAnimationFrame(turn);
+  const painter = await painterFor(byId("worlds"));
+  rhythm = new Rhythm({ level: painter.level });
+  rhythm.addEventListener("change", () => painter.setLevel(rhythm.level));
+  worlds.painter = painter;
+  document.body.dataset.view = painter.kind;
 };
 start();
-globalThis.hapnet = { model, orbit }; // for the tests, and for the curious at the console
+// For the tests, and for the curious at the console.
+globalThis.hapnet = { model, orbit, worlds, get rhythm() { return rhythm; } };

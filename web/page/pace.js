@@ -38,6 +38,7 @@ export class Pace {
     const { pace } = this;
     byId("pace").hidden = !pace;
     if (!pace) return;
+    byId("save").hidden = Boolean(pace.read_only);
     say(byId("play"), pace.state === "playing" ? "Pause" : "Play");
     if (document.activeElement !== byId("factor")) byId("factor").value = String(pace.factor);
   }

@@ -63,6 +63,16 @@ const peerCurves = (model, figure) =>
     show: "most",
   }));
 
+/** What the peers heard, where nothing is known of the emulator. */
+const heardCurves = (model) =>
+  model.peers.map((peer, place) => ({
+    name: `heard_delay_ms:${peer.id}`,
+    label: `to ${peer.letter}`,
+    colour: colourOfPeer(place),
+    show: "mean",
+    band: true,
+  }));
+
 /** The charts for that path of the emulator, whose ends have these two letters. */
 export const plotsOf = (model, path, ends) => [
   {
@@ -77,10 +87,12 @@ export const plotsOf = (model, path, ends) => [
     title: "Delay: asked and measured",
     unit: "ms",
     span: 5,
-    curves: [
-      ...wayCurves("delay_ms", ends, { band: true })(path),
-      ...asked("asked_ms", ends)(path),
-    ],
+    curves: model.state?.pace?.read_only
+      ? heardCurves(model)
+      : [
+          ...wayCurves("delay_ms", ends, { band: true })(path),
+          ...asked("asked_ms", ends)(path),
+        ],
   },
   {
     key: "loss",

@@ -21,6 +21,8 @@ export const makePainter = () => {
   });
   return {
     kind: "flat",
+    level: 0,
+    setLevel() {},
     paint(views) {
       for (const { pane, scene, picture } of views) {
         const canvas = canvasOf(pane);

@@ -30,6 +30,7 @@ export class Worlds {
   #signature = "";
   #dirty = true;
   painter = null;
+  painted = 0; // pictures
 
   constructor(container, model, orbit) {
     Object.assign(this, { container, model, orbit });
@@ -65,6 +66,7 @@ export class Worlds {
       return { pane: view, scene, picture: pictureOf(scene, sides, peers[place].id) };
     });
     this.painter.paint(views, this.orbit);
+    this.painted += 1;
   }
 
   /** Figures as text, a few times a second: more could not be read. */

@@ -59,27 +59,27 @@ const clockOffset = async (page) => {
   return best;
 };
 
-/** Ages of frames in ms when the browser next paints, and how many it painted a second. */
+/** Ages of frames in ms when the worlds are painted, and how many pictures a second. */
 const agesOnScreen = async (page, seconds) => {
   const { offset, round } = await clockOffset(page);
   const { ages, frames } = await page.evaluate(([length, behind]) => new Promise((resolve) => {
-    const { model } = globalThis.hapnet;
+    const { model, worlds } = globalThis.hapnet;
     const found = [];
-    let [last, painted] = [null, 0];
+    const first = worlds.painted;
+    let last = first;
     const end = performance.now() + 1000 * length;
+    // After the page's own turn, which has painted the newest frame or nothing.
     const turn = () => {
-      const newest = model.frame?.peers?.[0];
-      if (newest && newest.at_ns !== last) {
-        last = newest.at_ns;
-        painted += 1;
-        // After this turn's callbacks, which paint what came before it.
-        const { at_ns: at } = newest;
+      const at = model.frame?.peers?.[0]?.at_ns;
+      if (at !== undefined && worlds.painted !== last) {
+        last = worlds.painted;
+        // After the browser has taken over what this turn painted.
         const channel = new MessageChannel();
         channel.port1.onmessage = () => found.push(performance.now() + behind - at / 1e6);
         channel.port2.postMessage(0);
       }
       if (performance.now() < end) requestAnimationFrame(turn);
-      else resolve({ ages: found, frames: painted / length });
+      else resolve({ ages: found, frames: (worlds.painted - first) / length });
     };
     requestAnimationFrame(turn);
   }), [seconds, offset]);

@@ -3,6 +3,7 @@
 """hapnet-web beside daemons that run already, in virtual time, elsewhere than on loopback, and
 with more than two peers."""
 
+import csv
 import json
 import os
 import signal
@@ -205,6 +206,65 @@ class Attach(unittest.TestCase):
         self.assertEqual(pace(do="seek", to_s=12)["steps"][0]["settings"]["up.delay"], "80ms")
         status, body = server.ask("POST", "/api/pace", {"do": "save"})
         self.assertEqual((status, json.loads(body)["file"]), (200, "experiment-1.toml"))
+
+    def test_records_are_sought_and_show_what_was_recorded(self):
+        daemons = Daemons(self.folder, 6)
+        self.addCleanup(daemons.stop)
+        self.assertEqual(daemons.finish(), [0, 0])
+        control = f"{self.folder}/lab.sock"
+        lab = subprocess.Popen([program("hapnet-lab"), "play", *daemons.records, "--control",
+                                control, "--pace", "paused"], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (lab.terminate(), lab.wait(timeout=20), lab.stdout.close()))
+        self.assertIn("ready", lab.stdout.readline())
+        server = self.serve("--lab", control)
+        state = server.wait_for(lambda now: len(now["peers"]) == 2 and now["scenes"]
+                                and all(peer["attached"] for peer in now["peers"]))
+        self.assertEqual((state["mode"], state["pace"]["read_only"]), ("virtual", True))
+        self.assertGreater(state["pace"]["length_s"], 5)
+
+        def pace(**request):
+            status, body = server.ask("POST", "/api/pace", request)
+            self.assertEqual(status, 200, body)
+            return json.loads(body)["pace"]
+
+        live = Live(server.port, server.token)
+        self.addCleanup(live.close)
+
+        before = state["pace"]["length_s"] - 6  # the session starts
+
+        def seek(to_s):
+            pace(do="seek", to_s=to_s)
+            while True:
+                frame = live.read()
+                if frame["type"] == "frame" and frame["at_s"] == to_s and all(
+                        peer and abs(peer["session"]["at_s"] + before - to_s) < 0.01
+                        for peer in frame["peers"]):
+                    return frame
+
+        first = seek(3)
+        seek(1)
+        second = seek(3)
+        told = [[(peer["tick"], peer["cube"], peer["session"]) for peer in frame["peers"]]
+                for frame in (first, second)]
+        self.assertEqual(told[0], told[1])
+        done = subprocess.run([program("hapnet-lab"), "export", daemons.records[0], "--csv"],
+                              capture_output=True, text=True, check=True)
+        rows = list(csv.DictReader(done.stdout.splitlines()))
+        row = next(row for row in rows if int(row["tick"]) == first["peers"][0]["tick"])
+        cube_mm = 1e3 * first["peers"][0]["cube"][0]
+        self.assertAlmostEqual(float(row["cube_x_mm"]), cube_mm, places=3)
+        self.assertEqual(server.ask("POST", "/api/emulator",
+                                    {"command": "set", "settings": {"both.delay": "1ms"}})[0], 422)
+        self.assertEqual(server.ask("POST", "/api/pace", {"do": "save"})[0], 422)
+        self.assertEqual(server.ask("POST", "/api/keep", {})[0], 409)
+        pace(do="factor", factor=1)
+        pace(do="play")
+        while (frame := live.read())["type"] != "frame" or frame["pairs"][0]["apart_mm"] is None:
+            pass
+        self.assertLess(frame["pairs"][0]["apart_mm"], 20)
+        pace(do="factor", factor="max")
+        pace(do="play")
+        server.wait_for(lambda now: now["pace"]["state"] == "ended")
 
 
 if __name__ == "__main__":

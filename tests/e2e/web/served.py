@@ -63,6 +63,9 @@ class Live:
     def read(self):
         """A message, or the code with which the server closes."""
         kind, body = self.read_fragment()
+        while kind & 15 == 9:  # a ping, as while time stands still
+            self.socket.sendall(bytes([0x8A, 0x80]) + bytes(4))
+            kind, body = self.read_fragment()
         if kind & 15 == 8:
             return struct.unpack(">H", body[:2])[0]
         while not kind & 0x80:

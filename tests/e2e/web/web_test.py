@@ -15,6 +15,7 @@ import unittest
 
 from served import PROGRAM, Live, Server, children_of
 
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
 PAGE_BYTES_MAX = 260_000  # packed: the page, its scripts, styles and modules
 
 
@@ -210,6 +211,28 @@ class Web(unittest.TestCase):
         done = subprocess.run([promtool, "check", "metrics"], input=text, capture_output=True,
                               timeout=20, check=False)
         self.assertEqual((done.returncode, done.stdout + done.stderr), (0, b""))
+
+    def test_the_dashboard_draws_metrics_that_there_are(self):
+        self.server.wait_for(lambda state: len(state["peers"]) == 2 and all(
+            one["attached"] for one in [*state["peers"], state["emulator"]]))
+        time.sleep(1.1)  # as long as an older text is kept
+        text = self.ask("GET", "/metrics", X_Hapnet_Token=None)[1].decode()
+        samples = re.findall(r"^(\w+)(?:\{(.*)\})? ", text, re.MULTILINE)
+        labels = {}
+        for name, found in samples:
+            labels.setdefault(name, set()).update(re.findall(r'(\w+)="', found))
+        with open(os.path.join(ROOT, "packaging/grafana/hapnet.json"), encoding="utf-8") as file:
+            dashboard = json.load(file)
+        targets = [target for panel in dashboard["panels"] for target in panel["targets"]]
+        self.assertGreater(len(targets), 5)
+        for target in targets:
+            names = re.findall(r"\bhapnet_\w+", target["expr"])
+            self.assertTrue(names, target)
+            for name in names:
+                self.assertIn(name, labels)
+                wanted = re.findall(r"\{\{\s*(\w+)\s*\}\}", target.get("legendFormat", ""))
+                # A path is named where there are several.
+                self.assertLessEqual(set(wanted) - {"path", "instance"}, labels[name], target)
 
     def test_a_chosen_port_that_is_taken_ends_it_with_3(self):
         done = subprocess.run([PROGRAM, "--port", str(self.port)], capture_output=True,

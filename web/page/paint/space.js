@@ -36,8 +36,8 @@ export class Space {
   #ground = null;
   #scene = null;
 
-  constructor(canvas) {
-    this.renderer = new three.WebGLRenderer({ canvas, alpha: true, antialias: true });
+  constructor(canvas, { antialias }) {
+    this.renderer = new three.WebGLRenderer({ canvas, alpha: true, antialias });
     this.renderer.setScissorTest(true);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = three.PCFShadowMap;
@@ -54,7 +54,11 @@ export class Space {
     this.#scene = null;
   }
 
-  setShadows(on) { this.renderer.shadowMap.enabled = on; }
+  setShadows(on) {
+    if (on === this.renderer.shadowMap.enabled) return;
+    this.renderer.shadowMap.enabled = on;
+    this.#materials.forEach((material) => { material.needsUpdate = true; });
+  }
 
   #kept(store, key, make) {
     if (!store.has(key)) store.set(key, make());

@@ -10,6 +10,7 @@ import { colourOfPeer, onColours, readColours } from "../paint/palette.js";
 import { pictureOf } from "../paint/picture.js";
 import { length } from "../paint/vector.js";
 import { makePane } from "../pane.js";
+import { Rhythm } from "../rhythm.js";
 import { Replay } from "./replay.js";
 
 const stripPoints = 1500; // of a curve: finer than pixels
@@ -44,6 +45,8 @@ export class Player {
 
   async start() {
     this.painter = await this.painterFor(this.parts.worlds);
+    this.rhythm = new Rhythm({ level: this.painter.level });
+    this.rhythm.addEventListener("change", () => this.painter.setLevel(this.rhythm.level));
     const { algorithm } = this.parts;
     fillSelect(algorithm, [...new Set(this.data.map((one) => one.algorithm))]
       .map((name) => [name, name]));
@@ -147,6 +150,7 @@ export class Player {
 
   #stop() {
     this.#last = null;
+    this.rhythm.rest();
     this.parts.play.textContent = "▶";
   }
 
@@ -156,6 +160,7 @@ export class Player {
     this.#asked = true;
     requestAnimationFrame((now) => {
       this.#asked = false;
+      if (this.isPlaying && !this.rhythm.turn(now)) return this.draw();
       this.#advance(now);
       this.#paint();
       if (this.isPlaying) this.draw();
