@@ -218,16 +218,20 @@ void say_what_is_replaced(const fs::path& path, std::string_view page)
 /// Of a folder whose subfolders alone have one.
 void write_manifest(const Source& source)
 {
-    const auto& runs = source.results.runs;
-    const auto root = source.folder.generic_string();
-    const bool has_own = std::ranges::find(runs, root, &results::Run::folder) != runs.end();
-    if (runs.empty() || has_own) return;
+    if (source.results.runs.empty()) return;
+    auto root = source.folder.generic_string();
+    while (root.size() > 1 && root.ends_with('/')) root.pop_back();
+    const auto path = root + "/manifest.json";
+    if (fs::exists(path)) { // one of a run stays
+        const auto there = read_json(path);
+        if (!there || !results::is_of_several(*there)) return;
+    }
     const results::Circumstances circumstances{.command = "hapnet-lab report " + root,
                                                .start = {},
                                                .host = host(),
                                                .program = base::version_line("hapnet-lab")};
-    net::ResultFile{root + "/manifest.json"}.commit(
-        several_manifest(source.results, root, circumstances).dump(2) + '\n');
+    net::ResultFile{path}.commit(several_manifest(source.results, root, circumstances).dump(2) +
+                                 '\n');
 }
 
 } // namespace

@@ -90,7 +90,7 @@ TEST(LabReport, WritesTheManifestOfAFolderOfResultsAndAgainWhenOneHasChanged)
     EXPECT_EQ(manifest["invalid_because"][0], "qos is not valid");
 
     write_file(folder / "manifest.json", part("2026-11-25T11:00:00Z", true));
-    ASSERT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
+    ASSERT_EQ(run("hapnet-lab", {"report", folder.string() + "/"}).exit, 0);
     EXPECT_EQ(text_of((folder / "manifest.json").string()), part("2026-11-25T11:00:00Z", true))
         << "that of a run stays";
 }

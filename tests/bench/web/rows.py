@@ -20,7 +20,7 @@ def is_met(one):
 
 
 def row(place, metric, value, **judged):
-    """`place` has case, subject and baseline; `judged` may have baseline_value, target, direction."""
+    """`place`: case, subject, baseline. `judged` may have baseline_value, target, direction."""
     one = {"case": None, "subject": None, "baseline": None} | place
     one |= {"metric": metric, "value": value, "baseline_value": judged.get("baseline_value")}
     one["ratio"] = ratio_of(value, one["baseline_value"])
