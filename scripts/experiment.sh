@@ -15,16 +15,16 @@ with the same --out after an interruption: nothing is computed twice. --quick is
 seeds; --jobs is the number of threads (all processors) and does not change the results;
 --conventions searches fig6a's and fig6b's limits again with other filters and hands, N seeds
 each; --real-time
-lets table1 play its cells in real time, too (scripts/real-time.sh: 30 s each). Exits 0 when done, 1
-when stopped, 2 for an unknown name or argument, 3 when something that it needs cannot be
-installed."
+plays the sessions in real time, too (scripts/real-time.sh): of table1 its cells of P1, 30 s each,
+of others every session, into DIR/daemons. Exits 0 when done, 1 when stopped, 2 for an unknown name
+or argument, 3 when something that it needs cannot be installed."
 
 refuse() {
     echo "experiment: $1"$'\n'"$usage" >&2
     exit 2
 }
 
-names=() out='' options=() real_time='' quick=() conventions=''
+names=() out='' options=() daemons=() real_time='' quick=() conventions=''
 while (($# > 0)); do
     case $1 in
     --quick) options+=(--quick) quick=(--quick) && shift ;;
@@ -39,7 +39,9 @@ while (($# > 0)); do
         ;;
     --seeds | --jobs | --set)
         (($# > 1)) || refuse "$1: which value?"
-        options+=("$1" "$2") && shift 2
+        options+=("$1" "$2")
+        [[ $1 == --jobs ]] || daemons+=("$1" "$2")
+        shift 2
         ;;
     -h | --help) echo "$usage" && exit 0 ;;
     -*) refuse "unknown argument '$1'" ;;
@@ -47,7 +49,6 @@ while (($# > 0)); do
     esac
 done
 ((${#names[@]} > 0)) || refuse "which experiment?"
-[[ -z $real_time || " ${names[*]} " == *' table1 '* ]] || refuse "--real-time: only for table1"
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 time=$(date -u +%Y%m%dT%H%M%SZ)
@@ -71,6 +72,10 @@ for name in "${names[@]}"; do
     more=()
     [[ -z $conventions || $name != fig6[ab] ]] || more=(--set "convention.seeds=$conventions")
     "$lab" run "$name" "${options[@]}" "${more[@]}" --out "$folder"
-    [[ -z $real_time || $name != table1 ]] || scripts/real-time.sh --out "$folder" "${quick[@]}"
+    if [[ -n $real_time && $name == table1 ]]; then
+        scripts/real-time.sh --out "$folder" "${quick[@]}"
+    elif [[ -n $real_time ]]; then
+        scripts/real-time.sh "$name" --out "$folder/daemons" "${quick[@]}" "${daemons[@]}"
+    fi
 done
 "$lab" report "$out"

@@ -2,12 +2,21 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The cells of Table 1 in real time: the daemons and the emulator over loopback UDP and, as root,
-# in three network namespaces, beside the same sessions in virtual time.
+# Sessions in real time, by the daemons and the emulator over UDP, beside the same in virtual time:
+# those of an experiment, one after the other; or the cells of Table 1 over loopback and, as root,
+# in three network namespaces.
 set -euo pipefail
 
-usage="usage: scripts/real-time.sh --out DIR [--quick] [--peers N] [--task T7|T8] [--delay TIME]
+usage="usage: scripts/real-time.sh EXPERIMENT --out DIR [--set KEY=VALUE] [--seeds N] [--quick]
+                            [--attempts N] [--keep-records] [--programs DIR]
+       scripts/real-time.sh --out DIR [--quick] [--peers N] [--task T7|T8] [--delay TIME]
                             [--duration SECONDS] [--programs DIR]
+Plays every session of an experiment (a file, or a built-in one: docs/use/real-time.md) in real time
+over loopback, one after the other, and compares each with the same session in virtual time. Writes
+DIR/real_time_sessions.csv, a row for each attempt, DIR/real_time_conditions.csv, and what
+DIR/manifest.json says of it. A session whose own timing was off is marked and played again, up to 3
+attempts in all (--attempts). After Ctrl-C the same command goes on where it was. Records are
+removed once they are compared, unless --keep-records is given. Without EXPERIMENT:
 Installs what is missing, builds, plays task P1 with a delay of 160 ms each way with the algorithms
 base, sep and dead-reckoning in real time, over loopback and, as root, in network namespaces; one
 after the other, 30 s each, so that they do not disturb each other. Writes DIR/real_time.csv, what
@@ -26,15 +35,19 @@ refuse() {
     echo "real-time: $1"$'\n'"$usage" >&2
     exit 2
 }
-out='' quick='' seconds='' programs='' peers='' task='' delay=''
+out='' quick='' seconds='' programs='' peers='' task='' delay='' experiment=''
+attempts=3 planned=() keep=()
 while (($# > 0)); do
     case $1 in
     --quick) quick=yes && shift ;;
-    --out | --duration | --programs | --peers | --task | --delay)
+    --keep-records) keep=(--keep-records) && shift ;;
+    --out | --duration | --programs | --peers | --task | --delay | --set | --seeds | --attempts)
         (($# > 1)) || refuse "$1: which value?"
         case $1 in
         --task) task=$2 ;;
         --delay) delay=$2 ;;
+        --set | --seeds) planned+=("$1" "$2") ;;
+        --attempts) attempts=$2 ;;
         --out) out=$(realpath -m "$2") ;;
         --programs) programs=$(realpath "$2") ;;
         --peers) peers=$2 ;;
@@ -43,10 +56,18 @@ while (($# > 0)); do
         shift 2
         ;;
     -h | --help) echo "$usage" && exit 0 ;;
-    *) refuse "unknown argument '$1'" ;;
+    -*) refuse "unknown argument '$1'" ;;
+    *)
+        [[ -z $experiment ]] || refuse "one experiment at a time, not '$experiment' and '$1'"
+        experiment=$1 && shift
+        [[ ! -f $experiment ]] || experiment=$(realpath "$experiment")
+        ;;
     esac
 done
 [[ -n $out ]] || refuse "--out is required"
+[[ -z $experiment || -z $peers$task$delay$seconds ]] ||
+    refuse "an experiment says its peers, tasks, delays and duration; --set changes them"
+[[ -n $experiment || ${#planned[@]} == 0 ]] || refuse "--set and --seeds go with an experiment"
 [[ ${peers:-2} =~ ^[2-8]$ ]] || refuse "--peers: a number from 2 to 8, not '$peers'"
 [[ ${task:-T7} =~ ^T[78]$ ]] || refuse "--task: T7 or T8, not '$task'"
 [[ ${delay:-5ms} =~ ^[0-9]+ms$ ]] || refuse "--delay: milliseconds, such as 5ms, not '$delay'"
@@ -95,9 +116,57 @@ play_many() {
     "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
 }
 
+# play_cell FOLDER PEERS TASK SECONDS SEED: the session whose files are in the folder.
+play_cell() {
+    local folder=$1 peers=$2 id records=()
+    local network=(--profile "$folder/profile.toml" --seed "$5")
+    local play=(--task "$3" --algorithm "$folder/algorithm.toml" --scene "$folder/scene.toml")
+    hands_seed=$5
+    for ((id = 1; id <= peers; id++)); do
+        operators[$id]=$folder/$( ((id % 2)) && echo left || echo right).toml
+        records+=("$folder/peer-$id.rec")
+    done
+    if ((peers == 2)); then
+        start_emulator "$folder" "${network[@]}"
+        play_session "$folder" "$4" "${play[@]}" --insecure
+    else
+        start_links "$folder" "$peers" "${network[@]}"
+        play_circle "$folder" "$4" "$peers" "${play[@]}"
+    fi
+    "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
+}
+
+# play_experiment: session by session, as hapnet-lab asks for them.
+play_experiment() {
+    local line folder peers task seconds seed words quickly=()
+    [[ -z $quick ]] || quickly=(--quick)
+    "$bin/hapnet-lab" plan "$experiment" "${planned[@]}" "${quickly[@]}" --out "$out"
+    while true; do
+        line=$("$bin/hapnet-lab" real-time "$out" --next --attempts "$attempts")
+        [[ -n $line ]] || break
+        IFS=$'\t' read -r folder peers task seconds seed words <<<"$line"
+        printf '\nreal-time: %s\n' "$words"
+        play_cell "$folder" "$peers" "$task" "$seconds" "$seed"
+        "$bin/hapnet-lab" real-time "$out" --played "$folder" "${keep[@]}"
+    done
+}
+
+# conclude: the tables from all that was played.
+conclude() {
+    echo
+    "$bin/hapnet-lab" real-time "$out" --command "$command_line" --start "$start" \
+        --wall-time $((SECONDS - started))
+}
+
 [[ -n $programs ]] || build_programs hapnet-emulator hapnet-peer hapnet-lab
 start=$(date -u +%FT%TZ)
 started=$SECONDS
+if [[ -n $experiment ]]; then
+    # Also when it is interrupted.
+    trap 'stop_all; [[ -z $(compgen -G "$out/cells/*/*/result.json") ]] || conclude' EXIT
+    play_experiment
+    exit
+fi
 rm -rf "$out/real-time"
 if [[ -n $circle ]]; then play_many; else play_all loopback; fi
 if [[ -z $quick$circle ]]; then
@@ -107,6 +176,4 @@ if [[ -z $quick$circle ]]; then
         echo "real-time: so there is no session in network namespaces" >&2
     fi
 fi
-echo
-"$bin/hapnet-lab" real-time "$out" --command "$command_line" --start "$start" \
-    --wall-time $((SECONDS - started))
+conclude

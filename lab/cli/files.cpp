@@ -68,6 +68,14 @@ base::Result<results::SessionFiles> read_session_files(const std::string& folder
         if (!json) return tl::unexpected{json.error()};
         *part = *std::move(json);
     }
+    const std::size_t others = files.peer.value("others", nlohmann::ordered_json::array()).size();
+    for (std::size_t id = 2; id <= others + 1; ++id) {
+        const auto path = fmt::format("{}/peer-{}.json", folder, id);
+        if (!std::filesystem::exists(path)) break;
+        auto json = read_json(path);
+        if (!json) return tl::unexpected{json.error()};
+        files.others.push_back(*std::move(json));
+    }
     return files;
 }
 

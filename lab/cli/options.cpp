@@ -188,12 +188,27 @@ void add_replay(cli::Command& command, ReplayCommand& replay)
 
 void add_real_time(cli::Command& command, RealTimeCommand& real_time)
 {
+    constexpr std::uint64_t attempts_max = 100;
     command.describe("The last step of scripts/real-time.sh: reads the sessions that ran in real "
-                     "time, plays the same in virtual time, and writes real_time.csv.");
+                     "time, plays the same in virtual time, and writes real_time.csv; or, in the "
+                     "folder of a plan, real_time_sessions.csv and real_time_conditions.csv.");
     command
         .positional("DIR", "The folder of results that holds real-time/",
                     cli::into(real_time.folder))
         .required("results");
+    command.flag(
+        "--next",
+        "Of the plan in DIR: write the files of the next session that is to be played, "
+        "and print its folder, peers, task, seconds, seed and words, with tabs between; nothing "
+        "when all are played",
+        real_time.next);
+    command.option("--attempts", "N", "How often a session is played that is not valid (default 3)",
+                   cli::into(real_time.attempts, base::Count{1, attempts_max}));
+    command.option("--played", "FOLDER",
+                   "Read the session that was played into this folder, and compare it",
+                   cli::into(real_time.played));
+    command.flag("--keep-records", "With --played: keep the records in the folder",
+                 real_time.keep_records);
     command.add_exit_codes(exit_codes_without_run);
     add_circumstances(command, real_time);
 }

@@ -69,9 +69,13 @@ struct ExplainCommand {
     bool json = false;
 };
 
-/// `hapnet-lab real-time DIR`: the end of scripts/real-time.sh.
+/// `hapnet-lab real-time DIR [--next | --played FOLDER]`: what scripts/real-time.sh asks.
 struct RealTimeCommand {
     std::string folder;
+    bool next = false;          // of a plan: says which session is to be played now
+    std::uint32_t attempts = 3; // how often one is played that is never valid
+    std::string played;         // the folder of a session that was played; empty: all of them
+    bool keep_records = false;
     std::string command; // what was typed
     std::string start;   // ISO 8601, UTC
     double wall_time_s = 0.0;

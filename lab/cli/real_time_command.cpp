@@ -4,14 +4,14 @@
 
 #include "lab/cli/files.hpp"
 #include "lab/cli/host.hpp"
+#include "lab/cli/session_records.hpp"
+#include "lab/cli/sweep_command.hpp"
 #include "lab/results/real_time.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
-#include "proto/record/reader.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
 #include <vector>
@@ -35,19 +35,9 @@ std::vector<fs::path> session_folders(const fs::path& place)
     return folders;
 }
 
-/// Of each of the peers 1, 2, ... as its record says it.
-base::Result<std::vector<base::Duration>> phases_in(const fs::path& folder, std::size_t peers)
+void tick_evenly(virtual_time::Setting& setting)
 {
-    constexpr base::Duration tick{std::chrono::milliseconds{1}};
-    std::vector<base::Duration> phases;
-    for (std::size_t id = 1; id <= peers; ++id) {
-        const auto path = (folder / fmt::format("peer-{}.rec", id)).string();
-        const auto record = record::read(path);
-        if (!record) return tl::unexpected{record.error()};
-        if (record->ticks.empty()) return base::fail(path + " has no ticks");
-        phases.push_back(record->ticks.back().due.time_since_epoch() % tick);
-    }
-    return phases;
+    for (virtual_time::PlayerSetting& player : setting.players) player.ticks.reset();
 }
 
 base::Result<results::RealTimeResult> result_in(const fs::path& folder, const std::string& where)
@@ -55,49 +45,27 @@ base::Result<results::RealTimeResult> result_in(const fs::path& folder, const st
     auto files = read_session_files(folder.string());
     if (!files) return tl::unexpected{files.error()};
     results::RealTimeSession session{where, *std::move(files)};
-    // P1 is played over a path beside which a tick is short; the other tasks over some
-    // milliseconds.
     const std::size_t others = session.files.peer.value("others", Json::array()).size();
-    if (session.files.peer.value("task", "") != "P1") {
-        auto phases = phases_in(folder, others + 1);
-        if (!phases) return tl::unexpected{phases.error()};
-        session.phases = *std::move(phases);
-    }
-    const auto setting = twin_of(session, net::text_of_file);
+    const auto records = records_in(folder.string(), others + 1);
+    if (!records) return tl::unexpected{records.error()};
+    session.ticks = ticks_in(*records);
+    auto setting = twin_of(session, net::text_of_file);
+    // P1 is played over a path beside which a tick is short: it is compared with even ticks, as
+    // Table 1 has them.
+    if (setting && setting->task == device::Task::p1) tick_evenly(*setting);
     if (!setting) return base::fail(folder.string() + ": " + setting.error().message);
     const auto twin = play(*setting);
     if (!twin) return base::fail(folder.string() + ": " + twin.error().message);
     return result_of(session, *twin);
 }
 
-/// Adds to the manifest that is there; without one, writes a manifest of its own.
-base::Result<void> note_in_manifest(const fs::path& folder, Json real_time)
-{
-    const auto path = (folder / "manifest.json").string();
-    Json manifest{{"kind", "real-time"},
-                  {"title", "Real time beside virtual time"},
-                  {"command", real_time.at("command")},
-                  {"version", real_time.at("version")},
-                  {"commit", real_time.at("commit")},
-                  {"compiler", real_time.at("compiler")},
-                  {"host", real_time.at("host")},
-                  {"start", real_time.at("start")},
-                  {"wall_time_s", real_time.at("wall_time_s")},
-                  {"valid", real_time.at("valid")}};
-    if (fs::exists(path)) {
-        auto there = read_json(path);
-        if (!there) return tl::unexpected{there.error()};
-        if (there->value("kind", "") != "real-time") manifest = *std::move(there);
-    }
-    manifest["real_time"] = std::move(real_time);
-    net::ResultFile{path}.commit(manifest.dump(2) + '\n');
-    return {};
-}
-
 } // namespace
 
 base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
 {
+    if (command.next) return next_session(command);
+    if (!command.played.empty()) return compare_session(command);
+    if (is_sweep(command.folder)) return conclude_sweep(command);
     const fs::path folder{command.folder};
     std::vector<results::RealTimeResult> results;
     for (const char* where : {"loopback", "namespaces"}) {
@@ -115,7 +83,8 @@ base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
     net::ResultFile{(folder / "real_time.csv").string()}.commit(real_time_csv(results));
     const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
                                                host()};
-    const auto noted = note_in_manifest(folder, real_time_manifest(results, circumstances));
+    const auto noted =
+        note_in_manifest(folder.string(), real_time_manifest(results, circumstances));
     if (!noted) return tl::unexpected{noted.error()};
     return real_time_table(results);
 }

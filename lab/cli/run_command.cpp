@@ -73,20 +73,6 @@ base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open
     return experiment;
 }
 
-/// The experiment of a plan that this very program has made.
-base::Result<LoadedExperiment> load_plan(const std::string& path)
-{
-    const auto plan = read_plan(path);
-    if (!plan) return tl::unexpected{plan.error()};
-    auto experiment = load(*plan, opener_of(*plan));
-    if (experiment && experiment->program != plan->program) {
-        return base::fail(fmt::format("{} was made by {}, and this is {}: plan again, or use the "
-                                      "same build",
-                                      path, plan->program, experiment->program));
-    }
-    return experiment;
-}
-
 std::string folder_of(const std::string& plan)
 {
     const auto folder = std::filesystem::path{plan}.parent_path();
@@ -120,6 +106,19 @@ base::Result<int> run_plan(const RunCommand& command, const std::string& path)
 }
 
 } // namespace
+
+base::Result<LoadedExperiment> load_plan(const std::string& path)
+{
+    const auto plan = read_plan(path);
+    if (!plan) return tl::unexpected{plan.error()};
+    auto experiment = load(*plan, opener_of(*plan));
+    if (experiment && experiment->program != plan->program) {
+        return base::fail(fmt::format("{} was made by {}, and this is {}: plan again, or use the "
+                                      "same build",
+                                      path, plan->program, experiment->program));
+    }
+    return experiment;
+}
 
 base::Result<int> run_experiment(const RunCommand& command)
 {

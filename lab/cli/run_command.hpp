@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/cli/experiment_run.hpp"
 #include "lab/cli/options.hpp"
 #include "proto/base/result.hpp"
 
@@ -15,6 +16,9 @@ namespace hapnet::lab {
 
 /// Writes plan.json into a folder.
 [[nodiscard]] base::Result<int> plan_experiment(const PlanCommand& planned);
+
+/// The experiment of the plan in a file, which this very program has made.
+[[nodiscard]] base::Result<LoadedExperiment> load_plan(const std::string& path);
 
 /// Writes the results of a plan from what its shards have played.
 [[nodiscard]] base::Result<int> merge(const MergeCommand& command);

@@ -41,12 +41,22 @@ std::string way_text(std::string text, const std::shared_ptr<const device::HandT
     return text + '\n';
 }
 
+/// When a player ticks; empty: evenly.
+std::string ticks_text(const std::shared_ptr<const std::vector<base::Duration>>& ticks)
+{
+    if (!ticks) return {};
+    std::string text = "ticks";
+    for (const base::Duration tick : *ticks) text += fmt::format(" {}", tick.count());
+    return text + '\n';
+}
+
 std::string player_text(const virtual_time::PlayerSetting& player)
 {
-    return fmt::format(
-        "{}{}clock_ahead = {}\nphase = {}\n{}{}", peer::print_algorithm(player.algorithm),
-        device::print_operator(player.person), player.clock_ahead.count(), player.phase.count(),
-        way_text("replay", player.replay), way_text("script", player.way));
+    return fmt::format("{}{}clock_ahead = {}\nphase = {}\n{}{}{}",
+                       peer::print_algorithm(player.algorithm),
+                       device::print_operator(player.person), player.clock_ahead.count(),
+                       player.phase.count(), way_text("replay", player.replay),
+                       way_text("script", player.way), ticks_text(player.ticks));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/real_time.hpp"
 
+#include "device/governor/limits.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "lab/metrics/metrics.hpp"
 #include "lab/results/rows.hpp"
@@ -12,8 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
+#include <utility>
 
 namespace hapnet::lab::results {
 
@@ -80,13 +83,30 @@ std::optional<metrics::Spread> in_mm(const std::optional<metrics::Spread>& metre
                            1e3 * metres->std};
 }
 
-std::vector<std::string> objections_to(const SessionFiles& session)
+std::vector<std::string> objections_to(const RealTimeSession& session)
 {
-    auto objections = session.invalid_because();
-    if (!session.analysis.value("discrepancy_x_mm", Json{}).is_object()) {
+    auto objections = session.files.invalid_because();
+    for (std::string& stall : stalls_of(session)) objections.push_back(std::move(stall));
+    if (!session.files.analysis.value("discrepancy_x_mm", Json{}).is_object()) {
         objections.emplace_back("the two were never in session together");
     }
     return objections;
+}
+
+/// What a peer says that it played with, and whose hand.
+base::Result<virtual_time::PlayerSetting> player_of(const Json& report, Parts& parts)
+{
+    Written peer{report, "hapnet-peer"};
+    const auto algorithm = peer.at<std::string>("/algorithm_toml");
+    const auto person = peer.at<std::string>("/operator_toml");
+    const auto grip_damping = peer.at<double>("/grip_damping_ns_per_m");
+    if (peer.missing()) return base::fail(*peer.missing());
+    if (grip_damping != peer::Settings{}.grip_damping_ns_per_m)
+        return base::fail("virtual time supports only the default grip damping");
+    virtual_time::PlayerSetting player;
+    player.algorithm = parts.take(peer::parse_algorithm(algorithm, "the peer's algorithm"));
+    player.person = parts.take(device::parse_operator(person, "the peer's operator"));
+    return player;
 }
 
 std::string_view verdict_on(const RealTimeResult& result)
@@ -99,6 +119,34 @@ std::string_view verdict_on(const RealTimeResult& result)
 
 } // namespace
 
+KeptTime kept_time(std::span<const base::Duration> ticks)
+{
+    constexpr base::Duration tick{std::chrono::milliseconds{1}};
+    KeptTime kept;
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+        const base::Duration gap = ticks[i] - ticks[i - 1];
+        kept.longest_gap = std::max(kept.longest_gap, gap);
+        const auto periods = (gap + tick / 2) / tick;
+        if (periods > 1) kept.missed += static_cast<std::uint64_t>(periods - 1);
+    }
+    return kept;
+}
+
+std::vector<std::string> stalls_of(const RealTimeSession& session)
+{
+    constexpr base::Duration gap_max = device::GovernorLimits{}.stall_max;
+    std::vector<std::string> stalls;
+    for (std::size_t i = 0; i < session.ticks.size(); ++i) {
+        const base::Duration gap = kept_time(session.ticks[i]).longest_gap;
+        if (gap <= gap_max) continue;
+        stalls.push_back(fmt::format("peer {}: the loop stood still for {:.1f} ms; after {:.0f} ms "
+                                     "the governor takes the force away",
+                                     i + 1, 1e3 * base::to_seconds(gap),
+                                     1e3 * base::to_seconds(gap_max)));
+    }
+    return stalls;
+}
+
 base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
                                             const base::OpenFile& open)
 {
@@ -106,8 +154,6 @@ base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
     Written emulator{session.files.emulator, "hapnet-emulator"};
     const auto task = peer.at<std::string>("/task");
     const auto scene = peer.at<std::string>("/scene");
-    const auto algorithm = peer.at<std::string>("/algorithm_toml");
-    const auto person = peer.at<std::string>("/operator_toml");
     const auto profile = emulator.at<std::string>("/profile");
     virtual_time::Setting setting;
     const Json others = session.files.peer.value("others", Json::array());
@@ -116,26 +162,27 @@ base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
     setting.length = base::from_seconds(peer.at<double>("/duration_s"));
     setting.seed = base::Seed{emulator.at<std::uint64_t>("/seed")};
     setting.players[0].seed = base::Seed{peer.at<std::uint64_t>("/session/seed")};
-    const auto grip_damping = peer.at<double>("/grip_damping_ns_per_m");
     for (const Written* written : {&peer, &emulator}) {
         if (written->missing()) return base::fail(*written->missing());
-    }
-    if (grip_damping != peer::Settings{}.grip_damping_ns_per_m) {
-        return base::fail("virtual time supports only the default grip damping");
     }
 
     Parts parts;
     setting.task = parts.take(device::task_named(task));
     setting.scene = parts.take(scene::load_scene(scene, open));
     setting.profile = parts.take(emulator::parse_profile(profile, "the emulator's profile", open));
-    for (virtual_time::PlayerSetting& player : setting.players) {
-        player.algorithm = parts.take(peer::parse_algorithm(algorithm, "the peer's algorithm"));
-        player.person = parts.take(device::parse_operator(person, "the peer's operator"));
+    for (std::size_t i = 0; i < setting.players.size(); ++i) {
+        const bool is_said = i > 0 && i <= session.files.others.size();
+        auto player = player_of(is_said ? session.files.others[i - 1] : session.files.peer, parts);
+        if (!player) return tl::unexpected{player.error()};
+        player->seed = setting.players[i].seed;
+        setting.players[i] = *std::move(player);
     }
     if (parts.error()) return base::fail(*parts.error());
-    if (session.phases.size() == setting.players.size()) {
-        for (std::size_t i = 0; i < session.phases.size(); ++i)
-            setting.players[i].phase = session.phases[i];
+    if (session.ticks.size() == setting.players.size()) {
+        for (std::size_t i = 0; i < session.ticks.size(); ++i) {
+            setting.players[i].ticks =
+                std::make_shared<const std::vector<base::Duration>>(session.ticks[i]);
+        }
     }
     if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     return setting;
@@ -156,7 +203,7 @@ RealTimeResult result_of(const RealTimeSession& session, const virtual_time::Tra
             .where = session.where,
             .real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{})),
             .virtual_mm = in_mm(metrics::metrics_of(twin).discrepancy_m),
-            .invalid_because = objections_to(session.files)};
+            .invalid_because = objections_to(session)};
 }
 
 std::string real_time_csv(std::span<const RealTimeResult> results)

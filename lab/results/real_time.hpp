@@ -10,6 +10,7 @@
 #include "proto/base/reading.hpp"
 #include "proto/base/result.hpp"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -24,13 +25,24 @@ namespace hapnet::lab::results {
 struct RealTimeSession {
     std::string where; // "loopback" or "namespaces"
     SessionFiles files{};
-    /// When in a millisecond the peers tick, in the order of their ids, as their records say;
-    /// empty: all at once.
-    std::vector<base::Duration> phases{};
+    /// When the peers ticked, in the order of their ids, counted from the start, as their records
+    /// say; empty: evenly, all at once.
+    std::vector<std::vector<base::Duration>> ticks{};
 };
 
-/// The session in virtual time that has the same task, hands, algorithm, scene, seeds, length,
-/// conditions and phases. Scenes that are files are asked from `open`. Fails when the files do not
+/// How a loop kept its time, by the times of its ticks.
+struct KeptTime {
+    std::uint64_t missed = 0;     // ticks
+    base::Duration longest_gap{}; // between two of them
+};
+[[nodiscard]] KeptTime kept_time(std::span<const base::Duration> ticks);
+
+/// Why the session is another one than was to be played, for people: a loop stood still so long
+/// that its governor took the force from the hand, which then came back slowly.
+[[nodiscard]] std::vector<std::string> stalls_of(const RealTimeSession& session);
+
+/// The session in virtual time that has the same task, hands, algorithms, scene, seeds, length,
+/// conditions and ticks. Scenes that are files are asked from `open`. Fails when the files do not
 /// say, or when it was no simulated hand.
 [[nodiscard]] base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
                                                           const base::OpenFile& open);

@@ -15,6 +15,7 @@ struct SessionFiles {
     Json analysis = Json::object(); // hapnet-lab analyse --json
     Json emulator = Json::object(); // hapnet-emulator --stats
     Json peer = Json::object();     // hapnet-peer --stats, of the peer with id 1
+    std::vector<Json> others{};     // of those with the ids 2, 3, ..., as far as they are there
 
     /// Why the session does not count, for people; empty: it does.
     [[nodiscard]] std::vector<std::string> invalid_because() const;

@@ -92,6 +92,19 @@ void note_scores(const metrics::Scores& scores, const metrics::Criteria& criteri
     row.tier = judge(scores, criteria).tier;
 }
 
+/// What is known of the sessions of an algorithm before one is played.
+SessionRow started(const experiment::Experiment& experiment, std::size_t algorithm,
+                   device::Task task, const experiment::Party& party)
+{
+    return {.algorithm = experiment.algorithms[algorithm].name,
+            .task = std::string{name_of(task)},
+            .hands = name_of(experiment.hands),
+            .peers = party.peers,
+            .scene = party.scene ? experiment.scenes[*party.scene].name
+                                 : std::string{device::scene_of(task, party.peers)},
+            .duration_s = base::to_seconds(experiment.duration)};
+}
+
 /// The rows of an experiment, job after job.
 class SessionRows {
 public:
@@ -101,16 +114,13 @@ public:
 
     void add(const experiment::SessionJob& job, const experiment::SessionResult& result)
     {
-        SessionRow row = started(job.algorithm, job.task, job.party, experiment_.hands);
-        note_network(job.spec.setting.profile, row);
-        row.seed = job.spec.setting.seed.value();
-        note_scores(scores_of(result.metrics, result.perfect), criteria_, row);
-        rows_.push_back(std::move(row));
+        const auto scores = scores_of(result.metrics, result.perfect);
+        rows_.push_back(make_session_row(experiment_, job, scores, criteria_));
     }
 
     void add(const experiment::SearchJob& job, const experiment::SearchResult& result)
     {
-        const SessionRow row = started(job.algorithm, job.task, job.party, experiment_.hands);
+        const SessionRow row = started(experiment_, job.algorithm, job.task, job.party);
         for (const experiment::CurvePoint& point : result.curve) {
             SessionRow& one = rows_.emplace_back(row);
             const auto order = std::get<experiment::Limits>(experiment_.kind).jitter_order;
@@ -126,19 +136,6 @@ public:
     std::vector<SessionRow> rows() && { return std::move(rows_); }
 
 private:
-    [[nodiscard]] SessionRow started(std::size_t algorithm, device::Task task,
-                                     const experiment::Party& party,
-                                     const experiment::Hands& hands) const
-    {
-        return {.algorithm = experiment_.algorithms[algorithm].name,
-                .task = std::string{name_of(task)},
-                .hands = name_of(hands),
-                .peers = party.peers,
-                .scene = party.scene ? experiment_.scenes[*party.scene].name
-                                     : std::string{device::scene_of(task, party.peers)},
-                .duration_s = base::to_seconds(experiment_.duration)};
-    }
-
     const experiment::Experiment& experiment_;
     const metrics::Criteria& criteria_;
     std::vector<SessionRow> rows_;
@@ -186,6 +183,17 @@ Pairs pairs_of(const BySeed& a, const BySeed& b, const PairedMeasure& measure)
 }
 
 } // namespace
+
+SessionRow make_session_row(const experiment::Experiment& experiment,
+                            const experiment::SessionJob& job, const metrics::Scores& scores,
+                            const metrics::Criteria& criteria)
+{
+    SessionRow row = started(experiment, job.algorithm, job.task, job.party);
+    note_network(job.spec.setting.profile, row);
+    row.seed = job.spec.setting.seed.value();
+    note_scores(scores, criteria, row);
+    return row;
+}
 
 std::vector<SessionRow> make_session_rows(const experiment::Experiment& experiment,
                                           const metrics::Criteria& criteria,

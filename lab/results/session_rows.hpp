@@ -66,6 +66,12 @@ constexpr auto fields_of(base::Tag<SessionRow>)
         base::field("scored_share", &Row::scored_share, four), base::field("tier", &Row::tier));
 }
 
+/// Of one session of an experiment, whoever has played it.
+[[nodiscard]] SessionRow make_session_row(const experiment::Experiment& experiment,
+                                          const experiment::SessionJob& job,
+                                          const metrics::Scores& scores,
+                                          const metrics::Criteria& criteria);
+
 /// Every session of an experiment that is not of the kind Claims, which has rows of its own.
 /// `results` are those of all its jobs.
 [[nodiscard]] std::vector<SessionRow>

@@ -24,7 +24,8 @@ constexpr base::Duration settles_within{std::chrono::seconds{2}};
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
-    std::vector<Pose> further; // Trace::further
+    std::vector<Pose> further;          // Trace::further
+    std::vector<base::TimePoint> times; // of the samples, where some side does not tick evenly
 };
 
 /// Whether a link was full, so that a datagram was lost which the emulator would have kept.
@@ -41,6 +42,8 @@ bool has_overflowed(const VirtualWorld& world)
     return false;
 }
 
+bool has_own_ticks(const PlayerSetting& player) { return player.ticks != nullptr; }
+
 bool is_playing(const VirtualPlayer& player) { return player.last().phase == peer::Phase::running; }
 
 /// A session on its way.
@@ -50,7 +53,8 @@ public:
         : world_{world},
           settling_{settling},
           tick_{world.setting().tick},
-          tracks_(world.setting().players.size())
+          tracks_(world.setting().players.size()),
+          are_even_{std::ranges::none_of(world.setting().players, has_own_ticks)}
     {}
 
     /// Until it is over; false when `stop` became true before.
@@ -72,12 +76,15 @@ private:
     void note(std::size_t side);
     void settle();
     void note_settled();
+    [[nodiscard]] base::Duration::rep take_even(base::TimePoint& begin, Trace& trace);
+    [[nodiscard]] base::Duration::rep take_uneven(base::TimePoint& begin, Trace& trace) const;
     [[nodiscard]] bool has_any_session() const;
 
     VirtualWorld& world_;
     Settling settling_;
     base::Duration tick_;
     std::vector<Track> tracks_; // of each side
+    bool are_even_;             // all sides tick so
     std::vector<Settled> settled_;
     bool over_ = false;
 };
@@ -99,6 +106,7 @@ void Play::note(std::size_t side)
         track.samples.reserve(static_cast<std::size_t>(ticks) + 1);
     }
     track.samples.push_back(player.sample());
+    if (!are_even_) track.times.push_back(world_.now());
     if (player.peer().shared().size() > 1) player.add_further_bodies(track.further);
 }
 
@@ -168,15 +176,38 @@ void take(std::vector<Value>& values, const Offset& from, base::Duration::rep co
     values.resize(kept);
 }
 
-Trace Play::trace() &&
-{
-    Trace trace{.task = world_.setting().task, .tick = tick_};
-    trace.simulated = world_.now() - VirtualWorld::start;
-    trace.settled = settled_;
-    trace.sides.assign(tracks_.size(), {});
-    const auto is_empty = [](const Track& track) { return track.samples.empty(); };
-    if (std::ranges::any_of(tracks_, is_empty)) return trace;
+/// A track in the order of time, between its samples.
+class UnevenTrack {
+public:
+    UnevenTrack(const Track& track, std::size_t further_bodies)
+        : track_{track}, bodies_{further_bodies}
+    {}
 
+    /// Not before the time asked for last, and within the track.
+    void add_at(base::TimePoint time, std::vector<Sample>& samples, std::vector<Pose>& further)
+    {
+        while (at_ + 1 < track_.times.size() && track_.times[at_ + 1] <= time) ++at_;
+        const std::size_t next = std::min(at_ + 1, track_.times.size() - 1);
+        const base::Duration gap = track_.times[next] - track_.times[at_];
+        const base::Duration into = time - track_.times[at_];
+        const double share =
+            into.count() == 0 ? 0.0 : base::to_seconds(into) / base::to_seconds(gap);
+        samples.push_back(between(track_.samples[at_], track_.samples[next], share));
+        for (std::size_t i = 0; i < bodies_; ++i) {
+            further.push_back(between(track_.further[bodies_ * at_ + i],
+                                      track_.further[bodies_ * next + i], share));
+        }
+    }
+
+private:
+    const Track& track_;
+    std::size_t bodies_;
+    std::size_t at_ = 0;
+};
+
+/// How many even ticks all sides have, from `begin` on; they are moved into the trace.
+base::Duration::rep Play::take_even(base::TimePoint& begin, Trace& trace)
+{
     // The first side's samples before the last began are left out; the others' are taken at its
     // times.
     const base::TimePoint first = tracks_.front().first;
@@ -192,9 +223,7 @@ Trace Play::trace() &&
         const auto size = static_cast<base::Duration::rep>(track.samples.size());
         common = std::min(common, size - from.tick - from.beyond());
     }
-    if (common <= 0) return trace;
-
-    trace.further_bodies = world_.side(0).peer().shared().size() - 1;
+    if (common <= 0) return 0;
     for (std::size_t side = 0; side < tracks_.size(); ++side) {
         take(tracks_[side].samples, offsets[side], common);
         trace.sides[side] = std::move(tracks_[side].samples);
@@ -202,9 +231,48 @@ Trace Play::trace() &&
         take(tracks_[side].further, offsets[side], common, trace.further_bodies);
         trace.further.push_back(std::move(tracks_[side].further));
     }
+    begin = first + skipped * tick_;
+    return common;
+}
+
+/// Likewise at even times between ticks that are not.
+base::Duration::rep Play::take_uneven(base::TimePoint& begin, Trace& trace) const
+{
+    begin = std::ranges::max(tracks_, {}, &Track::first).first;
+    base::TimePoint end = tracks_.front().times.back();
+    for (const Track& track : tracks_) end = std::min(end, track.times.back());
+    if (end < begin) return 0;
+    const base::Duration::rep common = (end - begin) / tick_ + 1;
+    if (trace.further_bodies > 0) trace.further.resize(tracks_.size());
+    std::vector<Pose> none;
+    for (std::size_t side = 0; side < tracks_.size(); ++side) {
+        UnevenTrack track{tracks_[side], trace.further_bodies};
+        auto& further = trace.further_bodies > 0 ? trace.further[side] : none;
+        for (base::Duration::rep i = 0; i < common; ++i)
+            track.add_at(begin + i * tick_, trace.sides[side], further);
+    }
+    return common;
+}
+
+Trace Play::trace() &&
+{
+    Trace trace{.task = world_.setting().task, .tick = tick_};
+    trace.simulated = world_.now() - VirtualWorld::start;
+    trace.settled = settled_;
+    trace.sides.assign(tracks_.size(), {});
+    const auto is_empty = [](const Track& track) { return track.samples.empty(); };
+    if (std::ranges::any_of(tracks_, is_empty)) return trace;
+
+    trace.further_bodies = world_.side(0).peer().shared().size() - 1;
+    base::TimePoint begin;
+    const auto common = are_even_ ? take_even(begin, trace) : take_uneven(begin, trace);
+    if (common == 0) {
+        trace.further_bodies = 0;
+        return trace;
+    }
     const VirtualPlayer& player = world_.side(0);
     const base::TimePoint start = player.peer().session()->start - player.clock_ahead;
-    trace.begin = first + skipped * tick_ - start;
+    trace.begin = begin - start;
     trace.overlap = std::min(1.0, base::to_seconds(common * tick_) /
                                       base::to_seconds(player.peer().hands_on()));
     return trace;

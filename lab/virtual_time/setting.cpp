@@ -10,6 +10,7 @@
 #include "scene/world.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -96,6 +97,12 @@ base::Result<void> validate(const Setting& setting)
         return base::fail(
             "the phase of a player's ticks must be at least 0 s and less than a tick");
     }
+    const bool are_ascending = std::ranges::all_of(setting.players, [](const auto& player) {
+        if (!player.ticks) return true;
+        return std::ranges::adjacent_find(*player.ticks, std::ranges::greater_equal{}) ==
+               player.ticks->end();
+    });
+    if (!are_ascending) return base::fail("the ticks of a player must follow one another");
     const bool are_traces = std::ranges::none_of(setting.players, [](const PlayerSetting& player) {
         return (player.replay && player.replay->empty()) || (player.way && player.way->empty());
     });

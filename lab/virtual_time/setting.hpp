@@ -32,6 +32,9 @@ struct PlayerSetting {
     std::shared_ptr<const device::HandTrace> way{};
     base::Duration clock_ahead{}; // of the world's time
     base::Duration phase{};       // of its ticks, 0 to less than a tick
+    /// When it ticks, counted from the session's start, ascending: as a loop did that woke late and
+    /// missed ticks. Before the first and after the last, and without any, it ticks evenly.
+    std::shared_ptr<const std::vector<base::Duration>> ticks{};
     /// The seed that it offers for the hands, as `hapnet-peer --seed` does; that of the lowest id
     /// counts. nullopt: the setting's.
     std::optional<base::Seed> seed{};

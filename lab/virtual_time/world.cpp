@@ -28,7 +28,8 @@ void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
         sides_.push_back({.player = std::nullopt,
                           .group = groups_.size() - 1,
                           .next_tick = start + setting.tick + player.phase,
-                          .tick = setting.tick});
+                          .tick = setting.tick,
+                          .ticks = player.ticks});
         revive(sides_.size() - 1);
     }
     add_ways(groups_.back());
@@ -102,8 +103,23 @@ void VirtualWorld::step()
     for (std::size_t side = 0; side < sides_.size(); ++side) {
         if (sides_[side].next_tick != now_) continue;
         if (sides_[side].player) play(side);
-        sides_[side].next_tick += sides_[side].tick;
+        sides_[side].next_tick = tick_after(sides_[side]);
     }
+}
+
+base::TimePoint VirtualWorld::tick_after(Side& side) const
+{
+    const base::TimePoint even = now_ + side.tick;
+    if (!side.ticks || !side.player) return even;
+    const auto& session = side.player->peer().session();
+    if (!session) return even;
+    const auto& ticks = *side.ticks;
+    const base::TimePoint begin = session->start - side.player->clock_ahead;
+    std::size_t& next = side.ticks_begun;
+    while (next < ticks.size() && begin + ticks[next] <= now_) ++next;
+    if (next == ticks.size()) return even;
+    const base::TimePoint given = begin + ticks[next];
+    return next == 0 ? std::min(even, given) : given;
 }
 
 void VirtualWorld::run_for(base::Duration duration)

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -108,6 +109,8 @@ private:
         std::vector<std::size_t> ins{}; // the ways to it, by the seats from which they come
         base::TimePoint next_tick;
         base::Duration tick;
+        std::shared_ptr<const std::vector<base::Duration>> ticks{}; // PlayerSetting::ticks
+        std::size_t ticks_begun = 0;                                // of these
     };
     /// From one side of a group to another.
     struct Way {
@@ -138,6 +141,7 @@ private:
     void deliver(std::size_t to);
     void hand_over(std::size_t to, const Way& way, const emulator::Datagram& datagram);
     void play(std::size_t side);
+    [[nodiscard]] base::TimePoint tick_after(Side& side) const;
 
     base::TimePoint now_ = start;
     std::vector<Group> groups_;

@@ -103,11 +103,24 @@ start_emulator() {
     address_b=${BASH_REMATCH[2]}
 }
 
+# What a session may have of its own: the seed of the hands, and the files of the operators by the
+# id of the peer; without one it is the default.
+hands_seed=1
+declare -A operators=()
+
+# own_words ID FOLDER SECONDS: sets own to the options that each peer has for itself.
+own_words() {
+    own=(--id "$1" --duration "$3s" --seed "$hands_seed" --record "$2/peer-$1.rec"
+        --stats "$2/peer-$1.json")
+    [[ -z ${operators[$1]:-} ]] || own+=(--operator "${operators[$1]}")
+}
+
 # peer ID ADDRESS SECONDS FOLDER OPTION...: becomes a peer until its end.
 peer() {
-    within "$1" timeout --kill-after 5 $(($3 + 30)) "$bin/hapnet-peer" --id "$1" \
-        --listen "$(socket_of "$1")" --remote "$2" --duration "$3s" --seed 1 --record "$4/peer-$1.rec" \
-        --stats "$4/peer-$1.json" "${@:5}" >"$4/peer-$1.out"
+    local own
+    own_words "$1" "$4" "$3"
+    within "$1" timeout --kill-after 5 $(($3 + 30)) "$bin/hapnet-peer" "${own[@]}" \
+        --listen "$(socket_of "$1")" --remote "$2" "${@:5}" >"$4/peer-$1.out"
 }
 
 # wait_for_one FOLDER EMULATOR PEER...: sets ended to the first of them that ends. That has to be a
@@ -161,14 +174,14 @@ start_links() {
 # play_circle FOLDER SECONDS PEERS PEER-OPTION...: a session of PEERS through the started links,
 # which then end too. What peer 1 says is shown.
 play_circle() {
-    local folder=$1 seconds=$2 peers=$3 i j others running=()
+    local folder=$1 seconds=$2 peers=$3 i j own others running=()
     for ((i = peers; i >= 1; i--)); do
         others=()
         for ((j = 1; j <= peers; j++)); do
             ((i == j)) || others+=(--peer "$j=${places[$i-$j]}")
         done
-        local words=("$bin/hapnet-peer" --id "$i" "${others[@]}" --duration "${seconds}s" --seed 1
-            --record "$folder/peer-$i.rec" --stats "$folder/peer-$i.json" "${@:4}")
+        own_words "$i" "$folder" "$seconds"
+        local words=("$bin/hapnet-peer" "${own[@]}" "${others[@]}" "${@:4}")
         if ((i == 1)); then
             timeout --kill-after 5 $((seconds + 30)) "${words[@]}" >"$folder/peer-$i.out" &
         else

@@ -38,6 +38,60 @@ for peers in 2 3; do
     [[ -s $out/t8-$peers/real-time/loopback/t8-$peers/peer-$peers.rec ]] || fail "no record of T8"
 done
 
+# An experiment of its own: two sessions, one of them of three hands.
+cat >"$out/cells.toml" <<'experiment'
+title = "two cells"
+kind = "plane"
+duration = "5s"
+seeds = 1
+algorithms = ["remote-proxy"]
+tasks = ["T7"]
+scene = "carry"
+peers = [2, 3]
+hands = ["firm", "relaxed"]
+plane.delay = "20ms"
+plane.jitter = "2ms"
+plane.loss = "30%"
+experiment
+sweep=$out/sweep
+play_sweep() {
+    "$script" "$out/cells.toml" --attempts 1 --programs "$programs" --out "$sweep" "$@" \
+        >"$out/said-sweep" 2>&1 || fail "the sweep: $(cat "$out/said-sweep")"
+}
+play_sweep --seeds 1
+# column NAME: of each row of the sessions.
+column() { awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) n = i; next }
+    { print $n }' "$sweep/real_time_sessions.csv"; }
+[[ $(column algorithm) == $'remote-proxy\nremote-proxy' && $(column peers) == $'2\n3' &&
+    $(column hands) == $'firm/relaxed\nfirm/relaxed' ]] ||
+    fail "the sessions: $(cat "$sweep/real_time_sessions.csv")"
+grep -q '"\[both\]; loss = ""30%""; ' "$sweep/real_time_sessions.csv" || fail "the network"
+grep -qE '^,remote-proxy,T7,firm/relaxed,3,carry,5,.*,mean_mm,' "$sweep/real_time_conditions.csv" ||
+    fail "the conditions: $(cat "$sweep/real_time_conditions.csv")"
+for result in "$sweep"/cells/*/attempt-1/result.json; do
+    # Neither a mean of nothing nor of other hands: within a factor of 3 of virtual time, whatever
+    # the machine did meanwhile.
+    jq -e '.real.discrepancy_m.mean as $real | .virtual.discrepancy_m.mean as $virtual |
+        $real > $virtual / 3 and $real < 3 * $virtual' "$result" >/dev/null || fail "$result"
+    jq -e '.valid == (.invalid_because == [])' "$result" >/dev/null || fail "$result: valid"
+done
+[[ -z $(compgen -G "$sweep/cells/*/*/*.rec") ]] || fail "records were left behind"
+jq -e '(.real_time.sessions | length) == 2' "$sweep/manifest.json" >/dev/null || fail "the manifest"
+# A session that was broken off is played again, and no other; one that was not valid is not used.
+read -r first second < <(echo "$sweep"/cells/*/attempt-1/result.json)
+before=$(stat -c %Y%i "$first")
+rm "$second"
+play_sweep
+[[ $(stat -c %Y%i "$first") == "$before" && -s $second ]] || fail "it did not go on where it was"
+jq '.invalid_because = ["for the test"]' "$first" >"$out/invalid" && mv "$out/invalid" "$first"
+play_sweep
+grep -q 'for the test' "$sweep/real_time_sessions.csv" || fail "an invalid session is not marked"
+grep -qE 'firm/relaxed,2,carry,.*,mean_mm,0,1,' "$sweep/real_time_conditions.csv" ||
+    fail "an invalid session is used: $(cat "$sweep/real_time_conditions.csv")"
+refused=$("$script" fig6a --out "$out/limits" --programs "$programs" 2>&1) &&
+    fail "limits are played"
+[[ $refused == *'kind = "plane"'* ]] || fail "limits: $refused"
+
 # As Ctrl-C does it: to all processes of a group.
 set -m
 "$script" --quick --duration 20 --programs "$programs" --out "$out/interrupted" >/dev/null 2>&1 &

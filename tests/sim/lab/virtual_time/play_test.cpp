@@ -4,7 +4,11 @@
 #include "lab/virtual_time/play.hpp"
 #include "tests/sim/peer/core/score.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace hapnet::lab::virtual_time {
 namespace {
@@ -52,6 +56,68 @@ TEST(Play, OfOneSettingGivesTheSameBitsWhateverThePhases)
         setting.seed = base::Seed{43};
         EXPECT_NE(hash_of(*first), hash_of(play(setting).value())) << phase.count();
     }
+}
+
+using Ticks = std::shared_ptr<const std::vector<base::Duration>>;
+
+/// Of a loop that ticks evenly from `first` on, for more than a session of 8 s.
+Ticks even_ticks(base::Duration first)
+{
+    std::vector<base::Duration> ticks;
+    for (base::Duration tick = first; tick <= 9s; tick += 1ms) ticks.push_back(tick);
+    return std::make_shared<const std::vector<base::Duration>>(std::move(ticks));
+}
+
+/// The same, but for what it misses from `at` on.
+Ticks ticks_without(base::Duration at, base::Duration missed)
+{
+    const Ticks all = even_ticks(0ms);
+    std::vector<base::Duration> ticks;
+    for (const base::Duration tick : *all)
+        if (tick < at || tick >= at + missed) ticks.push_back(tick);
+    return std::make_shared<const std::vector<base::Duration>>(std::move(ticks));
+}
+
+TEST(Play, OfGivenTicksThatAreEvenGivesTheSameBitsAsWithout)
+{
+    // Without jitter both sides know exactly when the session starts, from which ticks count.
+    Setting setting = under(Task::t3, {.delay = emulator::constant(40ms)});
+    setting.length = 8s;
+    const auto even = play(setting);
+    ASSERT_TRUE(even);
+    setting.players[0].ticks = setting.players[1].ticks = even_ticks(even->begin);
+    const auto given = play(setting);
+    ASSERT_TRUE(given);
+    EXPECT_EQ(given->sides[0].size(), even->sides[0].size());
+    EXPECT_EQ(hash_of(*given), hash_of(*even));
+}
+
+TEST(Play, OfALoopThatStoodStillTakesTheForceFromItsHandAsTheDaemonDoes)
+{
+    const auto force_after = [](base::Duration missed) {
+        Setting setting = under(Task::t3, {});
+        setting.length = 8s;
+        setting.players[1].ticks = ticks_without(3s, missed);
+        const auto trace = play(setting);
+        EXPECT_TRUE(trace);
+        EXPECT_GE(trace->sides[1].size(), 4990U) << "time without ticks is bridged";
+        double newtons = 0.0; // the most in the tenth of a second that follows
+        for (std::size_t i = 3030; i < 3130; ++i)
+            newtons = std::max(newtons, norm(trace->sides[1][i].on_hand));
+        return newtons;
+    };
+    const double undisturbed = force_after(0ms);
+    EXPECT_GT(undisturbed, 0.3) << "it is pressing";
+    EXPECT_GT(force_after(19ms), 0.8 * undisturbed);
+    EXPECT_LT(force_after(22ms), 0.5 * undisturbed) << "after 20 ms the governor begins at zero";
+}
+
+TEST(Play, RefusesTicksThatDoNotFollowOneAnother)
+{
+    Setting setting = troubled();
+    setting.players[0].ticks =
+        std::make_shared<const std::vector<base::Duration>>(std::vector<base::Duration>{2ms, 2ms});
+    EXPECT_EQ(play(setting).error().message, "the ticks of a player must follow one another");
 }
 
 TEST(Play, OfEqualPhasesGivesWhatBothSidesDidAtTheirTicks)

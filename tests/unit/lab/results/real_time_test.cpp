@@ -76,6 +76,39 @@ TEST(TwinOf, NamesWhatAProgramDidNotSay)
               "virtual time supports only the default grip damping");
 }
 
+TEST(TwinOf, HasEachPlayersOwnHandAndTicks)
+{
+    RealTimeSession session = as_written();
+    Json other = session.files.peer;
+    other["operator_toml"] = device::print_operator(device::operator_named("relaxed").value());
+    session.files.others = {other};
+    session.ticks = {{0ms, 1ms}, {500us, 2500us}};
+    const auto twin = twin_of(session, {});
+    ASSERT_TRUE(twin) << twin.error().message;
+    EXPECT_EQ(twin->players[0].person.name, "firm");
+    EXPECT_EQ(twin->players[1].person.name, "relaxed");
+    ASSERT_TRUE(twin->players[1].ticks);
+    EXPECT_EQ(*twin->players[1].ticks, session.ticks[1]);
+}
+
+TEST(KeptTime, CountsTheTicksBetweenTwo)
+{
+    const std::vector<base::Duration> ticks{0ms, 1100us, 2ms, 6ms, 7ms};
+    EXPECT_EQ(kept_time(ticks).missed, 3U);
+    EXPECT_EQ(kept_time(ticks).longest_gap, 4ms);
+}
+
+TEST(RealTime, InWhichALoopStoodStillIsNotValid)
+{
+    RealTimeSession session = as_written();
+    session.ticks = {{0ms, 1ms}, {0ms, 20ms}};
+    EXPECT_TRUE(result_of(session, virtual_time::Trace{}).valid());
+    session.ticks[1][1] = 24ms;
+    EXPECT_EQ(result_of(session, virtual_time::Trace{}).invalid_because,
+              std::vector<std::string>{"peer 2: the loop stood still for 24.0 ms; after 20 ms the "
+                                       "governor takes the force away"});
+}
+
 TEST(RealTime, IsComparedWithTheTwinAsItPlays)
 {
     const RealTimeSession session = as_written();

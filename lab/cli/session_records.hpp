@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/real_time.hpp"
+#include "proto/base/result.hpp"
+#include "proto/record/reader.hpp"
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// The records of the peers 1, 2, ... in the folder of a session.
+[[nodiscard]] base::Result<std::vector<record::Record>> records_in(const std::string& folder,
+                                                                   std::size_t peers);
+
+/// When each of them ticked. They were on one machine, which has one clock.
+[[nodiscard]] std::vector<std::vector<base::Duration>>
+ticks_in(const std::vector<record::Record>& records);
+
+/// What manifest.json of a folder says of sessions in real time: adds to the manifest that is
+/// there; without one, writes a manifest of its own.
+[[nodiscard]] base::Result<void> note_in_manifest(const std::string& folder,
+                                                  nlohmann::ordered_json real_time);
+
+} // namespace hapnet::lab

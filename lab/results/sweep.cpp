@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/results/sweep.hpp"
+
+#include "lab/metrics/json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+#include <string_view>
+#include <utility>
+
+namespace hapnet::lab::results {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::optional<double> percent_of(std::optional<double> real, std::optional<double> simulated)
+{
+    if (!real || !simulated || *simulated == 0.0) return std::nullopt;
+    return 100.0 * (*real - *simulated) / *simulated;
+}
+
+std::optional<double> farther(std::optional<double> a, std::optional<double> b)
+{
+    if (!a || !b) return a ? a : b;
+    return std::abs(*a) >= std::abs(*b) ? a : b;
+}
+
+std::string number(std::optional<double> value, int decimals)
+{
+    return value ? fmt::format("{:.{}f}", *value, decimals) : std::string{};
+}
+
+constexpr std::array condition_columns{
+    "point",    "algorithm", "task",         "hands",        "peers",   "scene", "duration_s",
+    "delay_ms", "jitter_ms", "loss_percent", "burst_of_100", "network", "seed"};
+
+std::vector<std::string> condition_cells(const SweepRow& row)
+{
+    const SessionRow& one = row.real;
+    return {base::csv_quoted(row.point),
+            base::csv_quoted(one.algorithm),
+            one.task,
+            base::csv_quoted(one.hands),
+            fmt::format("{}", one.peers),
+            base::csv_quoted(one.scene),
+            fmt::format("{}", one.duration_s),
+            one.delay_ms ? fmt::format("{}", *one.delay_ms) : "",
+            one.jitter_ms ? fmt::format("{}", *one.jitter_ms) : "",
+            one.loss_percent ? fmt::format("{}", *one.loss_percent) : "",
+            one.burst_of_100 ? fmt::format("{}", *one.burst_of_100) : "",
+            base::csv_quoted(one.network),
+            fmt::format("{}", one.seed)};
+}
+
+/// What both are measured by, and compared.
+struct SweepMeasure {
+    std::string_view name;
+    std::optional<double> SessionRow::*value;
+    int decimals;
+};
+constexpr std::array sweep_measures{
+    SweepMeasure{"mean_mm", &SessionRow::mean_mm, 4},
+    SweepMeasure{"std_mm", &SessionRow::std_mm, 4},
+    SweepMeasure{"max_mm", &SessionRow::max_mm, 4},
+    SweepMeasure{"vibration_mm", &SessionRow::vibration_mm, 4},
+    SweepMeasure{"stiffness_ratio", &SessionRow::stiffness_ratio, 4},
+    SweepMeasure{"force_vibration_n", &SessionRow::force_vibration_n, 4}};
+
+void add_measures(const SessionRow& row, std::vector<std::string>& cells)
+{
+    for (const SweepMeasure& measure : sweep_measures)
+        cells.push_back(number(row.*measure.value, measure.decimals));
+    cells.emplace_back(base::name_of(row.tier));
+}
+
+std::string condition_of(const SweepRow& row)
+{
+    auto cells = condition_cells(row);
+    cells.pop_back(); // the seed
+    return fmt::format("{}", fmt::join(cells, ","));
+}
+
+/// The sessions of one condition.
+struct Condition {
+    std::vector<const SweepRow*> valid; // of each seed
+    std::uint32_t left_out = 0;
+};
+
+/// Of the attempts of a seed a valid one counts.
+void note(const SweepRow& row, std::map<std::uint64_t, const SweepRow*>& by_seed)
+{
+    const SweepRow*& kept = by_seed[row.real.seed];
+    if (kept == nullptr || (!kept->is_valid && row.is_valid)) kept = &row;
+}
+
+double mean_over(const std::vector<double>& values)
+{
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+/// Leaves the row empty where no session has the measure.
+void compare(const Condition& condition, const SweepMeasure& measure, ConditionRow& row)
+{
+    std::vector<double> real, simulated;
+    for (const SweepRow* one : condition.valid) {
+        const auto a = one->real.*measure.value, b = one->simulated.*measure.value;
+        if (!a || !b) continue;
+        real.push_back(*a);
+        simulated.push_back(*b);
+    }
+    row.measure = measure.name;
+    if (real.empty()) return;
+    row.real = mean_over(real);
+    row.simulated = mean_over(simulated);
+    row.difference_percent = percent_of(row.real, row.simulated);
+    if (!row.difference_percent || real.size() < 2) return;
+    const auto test = metrics::paired_test(real, simulated);
+    row.ci_low_percent = 100.0 * test.interval.low / *row.simulated;
+    row.ci_high_percent = 100.0 * test.interval.high / *row.simulated;
+}
+
+} // namespace
+
+Json to_json(const PlayedCell& played)
+{
+    return {{"valid", played.valid()},
+            {"invalid_because", played.invalid_because},
+            {"missed_ticks", played.missed_ticks},
+            {"longest_gap_ms", played.longest_gap_ms},
+            {"real", metrics::to_json(played.real)},
+            {"virtual", metrics::to_json(played.simulated)},
+            {"perfect", metrics::to_json(played.perfect)}};
+}
+
+std::optional<PlayedCell> played_cell_from(const nlohmann::json& json)
+{
+    const auto metrics_at = [&](const char* key) {
+        return metrics::metrics_from(json.value(key, nlohmann::json::object()));
+    };
+    auto real = metrics_at("real"), simulated = metrics_at("virtual"),
+         perfect = metrics_at("perfect");
+    if (!real || !simulated || !perfect || !json.contains("invalid_because")) return std::nullopt;
+    return PlayedCell{.real = *std::move(real),
+                      .simulated = *std::move(simulated),
+                      .perfect = *std::move(perfect),
+                      .missed_ticks = json.value("missed_ticks", std::uint64_t{0}),
+                      .longest_gap_ms = json.value("longest_gap_ms", 0.0),
+                      .invalid_because = json.at("invalid_because")};
+}
+
+SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,
+                        const metrics::Criteria& criteria)
+{
+    const auto row_of = [&](const metrics::Metrics& metrics) {
+        return make_session_row(cell.experiment, cell.job, scores_of(metrics, played.perfect),
+                                criteria);
+    };
+    return {.point = cell.point,
+            .real = row_of(played.real),
+            .simulated = row_of(played.simulated),
+            .missed_ticks = played.missed_ticks,
+            .longest_gap_ms = played.longest_gap_ms,
+            .is_valid = played.valid(),
+            .invalid_because = fmt::format("{}", fmt::join(played.invalid_because, "; "))};
+}
+
+std::string sweep_csv(std::span<const SweepRow> rows)
+{
+    std::vector<std::string> columns{condition_columns.begin(), condition_columns.end()};
+    columns.emplace_back("attempt");
+    for (const std::string_view prefix : {"", "virtual_"}) {
+        for (const SweepMeasure& measure : sweep_measures)
+            columns.push_back(fmt::format("{}{}", prefix, measure.name));
+        columns.push_back(fmt::format("{}tier", prefix));
+    }
+    for (const char* column : {"difference_percent", "vibration_difference_percent", "missed_ticks",
+                               "longest_gap_ms", "valid", "invalid_because"})
+        columns.emplace_back(column);
+    std::string text = fmt::format("{}\n", fmt::join(columns, ","));
+    for (const SweepRow& row : rows) {
+        auto cells = condition_cells(row);
+        cells.push_back(fmt::format("{}", row.attempt));
+        add_measures(row.real, cells);
+        add_measures(row.simulated, cells);
+        const auto percent = [&](std::optional<double> SessionRow::*value) {
+            return row.is_valid ? percent_of(row.real.*value, row.simulated.*value) : std::nullopt;
+        };
+        cells.push_back(
+            number(farther(percent(&SessionRow::mean_mm), percent(&SessionRow::std_mm)), 2));
+        cells.push_back(number(percent(&SessionRow::vibration_mm), 2));
+        cells.push_back(fmt::format("{}", row.missed_ticks));
+        cells.push_back(number(row.longest_gap_ms, 1));
+        cells.emplace_back(row.is_valid ? "true" : "false");
+        cells.push_back(base::csv_quoted(row.invalid_because));
+        text += fmt::format("{}\n", fmt::join(cells, ","));
+    }
+    return text;
+}
+
+std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows)
+{
+    std::vector<std::string> order;
+    std::map<std::string, std::map<std::uint64_t, const SweepRow*>> conditions;
+    for (const SweepRow& row : rows) {
+        const auto condition = condition_of(row);
+        if (!conditions.contains(condition)) order.push_back(condition);
+        note(row, conditions[condition]);
+    }
+    std::vector<ConditionRow> compared;
+    for (const std::string& name : order) {
+        Condition condition;
+        for (const auto& [seed, row] : conditions[name]) {
+            if (row->is_valid) {
+                condition.valid.push_back(row);
+            } else {
+                ++condition.left_out;
+            }
+        }
+        const SweepRow& first = *conditions[name].begin()->second;
+        for (const SweepMeasure& measure : sweep_measures) {
+            ConditionRow row{.point = first.point,
+                             .algorithm = first.real.algorithm,
+                             .task = first.real.task,
+                             .hands = first.real.hands,
+                             .peers = first.real.peers,
+                             .scene = first.real.scene,
+                             .duration_s = first.real.duration_s,
+                             .network = first.real.network,
+                             .sessions = static_cast<std::uint32_t>(condition.valid.size()),
+                             .left_out = condition.left_out};
+            compare(condition, measure, row);
+            compared.push_back(std::move(row));
+        }
+    }
+    return compared;
+}
+
+std::string conditions_csv(std::span<const ConditionRow> rows)
+{
+    return base::csv_text(std::vector<ConditionRow>{rows.begin(), rows.end()});
+}
+
+std::string conditions_table(std::span<const ConditionRow> rows)
+{
+    constexpr auto line = "{:<16}{:<5}{:>6}{:>9}  {:<18}{:>10}{:>10}{:>9}  {}\n";
+    std::string table = fmt::format(line, "", "task", "peers", "sessions", "measure", "real",
+                                    "virtual", "differs", "95 % interval");
+    for (const ConditionRow& row : rows) {
+        if (!row.real && row.sessions > 0) continue;
+        if (row.sessions == 0 && row.measure != sweep_measures.front().name) continue;
+        table += fmt::format(
+            line, row.algorithm, row.task, row.peers, row.sessions, row.measure,
+            row.real ? number(row.real, 3) : "-", row.simulated ? number(row.simulated, 3) : "-",
+            row.difference_percent ? fmt::format("{:+.1f} %", *row.difference_percent) : "-",
+            row.ci_low_percent
+                ? fmt::format("{:+.1f} to {:+.1f} %", *row.ci_low_percent, *row.ci_high_percent)
+            : row.left_out > 0 ? fmt::format("{} NOT VALID, excluded", row.left_out)
+                               : "");
+    }
+    return table;
+}
+
+} // namespace hapnet::lab::results

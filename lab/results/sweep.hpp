@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/jobs.hpp"
+#include "lab/metrics/criteria.hpp"
+#include "lab/results/rows.hpp"
+#include "lab/results/session_rows.hpp"
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::results {
+
+// An experiment that the daemons have played, beside the same sessions in virtual time.
+
+/// What came of a session that was played once.
+struct PlayedCell {
+    metrics::Metrics real{};
+    metrics::Metrics simulated{}; // in virtual time, with the ticks of the daemons
+    metrics::Metrics perfect{};   // in virtual time, on a perfect network
+    std::uint64_t missed_ticks = 0;
+    double longest_gap_ms = 0.0; // between two ticks of a peer
+    std::vector<std::string> invalid_because{};
+
+    [[nodiscard]] bool valid() const { return invalid_because.empty(); }
+};
+[[nodiscard]] nlohmann::ordered_json to_json(const PlayedCell& played);
+/// nullopt when a key is missing or holds something else.
+[[nodiscard]] std::optional<PlayedCell> played_cell_from(const nlohmann::json& json);
+
+/// Of real_time_sessions.csv: a session as it was played once.
+struct SweepRow {
+    std::string point; // of the axes: "hands.stiffness=100N/m"
+    SessionRow real{};
+    SessionRow simulated{};
+    std::uint32_t attempt = 1;
+    std::uint64_t missed_ticks = 0;
+    double longest_gap_ms = 0.0;
+    bool is_valid = false;
+    std::string invalid_because{};
+};
+
+/// Of which session of an experiment.
+struct SweepCell {
+    const experiment::Experiment& experiment;
+    const experiment::SessionJob& job;
+    std::string point{};
+};
+[[nodiscard]] SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,
+                                      const metrics::Criteria& criteria);
+
+[[nodiscard]] std::string sweep_csv(std::span<const SweepRow> rows);
+
+/// Of real_time_conditions.csv: a measure of all valid sessions of one condition.
+struct ConditionRow {
+    std::string point;
+    std::string algorithm;
+    std::string task;
+    std::string hands;
+    std::uint32_t peers = 2;
+    std::string scene{};
+    double duration_s = 0.0;
+    std::string network{};
+    std::string measure{};
+    std::uint32_t sessions = 0; // that are valid
+    std::uint32_t left_out = 0; // played, and never valid
+    std::optional<double> real{};
+    std::optional<double> simulated{};
+    std::optional<double> difference_percent{};
+    std::optional<double> ci_low_percent{}; // its 95 % interval, by resampling the seeds
+    std::optional<double> ci_high_percent{};
+};
+constexpr auto fields_of(base::Tag<ConditionRow>)
+{
+    using Row = ConditionRow;
+    constexpr base::Decimals two{2};
+    return base::fields(
+        "conditions", base::field("point", &Row::point), base::field("algorithm", &Row::algorithm),
+        base::field("task", &Row::task), base::field("hands", &Row::hands),
+        base::field("peers", &Row::peers), base::field("scene", &Row::scene),
+        base::field("duration_s", &Row::duration_s), base::field("network", &Row::network),
+        base::field("measure", &Row::measure), base::field("sessions", &Row::sessions),
+        base::field("left_out", &Row::left_out), base::field("real", &Row::real, ten_thousandths),
+        base::field("virtual", &Row::simulated, ten_thousandths),
+        base::field("difference_percent", &Row::difference_percent, two),
+        base::field("ci_low_percent", &Row::ci_low_percent, two),
+        base::field("ci_high_percent", &Row::ci_high_percent, two));
+}
+[[nodiscard]] std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows);
+[[nodiscard]] std::string conditions_csv(std::span<const ConditionRow> rows);
+/// The same for a person.
+[[nodiscard]] std::string conditions_table(std::span<const ConditionRow> rows);
+
+} // namespace hapnet::lab::results

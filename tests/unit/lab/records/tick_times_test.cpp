@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/tick_times.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::lab::records {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(TickTimes, AreWhenTicksWereDueButForThoseThatCameTicksLate)
+{
+    const base::TimePoint start{100s};
+    record::Record record;
+    const auto tick = [&](base::Duration due, base::Duration late) {
+        record.ticks.push_back({.due = start + due, .late = late});
+    };
+    tick(-1ms, 0ms);
+    tick(200us, 90us);
+    tick(1200us, 13400us); // so long it stood still
+    tick(14200us, 500us);  // due before the last one came
+    tick(15200us, 60us);
+    const std::vector<base::Duration> expected{200us, 14600us, 14700us, 15200us};
+    EXPECT_EQ(tick_times(record, start), expected);
+}
+
+} // namespace
+} // namespace hapnet::lab::records
