@@ -55,7 +55,7 @@ PairedTest paired_test(std::span<const double> a, std::span<const double> b)
         }
         medians.push_back(median_of(drawn));
     }
-    test.interval = interval_of(std::move(medians));
+    test.interval = interval_of(std::move(medians), test.seeds);
     return test;
 }
 

@@ -4,6 +4,7 @@
 
 #include "proto/base/ensure.hpp"
 #include "proto/base/math.hpp"
+#include "proto/base/normal.hpp"
 #include "proto/base/random.hpp"
 
 #include <algorithm>
@@ -14,15 +15,43 @@ namespace hapnet::lab::metrics {
 
 namespace {
 
-constexpr std::array lapses{0.0, 0.025, 0.05};
+struct Lapses {
+    double early = 0.0;
+    double late = 0.0;
+};
+constexpr std::array<Lapses, 9> lapse_pairs{{{0.0, 0.0},
+                                             {0.0, 0.025},
+                                             {0.0, 0.05},
+                                             {0.025, 0.0},
+                                             {0.025, 0.025},
+                                             {0.025, 0.05},
+                                             {0.05, 0.0},
+                                             {0.05, 0.025},
+                                             {0.05, 0.05}}};
+/// By how much likelier, as a logarithm, the second core has to be than the first: the difference
+/// of 4 in Akaike's criterion from which Burnham and Anderson ("Model Selection and Multimodel
+/// Inference", 2002, 2.6) call the other one considerably less supported.
+constexpr double evidence = 2.0;
 constexpr int steps_max = 40;
 constexpr double tenth_of_seeds = 0.1;
 constexpr double half_of_seeds = 0.5;
 
-double logistic(double z)
+/// A core and its slope.
+struct Rise {
+    double share = 0.0;
+    double slope = 0.0;
+};
+
+Rise rise_of(Core core, double z)
 {
-    constexpr double far = 30.0;
-    return 1.0 / (1.0 + base::exp(-std::clamp(z, -far, far)));
+    constexpr double far = 30.0, top = 3.4; // there exp(-exp(z)) is 1e-13
+    if (core == Core::logistic) {
+        const double share = 1.0 / (1.0 + base::exp(-std::clamp(z, -far, far)));
+        return {share, share * (1.0 - share)};
+    }
+    const double rate = base::exp(std::clamp(z, -far, top));
+    const double passes = base::exp(-rate);
+    return {1.0 - passes, rate * passes};
 }
 
 /// Two parameters: location, and the logarithm of the scale.
@@ -34,8 +63,8 @@ struct Parameters {
 /// The posterior of a curve with given lapses. Levels are in units of their distance.
 class Posterior {
 public:
-    Posterior(std::span<const FailCount> counts, double early, double late)
-        : counts_{counts}, early_{early}, gain_{1.0 - early - late}
+    Posterior(std::span<const FailCount> counts, Core core, double early, double late)
+        : counts_{counts}, core_{core}, early_{early}, gain_{1.0 - early - late}
     {}
 
     [[nodiscard]] double at(const Parameters& p) const
@@ -43,7 +72,7 @@ public:
         double sum = -0.5 * p.log_scale * p.log_scale;
         const double scale = base::exp(p.log_scale);
         for (const FailCount& count : counts_) {
-            const double share = clamped(logistic((count.level - p.location) / scale));
+            const double share = clamped(rise_of(core_, (count.level - p.location) / scale).share);
             sum += count.failed * base::log(share) +
                    (count.of - count.failed) * base::log(1.0 - share);
         }
@@ -58,9 +87,9 @@ public:
         double h_aa = 1e-6, h_at = 0.0, h_tt = 1.0;
         for (const FailCount& count : counts_) {
             const double z = (count.level - p.location) / scale;
-            const double f = logistic(z);
-            const double share = clamped(f);
-            const double slope = gain_ * f * (1.0 - f);
+            const Rise rise = rise_of(core_, z);
+            const double share = clamped(rise.share);
+            const double slope = gain_ * rise.slope;
             const double d_a = -slope / scale, d_t = -slope * z;
             const double spread = share * (1.0 - share);
             const double pull = (count.failed - count.of * share) / spread;
@@ -83,6 +112,7 @@ private:
     }
 
     std::span<const FailCount> counts_;
+    Core core_;
     double early_;
     double gain_;
 };
@@ -90,7 +120,7 @@ private:
 /// Uphill until it is flat; a step that leads down, or far away, is halved.
 Parameters climbed(const Posterior& posterior, Parameters p, const Interval& within)
 {
-    constexpr double flat = 1e-9;
+    constexpr double flat = 1e-7;
     double height = posterior.at(p);
     for (int i = 0; i < steps_max; ++i) {
         const Parameters step = posterior.step(p);
@@ -166,30 +196,78 @@ double half_of(std::span<const FailCount> counts)
     return 2.0 * counts[0].failed < counts[0].of ? beyond : counts[0].level;
 }
 
-/// The gap in which all seeds change at once; nullopt when a level has failures and passes.
+/// The fewest failures of so many that a sign test at 5 % takes for one half; 1 at least. As many
+/// passes are the fewest, too.
+double fewest_for_half(double of)
+{
+    constexpr double tail = 0.025;
+    double one = 1.0; // the probability of k failures, from k = 0 on
+    for (double i = 0.0; i < of; i += 1.0) one /= 2.0;
+    double sum = one, k = 0.0;
+    while (sum <= tail) {
+        one *= (of - k) / (k + 1.0);
+        k += 1.0;
+        sum += one;
+    }
+    return std::max(k, 1.0);
+}
+
+/// The gap between two levels in which half is passed by; nullopt when one of the levels, or the
+/// order of them, leaves it open where that is.
 std::optional<Interval> gap_of(std::span<const FailCount> counts)
 {
+    const double fewest = fewest_for_half(counts.front().of);
     double low = 0.0, high = beyond;
     for (const FailCount& count : counts) {
-        if (count.failed > 0.0 && count.failed < count.of) return std::nullopt;
-        if (count.failed == 0.0) low = count.level;
-        if (count.failed > 0.0) high = std::min(high, count.level);
+        const bool is_below = count.failed < fewest;
+        const bool is_above = count.of - count.failed < fewest;
+        if (is_below == is_above) return std::nullopt; // one half, or one seed
+        if (is_below) low = count.level;
+        if (is_above) high = std::min(high, count.level);
     }
     if (low > high) return std::nullopt;
     return Interval{low, high};
+}
+
+/// Student's 97.5th percentile: the expansion for many degrees of freedom (Abramowitz and Stegun
+/// 26.7.5), 0.003 too small for three.
+double students(double degrees)
+{
+    const double z = base::normal_quantile(0.975);
+    const double z2 = z * z;
+    const std::array<double, 4> terms{
+        (z2 + 1.0) / 4.0, ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0,
+        (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0,
+        ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) / 92160.0};
+    double sum = 1.0, power = 1.0;
+    for (const double term : terms) {
+        power /= degrees;
+        sum += power * term;
+    }
+    return z * sum;
+}
+
+/// What share of replicates lies below a 95 % interval.
+double share_below(std::uint32_t seeds)
+{
+    if (seeds < 2) return 0.025;
+    const double degrees = seeds - 1.0;
+    return base::normal_cdf(-std::sqrt(seeds / degrees) * students(degrees));
 }
 
 } // namespace
 
 double Psychometric::share_at(double level) const
 {
-    return early + (1.0 - early - late) * logistic((level - location) / scale);
+    return early + (1.0 - early - late) * rise_of(core, (level - location) / scale).share;
 }
 
 double Psychometric::level_of(double share) const
 {
     const double f = (share - early) / (1.0 - early - late);
-    return location + scale * base::log(f / (1.0 - f));
+    const double z =
+        core == Core::logistic ? base::log(f / (1.0 - f)) : base::log(-base::log(1.0 - f));
+    return location + scale * z;
 }
 
 Psychometric fitted(std::span<const FailCount> counts)
@@ -202,29 +280,31 @@ Psychometric fitted(std::span<const FailCount> counts)
     const double width = scaled.back().level;
     std::optional<Psychometric> best;
     double highest = 0.0;
-    for (const double early : lapses) {
-        for (const double late : lapses) {
-            const Posterior posterior{scaled, early, late};
-            const auto p = climbed(posterior, {crossing(scaled), 0.0}, {-width, 2.0 * width});
+    for (const Core core : {Core::logistic, Core::gumbel}) {
+        // Gumbel only on evidence: where the levels show no shape, half-way is the honest guess.
+        double to_beat = highest + (core == Core::gumbel ? evidence : 0.0);
+        Parameters p{crossing(scaled), 0.0};
+        for (const auto& [early, late] : lapse_pairs) {
+            const Posterior posterior{scaled, core, early, late};
+            p = climbed(posterior, p, {-width, 2.0 * width});
             const double height = posterior.at(p);
-            if (best && height <= highest + 1e-9) continue; // the least lapses that do
-            highest = height;
+            if (best && height <= to_beat + 1e-6) continue; // the simplest that does
+            to_beat = highest = height;
             best = Psychometric{counts.front().level + unit * p.location,
-                                unit * base::exp(p.log_scale), early, late};
+                                unit * base::exp(p.log_scale), early, late, core};
         }
     }
     return *best;
 }
 
-Interval interval_of(std::vector<double> values)
+Interval interval_of(std::vector<double> values, std::uint32_t seeds)
 {
     base::ensure(!values.empty());
     std::ranges::sort(values);
-    const auto at = [&](double share) {
-        const double rank = std::ceil(share * static_cast<double>(values.size()));
-        return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-    };
-    return {at(0.025), at(0.975)};
+    const auto count = static_cast<double>(values.size());
+    const double rank = std::max(std::ceil(share_below(seeds) * count), 1.0);
+    const auto from_end = static_cast<std::size_t>(rank) - 1;
+    return {values[from_end], values[values.size() - 1 - from_end]};
 }
 
 Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top)
@@ -242,7 +322,7 @@ Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top)
     }
     for (const auto& weights : drawn_weights(seeds))
         threshold.replicates.push_back(half_of(counts_of(outcomes, weights)));
-    Interval interval = interval_of(threshold.replicates);
+    Interval interval = interval_of(threshold.replicates, threshold.seeds);
     if (const auto gap = gap_of(counts)) {
         interval = {std::min(interval.low, gap->low), std::max(interval.high, gap->high)};
     }
@@ -259,7 +339,7 @@ Difference difference_of(const Threshold& a, const Threshold& b)
     for (std::size_t i = 0; i < a.replicates.size(); ++i)
         replicates.push_back(apart(a.replicates[i], b.replicates[i]));
     const double value = apart(a.is_open ? beyond : a.p50, b.is_open ? beyond : b.p50);
-    return {value, interval_of(std::move(replicates))};
+    return {value, interval_of(std::move(replicates), a.seeds)};
 }
 
 } // namespace hapnet::lab::metrics

@@ -15,15 +15,18 @@ namespace hapnet::lab::metrics {
 // fitted to how many fail at each level (Wichmann and Hill, "The psychometric function: I. Fitting,
 // sampling, and goodness of fit", Perception & Psychophysics 63, 2001, 1293-1313),
 //
-//     psi(x) = early + (1 - early - late) / (1 + exp(-(x - a) / s)),
+//     psi(x) = early + (1 - early - late) F((x - a) / s),
 //
 // where `early` is the share that fails however small the impairment is (one unlucky instant of a
 // script) and `late` the share that passes however large it is. Both are at most 0.05, in steps of
-// 0.025: the pair that the outcomes are most likely with. a and s are those of greatest posterior
+// 0.025. F is one of two usual cores: the logistic 1 / (1 + exp(-z)), or Gumbel's
+// 1 - exp(-exp(z)), which rises slowly and ends steeply, as where the worst instant of a session
+// decides. The lapses are those that the outcomes are most likely with, and the core is the
+// logistic unless Gumbel's is clearly likelier. a and s are those of greatest posterior
 // probability, with one weak prior: log s is normal about the distance of the levels, with a
 // standard deviation of 1, so that outcomes which change from all to nothing between two levels
-// still have a fit, half-way between the two (after Kuss, Jaekel and Wichmann, "Bayesian inference
-// for psychometric functions", Journal of Vision 5, 2005, 478-492).
+// still have a fit, about half-way between the two (after Kuss, Jaekel and Wichmann, "Bayesian
+// inference for psychometric functions", Journal of Vision 5, 2005, 478-492).
 
 /// What came of one level: of each seed whether its session failed, in the order of the seeds.
 struct LevelOutcome {
@@ -38,12 +41,16 @@ struct FailCount {
     double of = 0.0;
 };
 
+/// The shape of a curve between its lapses.
+enum class Core : std::uint8_t { logistic, gumbel };
+
 /// The fitted curve.
 struct Psychometric {
     double location = 0.0; // a
     double scale = 1.0;    // s, above 0
     double early = 0.0;
     double late = 0.0;
+    Core core = Core::logistic;
 
     [[nodiscard]] double share_at(double level) const;
     /// The level at which that share fails; early < share < 1 - late.
@@ -64,9 +71,10 @@ struct Threshold {
     /// Where a tenth fails; nullopt: not within the levels.
     std::optional<double> p10{};
     bool is_open = false; // less than half fail at the highest level: p50 is the top of the range
-    /// The 95 % interval of p50: the 2.5th and the 97.5th percentile of the replicates. When no
-    /// level has both failures and passes, from the last without failures to the first without
-    /// passes at least.
+    /// The 95 % interval of p50: interval_of() the replicates. Where the levels stand too far apart
+    /// to show the curve near one half - at none of them is the count of failures compatible with
+    /// one half by a two-sided sign test at 5 % - it reaches at least from the last level with
+    /// fewer to the first with more: without the curve's shape, no more is known.
     double low = 0.0;
     std::optional<double> high{}; // nullopt: above the highest level
     /// p50 of each bootstrap replicate, `beyond` where less than half fail at the highest level.
@@ -81,12 +89,17 @@ struct Threshold {
 /// not independent), by a generator of its own: equal outcomes, equal bits.
 [[nodiscard]] Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top);
 
-/// The 2.5th and the 97.5th percentile (nearest rank) of values without NaN; at least one.
+/// The 95 % interval by bootstrap replicates of a sample of so many seeds: their expanded
+/// percentiles (Hesterberg, "What Teachers Should Know About the Bootstrap", The American
+/// Statistician 69, 2015, 371-386). A plain 2.5th percentile is too near, as replicates of n seeds
+/// spread by sqrt((n - 1) / n) too little and take that spread for known; this one is the share of
+/// a normal distribution below -sqrt(n / (n - 1)) t, where t is Student's 97.5th percentile with
+/// n - 1 degrees of freedom. Nearest rank; values without NaN, at least one.
 struct Interval {
     double low = 0.0;
     double high = 0.0;
 };
-[[nodiscard]] Interval interval_of(std::vector<double> values);
+[[nodiscard]] Interval interval_of(std::vector<double> values, std::uint32_t seeds);
 
 /// A paired difference of p50, and its 95 % interval. Two that are both `beyond` do not differ.
 struct Difference {
