@@ -108,14 +108,16 @@ TEST(LiveRecording, ChangesNothingAndSavesNothing)
     Written a = written(1, "boot"), b = written(2, "boot");
     const auto recording = made_of(a, b);
     Pace pace{1.0, false};
-    const Controlled<Recording> controlled{*recording, pace, {}};
+    bool is_stopped = false;
+    const Controlled<Recording> controlled{*recording, pace, {}, [&] { is_stopped = true; }};
     const auto subject = subject_of(controlled);
     const auto ask = [&](const char* line) {
         return Json::parse(std::get<std::string>(subject.answer(line, base::TimePoint{})));
     };
     EXPECT_FALSE(ask(R"({"command":"set","settings":{"both.delay":"1ms"}})")["ok"]);
     EXPECT_FALSE(ask(R"({"command":"pace","do":"save"})")["ok"]);
-    EXPECT_FALSE(ask(R"({"command":"stop"})")["ok"]);
+    EXPECT_TRUE(ask(R"({"command":"stop"})")["ok"]);
+    EXPECT_TRUE(is_stopped);
     EXPECT_TRUE(ask(R"({"command":"stats"})")["ok"]);
     const auto watch = subject.answer(R"({"command":"watch","what":"frames"})", base::TimePoint{});
     EXPECT_TRUE(std::holds_alternative<control::WatchRequest>(watch));

@@ -197,7 +197,8 @@ TEST(LiveControl, PausesSeeksAndSaves)
         saved = text;
         return base::Result<std::string>{"/there/experiment-1.toml"};
     };
-    const auto subject = subject_of({*session, pace, save, [] { FAIL() << "nobody stops it"; }});
+    const Controlled<Session> controlled{*session, pace, save, [] { FAIL() << "nobody stops it"; }};
+    const auto subject = subject_of(controlled);
     const auto said = [&](const std::string& line) {
         return nlohmann::json::parse(std::get<std::string>(subject.answer(line, {})));
     };
@@ -225,7 +226,8 @@ TEST(LiveControl, CountsWhatItsPeersDo)
 {
     const auto session = session_of(of_text());
     Pace pace{1.0, true};
-    const auto subject = peer_subject({*session, pace, {}, [] {}}, 1);
+    const Controlled<Session> controlled{*session, pace, {}, [] {}};
+    const auto subject = peer_subject(controlled, 1);
     session->play_to(4s);
     const auto statistics = subject.statistics();
     EXPECT_EQ(statistics["program"], "hapnet-lab");

@@ -14,7 +14,10 @@ TEST(TickTimes, AreWhenTicksWereDueButForThoseThatCameTicksLate)
     const base::TimePoint start{100s};
     record::Record record;
     const auto tick = [&](base::Duration due, base::Duration late) {
-        record.ticks.push_back({.due = start + due, .late = late});
+        record::TickRow row;
+        row.due = start + due;
+        row.late = late;
+        record.ticks.push_back(row);
     };
     tick(-1ms, 0ms);
     tick(200us, 90us);
