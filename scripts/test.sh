@@ -205,7 +205,7 @@ try_package() {
     tests/ship/smoke_test.sh . build/release build/ship-smoke || (($? == 77))
 }
 
-# tally LOG...: how many tests passed, failed and were left out in all of them, as "4 passed, 1 failed".
+# tally LOG...: how many tests passed, failed and were left out in all of them: 4 passed, 1 failed.
 tally() {
     local run logs_read=()
     for run in "$@"; do

@@ -101,8 +101,7 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
             {algorithm, experiment.hands, experiment.tasks.front(), experiment.first_seed,
              experiment::parties_of(experiment).front()},
             experiment.path);
-        const auto trace =
-            virtual_time::play(spec.setting, nullptr, virtual_time::Settling::always);
+        const auto trace = virtual_time::play(spec.setting, nullptr, virtual_time::PlaysOn::always);
         if (!trace) return tl::unexpected{trace.error()};
         json["sessions"].push_back(
             {{"algorithm", algorithm.name}, {"metrics", to_json(metrics::metrics_of(*trace))}});

@@ -49,9 +49,9 @@ bool is_playing(const VirtualPlayer& player) { return player.last().phase == pee
 /// A session on its way.
 class Play {
 public:
-    Play(VirtualWorld& world, Settling settling)
+    Play(VirtualWorld& world, PlaysOn plays_on)
         : world_{world},
-          settling_{settling},
+          plays_on_{plays_on},
           tick_{world.setting().tick},
           tracks_(world.setting().players.size()),
           are_even_{std::ranges::none_of(world.setting().players, has_own_ticks)}
@@ -81,7 +81,7 @@ private:
     [[nodiscard]] bool has_any_session() const;
 
     VirtualWorld& world_;
-    Settling settling_;
+    PlaysOn plays_on_;
     base::Duration tick_;
     std::vector<Track> tracks_; // of each side
     bool are_even_;             // all sides tick so
@@ -124,7 +124,7 @@ void Play::settle()
     const peer::Peer& peer = world_.side(0).peer();
     const base::Duration hands_off = peer.length() - peer.hands_on();
     const bool agrees_soon = peer::is_one_without_turning(peer.shared());
-    if (settling_ == Settling::where_it_takes_time && agrees_soon) return;
+    if (plays_on_ == PlaysOn::where_it_takes_time && agrees_soon) return;
     if (hands_off <= settles_within) return;
     const base::TimePoint let_go = world_.now();
     while (world_.now() < let_go + hands_off) {
@@ -280,22 +280,22 @@ Trace Play::trace() &&
 
 } // namespace
 
-std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop, Settling settling)
+std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop, PlaysOn plays_on)
 {
-    Play session{world, settling};
+    Play session{world, plays_on};
     if (!session.run(stop)) return std::nullopt;
     return std::move(session).trace();
 }
 
-base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop, Settling settling)
+base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop, PlaysOn plays_on)
 {
     if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     VirtualWorld world{setting};
-    std::optional<Trace> trace = play_out(world, stop, settling);
+    std::optional<Trace> trace = play_out(world, stop, plays_on);
     if (trace && has_overflowed(world)) {
         // Datagrams were in flight by the thousand: again, with the memory that the emulator has.
         VirtualWorld roomy{setting, {}};
-        trace = play_out(roomy, stop, settling);
+        trace = play_out(roomy, stop, plays_on);
     }
     if (!trace) return base::fail("stopped before its end");
     return *std::move(trace);

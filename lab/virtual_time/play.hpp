@@ -15,19 +15,19 @@ namespace hapnet::lab::virtual_time {
 
 /// Which sessions are played on with hands off, for how far apart the copies settle: those whose
 /// copies take their time to agree again (several bodies, or one that turns), or all.
-enum class Settling : std::uint8_t { where_it_takes_time, always };
+enum class PlaysOn : std::uint8_t { where_it_takes_time, always };
 
 /// Plays a session from the first hello to its end in virtual time, on the cores that the daemons
 /// run. A pure function of the setting. Fails when the scene cannot be shared, or when `stop`
 /// became true meanwhile. A session that never begins gives an empty trace.
 [[nodiscard]] base::Result<Trace> play(const Setting& setting,
                                        const std::atomic<bool>* stop = nullptr,
-                                       Settling settling = Settling::where_it_takes_time);
+                                       PlaysOn plays_on = PlaysOn::where_it_takes_time);
 
 /// Plays the first group of a new world to its end: for players with other devices. nullopt when
 /// `stop` became true meanwhile.
 [[nodiscard]] std::optional<Trace> play_out(VirtualWorld& world,
                                             const std::atomic<bool>* stop = nullptr,
-                                            Settling settling = Settling::where_it_takes_time);
+                                            PlaysOn plays_on = PlaysOn::where_it_takes_time);
 
 } // namespace hapnet::lab::virtual_time

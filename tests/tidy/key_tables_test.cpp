@@ -182,8 +182,9 @@ const std::set<std::string>& without_table()
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "Table1Row", "TaskRow",
         "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow", "SensitivityRow", "Judged",
-        "CurveRow", "ClaimRow", "ClaimSessionRow", "QosRow", "ComparedRow", "TrajectoryRow",
-        "RealTimeRow", "ReplayRow", "WrittenMount", "WrittenConfig"};
+        "CurveRow", "ClaimRow", "ClaimQuantileRow", "ClaimSessionRow", "ConditionRow", "QosRow",
+        "ComparedRow", "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount",
+        "WrittenConfig"};
     return names;
 }
 

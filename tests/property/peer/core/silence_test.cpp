@@ -55,7 +55,7 @@ public:
     static std::vector<std::uint64_t> seeds_of_few()
     {
         std::vector<std::uint64_t> wanted;
-        for (std::uint64_t seed = 0; seed < seeds(12); ++seed) {
+        for (std::uint64_t seed = 0; seed < seeds(6); ++seed) {
             if (drawn_of(seed).setting.players.size() <= (is_sanitized ? 2 : 4)) {
                 wanted.push_back(seed);
             }

@@ -190,7 +190,7 @@ TEST(Play, OfOneBodyThatCannotTurnSaysHowItSettlesWhereThatIsAsked)
     Setting setting = under(Task::t3, {.delay = emulator::constant(80ms)});
     setting.length = 6s;
     const auto usual = play(setting);
-    const auto settled = play(setting, nullptr, Settling::always);
+    const auto settled = play(setting, nullptr, PlaysOn::always);
     ASSERT_TRUE(usual && settled);
     EXPECT_TRUE(usual->settled.empty());
     ASSERT_EQ(settled->settled.size(), 1U);

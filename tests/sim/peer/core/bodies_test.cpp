@@ -257,7 +257,7 @@ TEST_P(AnyBodies, AgreeAfterHandsOffWhateverTheHandsAndTheNetworkDid)
     expect_agreement(group);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, AnyBodies, testing::Range(std::uint64_t{0}, test::seeds(100)));
+INSTANTIATE_TEST_SUITE_P(Seed, AnyBodies, testing::Range(std::uint64_t{0}, test::seeds(60)));
 
 /// One who comes late starts with all bodies where the others have them.
 TEST(SharedBodies, AreTakenOverByOneWhoComesLate)
