@@ -207,7 +207,10 @@ std::string circle_demo_verdict(const CircleDemo& demo)
 Json circle_demo_manifest(const CircleDemo& demo, const Circumstances& circumstances)
 {
     const auto reasons = demo.files.invalid_because();
-    const Json peers = demo.files.peer.value("peers", Json::array());
+    Json peers = Json::array({demo.files.peer.value("peer_id", Json{})});
+    for (const Json& other : demo.files.peer.value("others", Json::array())) {
+        peers.push_back(other.value("id", Json{}));
+    }
     Json configuration = configuration_of(demo.files);
     configuration["peers"] = peers;
     Json manifest = manifest_head(circumstances);

@@ -117,7 +117,8 @@ TEST(DemoReport, OfManyHandsSaysWhoPlayedAndWhetherItCounts)
 {
     CircleDemo demo{"t7", task(2.0)};
     demo.files.peer["task"] = "T7";
-    demo.files.peer["peers"] = {1, 2, 3};
+    demo.files.peer["peer_id"] = 1;
+    demo.files.peer["others"] = Json::array({Json{{"id", 2}}, Json{{"id", 3}}});
     Json manifest = circle_demo_manifest(demo, {.command = "demo", .start = "now"});
     EXPECT_EQ(manifest["kind"], "demo");
     EXPECT_EQ(manifest["title"], "3 peers, one cube, task T7");
