@@ -251,7 +251,7 @@ TEST(LiveControl, EndsByAnyOfItsSockets)
     const auto session = session_of(of_text());
     Pace pace{1.0, true};
     int stops = 0;
-    const Controlled controlled{*session, pace, {}, [&stops] { ++stops; }};
+    const Controlled<Session> controlled{*session, pace, {}, [&stops] { ++stops; }};
     const auto says = [](const control::Subject& subject, const std::string& line) {
         return nlohmann::json::parse(std::get<std::string>(subject.answer(line, {})));
     };
