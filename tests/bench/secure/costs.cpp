@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/secure/costs.hpp"
 
-#include "lab/virtual_time/player.hpp"
 #include "proto/secure/key_file.hpp"
 #include "tests/bench/common/timing.hpp"
+#include "tests/bench/secure/circle.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,10 +23,7 @@ namespace {
 using namespace std::chrono_literals;
 
 using lab::virtual_time::Setting;
-using lab::virtual_time::VirtualPlayer;
-using Bytes = std::vector<std::byte>;
-
-constexpr int turns_a_block = 1000;
+using Bytes = Circle::Bytes;
 
 Setting setting_of(bool is_keyed)
 {
@@ -37,47 +34,6 @@ Setting setting_of(bool is_keyed)
     }
     return setting;
 }
-
-/// Two players, a tick apart. Times the turns of one of them.
-class Pair {
-public:
-    explicit Pair(bool is_keyed)
-        : players_{VirtualPlayer{setting_of(is_keyed), {0, 11}},
-                   VirtualPlayer{setting_of(is_keyed), {1, 22}}}
-    {}
-
-    /// What side 1's turn took, ns.
-    double turn()
-    {
-        now_ += 1ms;
-        play(0);
-        const std::int64_t begin = clock_ns();
-        play(1);
-        return static_cast<double>(clock_ns() - begin);
-    }
-    [[nodiscard]] VirtualPlayer& measured() { return players_[1]; }
-    [[nodiscard]] base::TimePoint now() const { return now_; }
-    /// The newest datagram of side 0.
-    [[nodiscard]] const Bytes& newest() const { return newest_; }
-
-private:
-    void play(std::size_t side)
-    {
-        for (const Bytes& datagram : inboxes_.at(side))
-            players_.at(side).receive(0, datagram, now_);
-        inboxes_.at(side).clear();
-        players_.at(side).step(now_);
-        players_.at(side).send_all([&](std::size_t, std::span<const std::byte> bytes, const auto&) {
-            inboxes_.at(1 - side).emplace_back(bytes.begin(), bytes.end());
-            if (side == 0) newest_.assign(bytes.begin(), bytes.end());
-        });
-    }
-
-    std::array<VirtualPlayer, 2> players_;
-    std::array<std::vector<Bytes>, 2> inboxes_;
-    Bytes newest_;
-    base::TimePoint now_{1000s};
-};
 
 /// Two associations that share a circle, for what a side does besides its turns.
 secure::StaticKeys keys_of(const secure::KeyFile& file)
@@ -171,7 +127,7 @@ std::vector<double> times_of_a_state(int count)
 /// A changed state under a key in use, with a number that may come, ns.
 std::vector<double> times_of_a_forgery(int count)
 {
-    Pair pair{true};
+    Circle pair{setting_of(true)};
     for (int i = 0; i < 2000; ++i) std::ignore = pair.turn();
     std::ignore = pair.turn();
     Bytes forged = pair.newest();
@@ -199,7 +155,7 @@ Row row_of(std::string name, std::string metric, double value, std::optional<dou
 
 void add_turns(std::vector<Row>& rows, int blocks, double clock)
 {
-    Pair keyed{true}, plain{false};
+    Circle keyed{setting_of(true)}, plain{setting_of(false)};
     std::vector<double> with, without;
     for (int i = 0; i < 2000; ++i) { // the session begins
         std::ignore = keyed.turn();
