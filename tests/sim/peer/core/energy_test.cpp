@@ -174,7 +174,7 @@ TEST_P(HonestHandsOn, BodiesThatTurnGetNoMoreThanTheBudgetOfTwoOrThree)
     }
 }
 
-// In T10 a hand takes hold of what the other still holds: 4640 ticks at 40 ms.
+// In T10 two hands hold a body with little drag, which swings up at 40 ms: 4640 ticks.
 INSTANTIATE_TEST_SUITE_P(Tasks, HonestHandsOn,
                          testing::Values(Turning{Task::t8, 2, 0}, Turning{Task::t8, 3, 0},
                                          Turning{Task::t9, 2, 0}, Turning{Task::t9, 3, 0},
