@@ -73,6 +73,9 @@ public:
 
     /// A state of this session arrived: the other side knows the start.
     void on_state() { acknowledged_ = true; }
+    /// Says hello once more although all seems to be settled; the other side answers where it knows
+    /// better.
+    void ask() { asked_ = true; }
 
     [[nodiscard]] bool is_hello_due(base::TimePoint now) const
     {

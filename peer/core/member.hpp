@@ -63,6 +63,12 @@ public:
         bool clock_jumped = false; // its clock, against this one
     };
     [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint arrived);
+    /// A state of another session. Where nothing is heard in this one, a late hello of a former run
+    /// may have made this side change back to that: it says hello, so that the present run does.
+    void on_state_of_another(base::TimePoint arrived)
+    {
+        if (session() && freshness(arrived) <= 0.0) handshake_.ask();
+    }
     /// True the first time in a session.
     [[nodiscard]] bool on_goodbye(const wire::Bye& bye, base::TimePoint arrived);
 

@@ -197,6 +197,7 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
     Member& other = circle_.members()[from];
     if (!other.session() || state.session != other.numbering().number) {
         ++counters_.other_session;
+        other.on_state_of_another(arrived);
         return;
     }
     if (!is_plausible(state) || !other.can_be_numbered(state, arrived)) {

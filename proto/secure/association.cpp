@@ -321,14 +321,14 @@ void Association::use(Epoch epoch, base::TimePoint now)
     unconfirmed_since_.reset();
     unanswered_since_.reset();
     initiating_.reset();
+    previous_.reset();
     if (current_ && current_->other_run == epoch.other_run) {
         ++counts_.rekeys;
-    } else {
+        previous_.emplace(std::move(*current_));
+        previous_until_ = now + previous_lasts;
+    } else { // what the former run sent comes too late
         run_since_ = now;
     }
-    previous_.reset();
-    if (current_) previous_.emplace(std::move(*current_));
-    previous_until_ = now + previous_lasts;
     current_.emplace(std::move(epoch));
 }
 

@@ -49,5 +49,12 @@ TEST(MalloryWithRecordedInitiations, KeepsTwoApartNoLongerThanHeIsThereThoughThe
     for (const std::uint64_t seed : {900'315U, 900'485U}) expect_to_hold(seed, Seal::keys);
 }
 
+// What a run that had ended still had on its way took the other side back into a session that
+// nobody was in any more.
+TEST(MalloryWithMessagesOfAFormerRun, KeepsNobodyInItsSession)
+{
+    for (const std::uint64_t seed : {5'001'246U, 5'001'743U}) expect_to_hold(seed, Seal::keys);
+}
+
 } // namespace
 } // namespace hapnet::test

@@ -258,6 +258,42 @@ TEST(PeerSession, CountsOnWhenALateHelloOfAnEarlierRunMadeItChangeOverAndBack)
     EXPECT_EQ(pair.ticks[1].freshness, 1.0);
 }
 
+// What a run that has ended sent last comes after a word of the next run: it tells a session in
+// which all is settled, and in which nobody is heard.
+TEST(PeerSession, FindsBackToThePresentRunWhenTheFormerOnesLastWordsComeLate)
+{
+    for (const std::size_t restarted : {0U, 1U}) {
+        const std::size_t stayed = 1 - restarted;
+        Pair pair;
+        std::optional<wire::Hello> hello;
+        for (int ms = 0; ms < 3000; ++ms) {
+            pair.step();
+            for (const wire::Message& message : pair.sent[restarted]) {
+                const auto* said = std::get_if<wire::Hello>(&message);
+                if (said != nullptr && said->nonce_heard != 0) hello = *said;
+            }
+        }
+        const auto state = pair.state_sent_by(restarted);
+        ASSERT_TRUE(hello && state);
+        pair.kill(restarted);
+        pair.run_for(1s);
+        pair.start(restarted, settings_of(restarted, 1));
+        pair.run_for(500ms);
+        const std::uint32_t number = pair.peers[restarted]->session()->number;
+        ASSERT_EQ(pair.peers[stayed]->session()->number, number);
+        pair.cut = true;
+        pair.run_for(1s);
+        pair.peers[stayed]->on_datagram(wire::encode(*hello).bytes(), pair.now);
+        pair.peers[stayed]->on_datagram(wire::encode(*state).bytes(), pair.now);
+        ASSERT_EQ(pair.peers[stayed]->session()->number, state->session);
+        pair.cut = false;
+        pair.run_for(1s);
+        EXPECT_EQ(pair.peers[stayed]->session()->number, number);
+        EXPECT_EQ(pair.ticks[0].freshness, 1.0);
+        EXPECT_EQ(pair.ticks[1].freshness, 1.0);
+    }
+}
+
 // The state that a peer sends of its hand and its cube, and its belief of the other's.
 
 TEST(PeerState, IsSentEveryTickNumberedFromOne)

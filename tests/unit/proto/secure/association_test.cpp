@@ -303,6 +303,31 @@ TEST(Association, TakesNothingOfAnEarlierRun)
     EXPECT_GT(world.b().association->counts().unknown_key, 1900U);
 }
 
+TEST(Association, DropsWhatAFormerRunStillHadOnItsWayOnceThePresentOneIsHeard)
+{
+    World world{one, two};
+    world.run(2s);
+    const std::size_t delivered = world.seen().size();
+    world.network().loss = 1.0;
+    world.run(100ms);
+    std::vector<Datagram> late;
+    for (std::size_t i = delivered; i < world.seen().size(); ++i)
+        if (world.seen()[i].to == 0) late.push_back(world.seen()[i]);
+    ASSERT_GT(late.size(), 90U);
+    world.network().loss = 0.0;
+    Setting again = two;
+    again.run = 33;
+    again.seed = 201;
+    world.b() = World::side(again);
+    world.run(3s);
+    ASSERT_EQ(world.a().session, session_of(11, 33));
+    const std::size_t received = world.a().received.size();
+    const std::uint64_t unknown = world.a().association->counts().unknown_key;
+    for (const Datagram& each : late) world.give(0, each.bytes, each.from);
+    EXPECT_EQ(world.a().received.size(), received);
+    EXPECT_EQ(world.a().association->counts().unknown_key, unknown + late.size());
+}
+
 TEST(Association, GivesACapturedAndWithheldInitiationOneAnswerAndKeepsItsKey)
 {
     World world{one, two};
