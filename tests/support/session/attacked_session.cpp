@@ -32,6 +32,9 @@ constexpr base::Duration length = 10s; // 7 s hands on
 constexpr base::Duration sealed_length = 18s;
 constexpr base::Duration attack_max = 8s;       // over before the hands let go
 constexpr base::Duration agree_within = 1200ms; // of hands off
+// Of 3 s hands off. A start is converted from one clock to the other once, by an echo that he may
+// have held back on one way alone; the hands then let go apart by half of that.
+constexpr base::Duration let_go_apart_max = 3s - agree_within - 100ms;
 constexpr base::Duration longest_delay = 2s;
 constexpr base::Duration jump_max = 500ms;           // both still let go together for long enough
 constexpr base::Duration silent_after = 300ms + 2ms; // held, faded, and a tick of each side
@@ -202,7 +205,8 @@ struct Watch {
     WorkOf5s work;
     std::optional<base::Position> hip;
     base::Force held;
-    std::optional<base::TimePoint> settled_since; // hands off, and all others are heard
+    std::optional<base::TimePoint> let_go;        // its hands are off
+    std::optional<base::TimePoint> settled_since; // and all others are heard
     struct Heard {
         std::optional<base::TimePoint> arrived; // its newest state, by the side's clock
         base::TimePoint at;
@@ -236,6 +240,7 @@ private:
     void judge_energy(std::size_t index);
     void judge_others(std::size_t index);
     [[nodiscard]] bool is_settled(std::size_t index) const;
+    [[nodiscard]] bool let_go_together() const;
     void judge_agreement();
     void judge_multiplications();
     [[nodiscard]] bool is_over() const;
@@ -347,7 +352,7 @@ AttackedSession Play::run() &&
         mallory_.act();
         judge_multiplications();
     }
-    const bool must_agree = !result_.is_forged && !result_.compared;
+    const bool must_agree = !result_.is_forged && !result_.compared && let_go_together();
     if (must_agree) complain("they never played together once all was well");
     for (std::size_t side = 0; side < sides(); ++side) result_.datagrams += mallory_.given(side);
     return result_;
@@ -496,6 +501,14 @@ bool Play::is_settled(std::size_t index) const
            });
 }
 
+/// For long enough to compare their copies; also when one of them never did.
+bool Play::let_go_together() const
+{
+    const auto by_let_go = [](const Watch& a, const Watch& b) { return a.let_go < b.let_go; };
+    const auto [first, last] = std::ranges::minmax_element(watches_, by_let_go);
+    return !first->let_go || *last->let_go - *first->let_go <= let_go_apart_max;
+}
+
 void Play::judge_agreement()
 {
     if (elapsed() < attack_ || result_.compared) return;
@@ -503,6 +516,8 @@ void Play::judge_agreement()
     for (std::size_t side = 0; side < sides(); ++side) {
         if (!world_.is_alive(side)) return;
         Watch& watch = watches_[side];
+        if (!watch.let_go && world_.side(side).last().phase == Phase::hands_off)
+            watch.let_go = world_.now();
         if (!is_settled(side))
             watch.settled_since.reset();
         else if (!watch.settled_since)

