@@ -266,8 +266,8 @@ void add_run_options(cli::Command& program, Options& options, const ConditionsFo
                    cli::into(options.budget, base::Time{}));
     program.option("--in-flight", "SIZE",
                    "Memory for the datagrams in flight, of both directions together (default "
-                   "256MiB). It holds a datagram for each KiB, or 65 536, of each direction; what "
-                   "finds no room is dropped as queue_full",
+                   "256MiB). Each direction holds one datagram for each KiB of it, but at least "
+                   "65 536; one that finds no room is dropped as queue_full",
                    cli::into(options.in_flight_bytes, parse_in_flight));
     program.option("--duration", "TIME", "End after this time (default: run until stopped)",
                    cli::into(options.duration, base::Time{}));
@@ -338,7 +338,7 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools
                 stream_rate(stream, conditions_from))
         .repeated();
     command.option("--bytes", "NUMBER",
-                   "Payload of each datagram (default 136: a state of two hands and a cube)",
+                   "Payload of each datagram (default 136: a state of a hand and a cube)",
                    cli::into(stream.bytes, base::Count{0, bytes_max}));
     command.option("--link", "NAME",
                    "Which path of a profile with several, with what holds on all of them: 1-2, "

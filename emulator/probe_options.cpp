@@ -67,7 +67,7 @@ cli::Command& add_probe(cli::Command& program, ProbeOptions& options)
                    cli::into(options.count, base::Count{1, tools::ProbeStatistics::questions_max}));
     command.option("--size", "NUMBER",
                    fmt::format("Payload of a question and of its answer, in bytes: {} to {} "
-                               "(default 136: a state of two hands and a cube)",
+                               "(default 136: a state of a hand and a cube)",
                                tools::ProbeMessage::bytes_min, tools::ProbeMessage::bytes_max),
                    cli::into(options.bytes, base::Count{tools::ProbeMessage::bytes_min,
                                                         tools::ProbeMessage::bytes_max}));

@@ -48,7 +48,7 @@ void add_options(cli::Command& program, Options& options)
         .option("--peer", "SOCKET", "The control socket of a peer; once for each",
                 cli::onto(options.peers))
         .repeated();
-    program.option("--lab", "SOCKET", "That of hapnet-lab play --control: virtual time",
+    program.option("--lab", "SOCKET", "The control socket of hapnet-lab play, for virtual time",
                    cli::into(options.lab));
     program.flag("--stage", "Start an emulator and simulated peers, again and again",
                  options.stage);

@@ -325,10 +325,10 @@ void add_play(cli::Command& command, PlayCommand& play)
         .option("--set", "KEY=VALUE", "Another value for a key of the experiment",
                 cli::onto(play.settings))
         .repeated();
-    command.option("--seed", "N", "Of all random draws (default 1)",
+    command.option("--seed", "N", "The seed of all random draws (default 1)",
                    cli::into(play.seed, base::Count{1, 1'000'000'000}));
     command.option(
-        "--duration", "TIME", "Of the session (default 30s)",
+        "--duration", "TIME", "How long the session lasts (default 30s)",
         cli::into(play.duration, base::Time{std::chrono::seconds{5}, std::chrono::seconds{600}}));
     command.option("--peers", "N", "How many play (default 2)",
                    cli::into(play.peers, base::Count{2, 8}));

@@ -35,7 +35,7 @@ need the same task and scene; the shortest --duration counts, from their common 
 for the others without a limit.
 
 Algorithms (docs/design/algorithms.md; two peers may use different ones):
-  base            the paper's: forces add up where both push; where one pushes, its report holds
+  base            the paper's: forces add up where both push; where one does, the other follows
   dead-reckoning  the same, with the other peer's cube extrapolated to now
   sep             the same, with the other hand's force and position predicted
                   (in place of the paper's TiDeC, which is not published)
@@ -44,7 +44,7 @@ Algorithms (docs/design/algorithms.md; two peers may use different ones):
   wave            the copies are joined by a channel of waves; passive, and soft over a delay
   couple          the copies are joined by springs within their energy; passive, and soft
   lag             all copies play equally late: they agree, and touch is late and soft
-  rollback        past exactly, present computed again with each message: a yardstick
+  rollback        computes the present anew from an exact past with each message; to compare
 A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from. FILE.so is
 a shared object with an algorithm of your own (docs/use/libraries.md).
 

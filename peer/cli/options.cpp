@@ -201,7 +201,7 @@ base::Result<void> check_circle(const Options& options)
     }
     if (!plays_with_many(options.algorithm)) {
         return base::fail(fmt::format("--algorithm {} is for two peers: more than two play with "
-                                      "base or remote-proxy",
+                                      "another one, such as base or remote-proxy",
                                       name_of(options.algorithm)));
     }
     return {};
@@ -279,8 +279,9 @@ void add_peer_options(cli::Command& program, Options& options, Asked& asked)
                 })
         .repeated();
     program.option("--wait-for", "all|N",
-                   "Start when all peers named here hear each other (default), or N of them, this "
-                   "one counted; the lowest id's counts, and the others join late",
+                   "Start when all peers named here hear each other (default), or when N of them "
+                   "do, this one included. What the peer with the lowest id says holds; those "
+                   "that come later join late",
                    cli::into(options.wait_for, parse_wait_for));
 }
 
