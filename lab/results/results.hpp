@@ -54,6 +54,7 @@ struct Results {
     std::vector<ClaimRow> claims;
     std::vector<ClaimQuantileRow> claims_quantiles;
     std::vector<SessionRow> rows_of_sessions; // of the experiments of Table 1
+    std::vector<ClaimSessionRow> claim_sessions;
     std::vector<AxisLimitRow> limits_by_axis;
     std::vector<PairedRow> paired;
     std::vector<Replay> replays;
