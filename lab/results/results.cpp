@@ -119,6 +119,7 @@ Outcome add_points(const File& file, Results& results)
 constexpr std::array kinds{FileKind{"manifest.json", add_run},
                            FileKind{"sessions.csv", add_sessions},
                            FileKind{"paired.csv", add_rows<&Results::paired>},
+                           FileKind{"precision.csv", add_rows<&Results::precision>},
                            FileKind{"limits_by_axis.csv", add_rows<&Results::limits_by_axis>},
                            FileKind{"table1.csv", add_rows<&Results::table1>},
                            FileKind{"tasks.csv", add_rows<&Results::tasks>},
