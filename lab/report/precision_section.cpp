@@ -59,19 +59,22 @@ PrecisionRows by_all_seeds(const PrecisionRows& rows)
     return kept;
 }
 
-/// By the differences that are surely none of chance.
+/// By the differences that chance does not explain; nullopt, too, when they change their sign.
 std::optional<double> order_of_figure(const PrecisionRows& by_value)
 {
     const auto reference = measured(by_value.front().reference);
     std::vector<metrics::StepError> errors;
+    bool is_above = false, is_below = false;
     for (const results::PrecisionRow& row : by_value) {
         const auto step = measured(row.value);
         const bool is_sure = !row.ci_low || *row.ci_low > 0.0 || *row.ci_high < 0.0;
         if (row.value == row.reference || !is_sure || row.difference == 0.0) continue;
         if (!step || !reference || step->unit != reference->unit) return std::nullopt;
+        is_above = is_above || row.difference > 0.0;
+        is_below = is_below || row.difference < 0.0;
         errors.push_back({step->number, std::abs(row.difference)});
     }
-    if (!reference) return std::nullopt;
+    if (!reference || (is_above && is_below)) return std::nullopt;
     return metrics::order_of(errors, reference->number);
 }
 

@@ -85,6 +85,11 @@ TEST(Report, ShowsTheErrorOfEachFigureBesideItsCost)
                             "<td>reference</td><td>1.0</td>"));
     EXPECT_TRUE(holds(page, "<td>0.1<br>(0.08 … 0.12)</td><td>reference</td><td>–</td>"
                             "<td>0.2</td><td>0.063</td><td>0.063</td>"));
+    results::File swaying = sample_precision();
+    const std::string above = "2ms,0.5ms,1,120000,13.500000,0.300000";
+    swaying.text.replace(swaying.text.find(above), above.size(),
+                         "2ms,0.5ms,1,120000,12.900000,-0.300000");
+    EXPECT_TRUE(holds(page_of({swaying}), "<td>-0.3</td><td>reference</td><td>–</td>"));
     const auto files = report_files({sample_precision()});
     EXPECT_TRUE(std::ranges::any_of(files, [](const results::File& file) {
         return file.path == "figures/precision-base-T1-vibration-mm.svg";
