@@ -8,6 +8,7 @@
 #include "lab/records/kept_play.hpp"
 #include "lab/records/text_table.hpp"
 #include "lab/results/manifest.hpp"
+#include "lab/results/precision_rows.hpp"
 #include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/result_tables.hpp"
@@ -195,6 +196,7 @@ public:
     void add(const LoadedExperiment::Part& part, const ShardRun::Results& found)
     {
         if (part.experiment.record) write_records(out_, part);
+        if (has_reference()) findings_.push_back({part.values.front(), &part.experiment, found});
         const auto files = results::make_result_files(part.experiment, experiment_.criteria, found);
         if (!files) throw std::runtime_error{files.error().message};
         for (const results::File& file : *files) add(part, file);
@@ -204,6 +206,13 @@ public:
     std::string finish(const runner::SessionStore::Counts& counts)
     {
         for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
+        if (has_reference()) {
+            constexpr const char* name = "precision.csv";
+            const auto& axis = experiment_.whole.axes.front();
+            const auto rows = results::make_precision_rows(axis, findings_, experiment_.criteria);
+            write_text(out_ / name, base::csv_text(rows));
+            names_.emplace_back(name);
+        }
         const auto checksums = checksums_of(out_, names_);
         write_text(out_ / checksums_name, checksums);
         auto digest = checksum_of(checksums);
@@ -215,9 +224,12 @@ public:
     void write_manifest(const runner::SessionStore::Counts& counts,
                         std::vector<std::string> invalid, const std::string& digest = {}) const
     {
-        const results::Circumstances circumstances{place_.command, results::utc_text(start_s_),
+        const results::Circumstances circumstances{place_.command,
+                                                   results::utc_text(start_s_),
                                                    base::to_seconds(net::monotonic_now() - start_),
-                                                   host(), base::version_line(program_name)};
+                                                   host(),
+                                                   base::version_line(program_name),
+                                                   base::to_seconds(net::program_processor_time())};
         const results::RunOutcome outcome{print_criteria(experiment_.criteria), counts.played,
                                           counts.reused, std::move(invalid), digest};
         write_text(out_ / "manifest.json",
@@ -225,6 +237,12 @@ public:
     }
 
 private:
+    [[nodiscard]] bool has_reference() const
+    {
+        const auto& axes = experiment_.whole.axes;
+        return !axes.empty() && axes.front().reference.has_value();
+    }
+
     void add(const LoadedExperiment::Part& part, results::File file)
     {
         constexpr std::string_view ending = ".csv";
@@ -260,6 +278,7 @@ private:
     fs::path out_;
     runner::ResultTables tables_;
     std::vector<std::string> names_;
+    std::vector<results::AxisFindings> findings_; // of an axis with a reference
     base::TimePoint start_;
     double start_s_;
 };

@@ -62,6 +62,8 @@ struct Axis {
     std::optional<std::string> from{};
     std::optional<std::string> to{};
     std::optional<std::string> step{}; // from `from` on; nullopt: anything between
+    /// The value that is taken for the truth: what is found at the others is held against it.
+    std::optional<std::string> reference{};
 
     friend bool operator==(const Axis&, const Axis&) = default;
 };

@@ -220,7 +220,9 @@ constexpr auto fields_of(base::Tag<Axis> /*struct*/)
         base::field("from", &Axis::from, "instead of `values`: the least, a number with its unit"),
         base::field("to", &Axis::to, "the most, in the same unit"),
         base::field("step", &Axis::step,
-                    "from one value to the next; a latin hypercube can do without"));
+                    "from one value to the next; a latin hypercube can do without"),
+        base::field("reference", &Axis::reference,
+                    "one of the values, against which `precision.csv` holds the others"));
 }
 
 inline constexpr std::uint32_t points_max = 10'000;

@@ -130,6 +130,27 @@ void check_ways(const Experiment& experiment, base::Place place, Reading& readin
     }
 }
 
+/// Complains of a reference that nothing can be held against.
+void check_reference(const Experiment& experiment, const std::vector<AxisValues>& points,
+                     base::Place place, Reading& reading)
+{
+    const auto has = [](const Axis& axis) { return axis.reference.has_value(); };
+    const auto axis = std::ranges::find_if(experiment.axes, has);
+    if (axis == experiment.axes.end()) return;
+    const auto refuse = [&](std::string_view why) {
+        reading.complain(place, fmt::format("axis '{}': 'reference' {}", axis->key, why));
+    };
+    const bool is_alone = experiment.axes.size() == 1 && !experiment.latin_hypercube;
+    if (!is_alone) return refuse("is for an experiment of one axis");
+    const bool is_known_kind = std::holds_alternative<Table1>(experiment.kind) ||
+                               std::holds_alternative<Limits>(experiment.kind);
+    if (!is_known_kind) return refuse("is for the kinds table1 and limits");
+    if (parties_of(experiment).size() > 1)
+        return refuse("is for one number of peers and one scene");
+    if (std::ranges::find(points, AxisValues{*axis->reference}) == points.end())
+        return refuse(fmt::format("'{}' is not among the values", *axis->reference));
+}
+
 /// Complains of axes that have no points.
 void check_axes(TableReader& table, const Experiment& experiment)
 {
@@ -138,7 +159,8 @@ void check_axes(TableReader& table, const Experiment& experiment)
     if ((axes == nullptr && drawn == nullptr) || !table.reading().is_good()) return;
     const auto points = axis_points(experiment);
     const Node& node = axes == nullptr ? *drawn : *axes;
-    if (!points) table.reading().complain(node.place, points.error().message);
+    if (!points) return table.reading().complain(node.place, points.error().message);
+    check_reference(experiment, *points, node.place, table.reading());
 }
 
 Experiment read_experiment(const Node& document, Reading& reading)

@@ -65,6 +65,7 @@ constexpr auto fields_of(base::Tag<Metrics>)
         field("discrepancy_m", &Metrics::discrepancy_m),
         field("turned_apart_rad", &Metrics::turned_apart_rad), field("bodies", &Metrics::bodies),
         field("force_vibration_n", &Metrics::force_vibration_n),
+        field("force_above_2hz_n", &Metrics::force_above_2hz_n),
         field("felt_vibration_n", &Metrics::felt_vibration_n),
         field("contact_lost", &Metrics::contact_lost), field("force_steps", &Metrics::force_steps),
         field("energy_taken_j", &Metrics::energy_taken_j), field("drag_n", &Metrics::drag_n),

@@ -22,6 +22,7 @@ namespace hapnet::lab::metrics {
 namespace {
 
 constexpr double vibration_above_hz = 20.0;
+constexpr double tugging_above_hz = 2.0;
 constexpr double felt_below_hz = 300.0;
 // Who learns late of the session's start has to catch up first. That is in the discrepancy, and in
 // nothing else.
@@ -102,6 +103,7 @@ void measure_side(const TraceColumns& columns, std::size_t index, Metrics& metri
          vibration_of(body_x, columns.exercise.by_turns ? follows : std::span<const std::uint8_t>{},
                       above));
     note(metrics.force_vibration_n, vibration_of(force, {}, above));
+    note(metrics.force_above_2hz_n, vibration_of(force, {}, {tugging_above_hz, columns.tick_s}));
     note(metrics.felt_vibration_n,
          band_vibration_of(force, above, {felt_below_hz, columns.tick_s}));
     note(metrics.contact_lost, contact_lost(columns, side));

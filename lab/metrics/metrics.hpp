@@ -49,6 +49,8 @@ struct Metrics {
     std::vector<BodyApart> bodies{};
     /// E: root mean square of the force on the hand in x above 20 Hz, newtons.
     BySide<ByOrder> force_vibration_n{};
+    /// E2: the same above 2 Hz, where two copies pull at each other slowly.
+    BySide<ByOrder> force_above_2hz_n{};
     /// E between 20 and 300 Hz. Not weighted by how well a stylus transmits: no table of that was
     /// in reach.
     BySide<double> felt_vibration_n{};

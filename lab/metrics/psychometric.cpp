@@ -154,20 +154,6 @@ double crossing(std::span<const FailCount> counts)
     return counts.back().level;
 }
 
-/// A seed's draws: how often each seed stands in a replicate.
-std::vector<std::vector<double>> drawn_weights(std::size_t seeds)
-{
-    const auto stream = base::Seed{1}.stream("bootstrap of seeds");
-    std::vector<std::vector<double>> weights(bootstrap_replicates, std::vector<double>(seeds, 0.0));
-    for (std::uint32_t replicate = 0; replicate < bootstrap_replicates; ++replicate) {
-        for (std::size_t draw = 0; draw < seeds; ++draw) {
-            const auto seed = stream.below(static_cast<std::uint32_t>(seeds), draw, replicate);
-            weights[replicate][static_cast<std::size_t>(seed)] += 1.0;
-        }
-    }
-    return weights;
-}
-
 std::vector<FailCount> counts_of(std::span<const LevelOutcome> outcomes,
                                  const std::vector<double>& weights)
 {
@@ -257,6 +243,19 @@ double share_below(std::uint32_t seeds)
 
 } // namespace
 
+std::vector<std::vector<double>> drawn_weights(std::size_t seeds, std::size_t draws)
+{
+    const auto stream = base::Seed{1}.stream("bootstrap of seeds");
+    std::vector<std::vector<double>> weights(bootstrap_replicates, std::vector<double>(seeds, 0.0));
+    for (std::uint32_t replicate = 0; replicate < bootstrap_replicates; ++replicate) {
+        for (std::size_t draw = 0; draw < draws; ++draw) {
+            const auto seed = stream.below(static_cast<std::uint32_t>(seeds), draw, replicate);
+            weights[replicate][static_cast<std::size_t>(seed)] += 1.0;
+        }
+    }
+    return weights;
+}
+
 double Psychometric::share_at(double level) const
 {
     return early + (1.0 - early - late) * rise_of(core, (level - location) / scale).share;
@@ -307,6 +306,15 @@ Interval interval_of(std::vector<double> values, std::uint32_t seeds)
     return {values[from_end], values[values.size() - 1 - from_end]};
 }
 
+std::vector<double> p50_replicates(std::span<const LevelOutcome> outcomes, std::size_t draws)
+{
+    base::ensure(!outcomes.empty() && draws > 0);
+    std::vector<double> found;
+    for (const auto& weights : drawn_weights(outcomes[0].failed.size(), draws))
+        found.push_back(half_of(counts_of(outcomes, weights)));
+    return found;
+}
+
 Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top)
 {
     base::ensure(!outcomes.empty() && !outcomes[0].failed.empty());
@@ -320,8 +328,7 @@ Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top)
         const double at = std::max(fitted(counts).level_of(tenth_of_seeds), 0.0);
         if (at <= counts.back().level) threshold.p10 = at;
     }
-    for (const auto& weights : drawn_weights(seeds))
-        threshold.replicates.push_back(half_of(counts_of(outcomes, weights)));
+    threshold.replicates = p50_replicates(outcomes, seeds);
     Interval interval = interval_of(threshold.replicates, threshold.seeds);
     if (const auto gap = gap_of(counts)) {
         interval = {std::min(interval.low, gap->low), std::max(interval.high, gap->high)};

@@ -65,6 +65,10 @@ inline constexpr double beyond = std::numeric_limits<double>::infinity();
 
 inline constexpr std::uint32_t bootstrap_replicates = 1000;
 
+/// How often each seed stands in each replicate of so many draws, by a generator of its own: equal
+/// numbers, equal draws.
+[[nodiscard]] std::vector<std::vector<double>> drawn_weights(std::size_t seeds, std::size_t draws);
+
 /// Where half of the sessions fail, and how sure that is.
 struct Threshold {
     double p50 = 0.0; // at most the highest level
@@ -88,6 +92,11 @@ struct Threshold {
 /// there may be. Seeds are drawn with replacement, each with its outcomes at all levels (they are
 /// not independent), by a generator of its own: equal outcomes, equal bits.
 [[nodiscard]] Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top);
+
+/// p50 of each bootstrap replicate, as Threshold::replicates, but of `draws` seeds: what an
+/// experiment of so many finds.
+[[nodiscard]] std::vector<double> p50_replicates(std::span<const LevelOutcome> outcomes,
+                                                 std::size_t draws);
 
 /// The 95 % interval by bootstrap replicates of a sample of so many seeds: their expanded
 /// percentiles (Hesterberg, "What Teachers Should Know About the Bootstrap", The American

@@ -95,6 +95,8 @@ Scores scores_of(const Metrics& impaired, const Metrics& perfect)
         .force_vibration_n = worse_side(impaired.force_vibration_n),
         .force_vibration_added_n = worse_side(
             against(impaired.force_vibration_n, perfect.force_vibration_n, in_quadrature)),
+        .force_above_2hz_added_n = worse_side(
+            against(impaired.force_above_2hz_n, perfect.force_above_2hz_n, in_quadrature)),
         .felt_vibration_n = worse_side(impaired.felt_vibration_n),
         .contact_lost = worse_side(against(impaired.contact_lost, perfect.contact_lost, minus)),
         .force_steps = worse_side(impaired.force_steps),

@@ -30,6 +30,8 @@ struct Scores {
     /// E as measured, and in excess of the perfect network's as A.
     std::optional<ByOrder> force_vibration_n{};
     std::optional<ByOrder> force_vibration_added_n{};
+    /// E2: likewise, in excess.
+    std::optional<ByOrder> force_above_2hz_added_n{};
     std::optional<double> felt_vibration_n{};
     /// F: the share lost beyond that on the perfect network; below 0 when less is lost.
     std::optional<double> contact_lost{};

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "lab/metrics/paired.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hapnet::lab::report {
 
@@ -39,6 +44,45 @@ std::string claims_table(const results::Results& results)
     return html_of(table);
 }
 
+/// Median and largest of the seeds; empty: not played so, or not measured.
+std::string above_2hz(const results::Results& results, std::string_view condition,
+                      std::string_view task)
+{
+    std::vector<double> values;
+    for (const results::ClaimSessionRow& row : results.claim_sessions) {
+        const bool is_first = row.algorithm == results.claim_sessions.front().algorithm;
+        if (is_first && row.condition == condition && row.task == task && row.force_above_2hz_n)
+            values.push_back(*row.force_above_2hz_n);
+    }
+    if (values.empty()) return "";
+    const double largest = *std::ranges::max_element(values);
+    return fmt::format("{} ({})", shown(metrics::median_of(std::move(values)), 3),
+                       shown(largest, 3));
+}
+
+/// What no claim is about, and no verdict sees: how hard the copies pull at each other slowly.
+std::string tug_of_war(const results::Results& results)
+{
+    const auto& rows = results.claim_sessions;
+    HtmlTable table{"Force above 2 Hz that the network adds, N: median of the seeds (largest)",
+                    {"conditions"}};
+    const auto tasks = distinct(rows, [](const auto& row) { return row.task; });
+    for (const std::string& task : tasks) table.heads.push_back(escaped(task));
+    bool is_empty = true;
+    for (const auto& condition : distinct(rows, [](const auto& row) { return row.condition; })) {
+        auto& cells = table.rows.emplace_back();
+        cells.push_back({escaped(condition)});
+        for (const std::string& task : tasks) {
+            cells.push_back({above_2hz(results, condition, task)});
+            is_empty = is_empty && cells.back().html.empty();
+        }
+    }
+    if (is_empty) return "";
+    return "<p>No claim is about this number, and “usable” does not see it: two copies that pull "
+           "at each other a few times a second.</p>\n" +
+           html_of(table);
+}
+
 } // namespace
 
 std::optional<Section> beyond_section(const results::Results& results)
@@ -51,7 +95,7 @@ std::optional<Section> beyond_section(const results::Results& results)
                                "when the worst of the seeds that judge keeps all its numbers, or "
                                "their mean where it is of a mean. Hands are simulated.</p>\n",
                                results.claims.size(), missed) +
-                       claims_table(results)};
+                       claims_table(results) + tug_of_war(results)};
 }
 
 } // namespace hapnet::lab::report

@@ -37,6 +37,7 @@ constexpr std::array parts_of_page{
     PartOfPage{"Fig. 6b", fig6b_section, "scripts/fig6b.sh --out", "fig6b"},
     PartOfPage{"the curves", curves_section, "scripts/fig6a.sh --out", "fig6a"},
     PartOfPage{"how far a limit can be trusted", trust_section, "scripts/fig6a.sh --out", "fig6a"},
+    PartOfPage{"what accuracy costs", precision_section, ""},
     PartOfPage{"what was not chosen", axis_section, ""},
     PartOfPage{"conditions varied together", points_section, ""},
     PartOfPage{"algorithms seed by seed", paired_section, ""},

@@ -57,6 +57,8 @@ struct Section {
 [[nodiscard]] std::optional<Section> trust_section(const results::Results& results);
 /// Limits by the values of a parameter: readings that were not chosen, the path's own delay.
 [[nodiscard]] std::optional<Section> axis_section(const results::Results& results);
+/// What a finer step and more seeds buy: precision.csv.
+[[nodiscard]] std::optional<Section> precision_section(const results::Results& results);
 /// How much of what several parameters were varied over each algorithm bears.
 [[nodiscard]] std::optional<Section> points_section(const results::Results& results);
 /// Algorithms seed by seed.

@@ -414,6 +414,8 @@ std::vector<ClaimSessionRow> make_claim_session_rows(const metrics::Criteria& cr
         row.vibration_mm = vibration_mm(scores);
         row.stiffness_ratio = stiffness(scores);
         row.force_vibration_n = force_vibration_n(scores);
+        if (scores.force_above_2hz_added_n)
+            row.force_above_2hz_n = scores.force_above_2hz_added_n->first;
         row.force_discrepancy = scores.force_discrepancy;
         row.contact_lost = scores.contact_lost;
         row.energy_mj = energy_mj(scores);

@@ -67,6 +67,7 @@ struct ClaimSessionRow {
     std::optional<double> vibration_mm{};
     std::optional<double> stiffness_ratio{};
     std::optional<double> force_vibration_n{}; // added by the network
+    std::optional<double> force_above_2hz_n{}; // likewise
     std::optional<double> force_discrepancy{};
     std::optional<double> contact_lost{};
     std::optional<double> energy_mj{};
@@ -88,6 +89,8 @@ constexpr auto fields_of(base::Tag<ClaimSessionRow>)
         base::field("vibration_mm", &Row::vibration_mm, base::Decimals{3}),
         base::field("stiffness_ratio", &Row::stiffness_ratio, base::Decimals{4}),
         base::field("force_vibration_n", &Row::force_vibration_n, base::Decimals{4}),
+        base::field("force_above_2hz_n", &Row::force_above_2hz_n,
+                    base::Spare<base::Decimals>{base::Decimals{4}}),
         base::field("force_discrepancy", &Row::force_discrepancy, base::Decimals{4}),
         base::field("contact_lost", &Row::contact_lost, base::Decimals{4}),
         base::field("energy_mj", &Row::energy_mj, base::Decimals{4}),

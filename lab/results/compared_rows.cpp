@@ -17,10 +17,19 @@ namespace hapnet::lab::results {
 namespace {
 
 /// By which a session is measured; all other columns say which session it is.
-constexpr std::array<std::string_view, 12> measures{
-    "mean_mm",           "std_mm",       "max_mm",       "vibration_mm", "stiffness_ratio",
-    "force_vibration_n", "contact_lost", "force_step_n", "drag_n",       "force_discrepancy",
-    "energy_mj",         "scored_share"};
+constexpr std::array<std::string_view, 13> measures{"mean_mm",
+                                                    "std_mm",
+                                                    "max_mm",
+                                                    "vibration_mm",
+                                                    "stiffness_ratio",
+                                                    "force_vibration_n",
+                                                    "force_above_2hz_n",
+                                                    "contact_lost",
+                                                    "force_step_n",
+                                                    "drag_n",
+                                                    "force_discrepancy",
+                                                    "energy_mj",
+                                                    "scored_share"};
 
 bool is_condition(std::string_view column)
 {

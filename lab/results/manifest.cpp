@@ -47,6 +47,7 @@ Json manifest_head(const Circumstances& circumstances)
     head["host"] = circumstances.host;
     head["start"] = circumstances.start;
     head["wall_time_s"] = circumstances.wall_time_s;
+    if (circumstances.processor_time_s) head["processor_time_s"] = *circumstances.processor_time_s;
     return head;
 }
 

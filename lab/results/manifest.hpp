@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Circumstances {
     double wall_time_s = 0.0;
     nlohmann::ordered_json host{};
     std::string program{}; // "hapnet-lab 1.2.3 (commit abc, GCC 12.2.0)"; empty: several programs
+    std::optional<double> processor_time_s{}; // of all threads; nullopt: not only this program's
 };
 
 /// ISO 8601, UTC, whole seconds.

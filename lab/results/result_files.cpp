@@ -118,6 +118,8 @@ TaskRow task_row(const Group& group, const Summary& summary, const metrics::Crit
                 .energy_mj = in_thousandths(summary.worst.energy_taken_j),
                 .tier = judged.tier,
                 .limited_by = summary.limited_by};
+    if (const auto& swings = summary.worst.force_above_2hz_added_n)
+        row.force_above_2hz_n = at_order(*swings, criteria.filter_order);
     if (summary.typical_m) row.std_mm = 1e3 * summary.typical_m->std;
     if (summary.turned_apart_max_rad)
         row.turned_apart_deg = *summary.turned_apart_max_rad * (360.0 / base::two_pi);

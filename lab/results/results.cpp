@@ -88,11 +88,15 @@ Outcome add_rows(const File& file, Results& results)
     return append(results.*rows, std::move(read));
 }
 
-/// Those of Table 1, which plays P1 and all else on one network; others are not shown one by one,
-/// and those of claims have columns of their own.
+/// Those of Table 1, which plays P1 and all else on one network, and those of claims, which have
+/// columns of their own; others are not shown one by one.
 Outcome add_sessions(const File& file, Results& results)
 {
     const std::string_view header = std::string_view{file.text}.substr(0, file.text.find('\n'));
+    if (header.find("condition") != std::string_view::npos) {
+        return append(results.claim_sessions,
+                      base::read_csv<ClaimSessionRow>(file.text, file.path));
+    }
     if (header.find("network") == std::string_view::npos) return {};
     auto rows = base::read_csv<SessionRow>(file.text, file.path);
     if (!rows) return tl::unexpected{rows.error()};
@@ -115,6 +119,7 @@ Outcome add_points(const File& file, Results& results)
 constexpr std::array kinds{FileKind{"manifest.json", add_run},
                            FileKind{"sessions.csv", add_sessions},
                            FileKind{"paired.csv", add_rows<&Results::paired>},
+                           FileKind{"precision.csv", add_rows<&Results::precision>},
                            FileKind{"limits_by_axis.csv", add_rows<&Results::limits_by_axis>},
                            FileKind{"table1.csv", add_rows<&Results::table1>},
                            FileKind{"tasks.csv", add_rows<&Results::tasks>},

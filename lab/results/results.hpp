@@ -7,6 +7,7 @@
 #include "lab/records/curves.hpp"
 #include "lab/results/claim_rows.hpp"
 #include "lab/results/demo.hpp"
+#include "lab/results/precision_rows.hpp"
 #include "lab/results/rows.hpp"
 #include "lab/results/session_rows.hpp"
 
@@ -53,9 +54,11 @@ struct Results {
     std::vector<RealTimeRow> real_time;
     std::vector<ClaimRow> claims;
     std::vector<ClaimQuantileRow> claims_quantiles;
+    std::vector<ClaimSessionRow> claim_sessions;
     std::vector<SessionRow> rows_of_sessions; // of the experiments of Table 1
     std::vector<AxisLimitRow> limits_by_axis;
     std::vector<PairedRow> paired;
+    std::vector<PrecisionRow> precision;
     std::vector<Replay> replays;
     std::vector<RecordedSession> sessions;
     std::optional<DemoRun> demo;

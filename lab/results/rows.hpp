@@ -142,6 +142,7 @@ struct TaskRow {
     std::string limited_by;
     std::optional<double> turned_apart_deg{}; // the largest; where the body turns
     std::optional<std::string> scene{};
+    std::optional<double> force_above_2hz_n{}; // that the network adds
 };
 constexpr auto fields_of(base::Tag<TaskRow>)
 {
@@ -162,7 +163,9 @@ constexpr auto fields_of(base::Tag<TaskRow>)
         base::field("limited_by", &Row::limited_by),
         base::field("turned_apart_deg", &Row::turned_apart_deg,
                     base::Spare<base::Decimals>{thousandths}),
-        base::field("scene", &Row::scene, scene_column));
+        base::field("scene", &Row::scene, scene_column),
+        base::field("force_above_2hz_n", &Row::force_above_2hz_n,
+                    base::Spare<base::Decimals>{ten_thousandths}));
 }
 
 /// In limits.csv, where the limit of the worst of the tasks stands.

@@ -83,6 +83,8 @@ void note_scores(const metrics::Scores& scores, const metrics::Criteria& criteri
     row.stiffness_ratio = scores.stiffness_ratio[metrics::judged_press];
     if (scores.force_vibration_added_n)
         row.force_vibration_n = at_order(*scores.force_vibration_added_n, criteria.filter_order);
+    if (scores.force_above_2hz_added_n)
+        row.force_above_2hz_n = at_order(*scores.force_above_2hz_added_n, criteria.filter_order);
     row.force_discrepancy = scores.force_discrepancy;
     row.contact_lost = scores.contact_lost;
     if (scores.force_steps) row.force_step_n = scores.force_steps->largest_n;
@@ -158,7 +160,8 @@ constexpr std::array paired_measures{
     PairedMeasure{"mean_mm", &SessionRow::mean_mm},
     PairedMeasure{"vibration_mm", &SessionRow::vibration_mm},
     PairedMeasure{"stiffness_ratio", &SessionRow::stiffness_ratio},
-    PairedMeasure{"force_vibration_n", &SessionRow::force_vibration_n}};
+    PairedMeasure{"force_vibration_n", &SessionRow::force_vibration_n},
+    PairedMeasure{"force_above_2hz_n", &SessionRow::force_above_2hz_n}};
 
 /// The values of both, where both have one.
 struct Pairs {

@@ -34,6 +34,7 @@ struct SessionRow {
     std::optional<double> vibration_mm{};
     std::optional<double> stiffness_ratio{};
     std::optional<double> force_vibration_n{}; // what the network adds
+    std::optional<double> force_above_2hz_n{}; // likewise
     std::optional<double> force_discrepancy{};
     std::optional<double> contact_lost{};
     std::optional<double> force_step_n{};
@@ -47,6 +48,7 @@ constexpr auto fields_of(base::Tag<SessionRow>)
     using Row = SessionRow;
     constexpr base::Decimals three{3};
     constexpr base::Decimals four{4};
+    constexpr base::Spare<base::Decimals> four_or_none{four};
     return base::fields(
         "sessions", base::field("algorithm", &Row::algorithm), base::field("task", &Row::task),
         base::field("hands", &Row::hands), base::field("peers", &Row::peers),
@@ -59,6 +61,7 @@ constexpr auto fields_of(base::Tag<SessionRow>)
         base::field("vibration_mm", &Row::vibration_mm, three),
         base::field("stiffness_ratio", &Row::stiffness_ratio, four),
         base::field("force_vibration_n", &Row::force_vibration_n, four),
+        base::field("force_above_2hz_n", &Row::force_above_2hz_n, four_or_none),
         base::field("force_discrepancy", &Row::force_discrepancy, four),
         base::field("contact_lost", &Row::contact_lost, four),
         base::field("force_step_n", &Row::force_step_n, four),

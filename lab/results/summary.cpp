@@ -51,6 +51,7 @@ metrics::Scores worst_of(std::span<const metrics::Scores> all)
         worst.turned_apart_rad = metrics::worse(worst.turned_apart_rad, scores.turned_apart_rad);
         raise(worst.force_vibration_n, scores.force_vibration_n);
         raise(worst.force_vibration_added_n, scores.force_vibration_added_n);
+        raise(worst.force_above_2hz_added_n, scores.force_above_2hz_added_n);
         raise(worst.contact_lost, scores.contact_lost);
         raise(worst.drag_n, scores.drag_n);
         raise(worst.energy_taken_j, scores.energy_taken_j);

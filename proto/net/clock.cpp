@@ -11,6 +11,17 @@
 
 namespace hapnet::net {
 
+namespace {
+
+base::Duration used_on(clockid_t clock)
+{
+    timespec used{};
+    base::ensure(clock_gettime(clock, &used) == 0);
+    return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
+}
+
+} // namespace
+
 base::TimePoint monotonic_now()
 {
     timespec now{};
@@ -19,12 +30,9 @@ base::TimePoint monotonic_now()
                            std::chrono::nanoseconds{now.tv_nsec}};
 }
 
-base::Duration thread_processor_time()
-{
-    timespec used{};
-    base::ensure(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used) == 0);
-    return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
-}
+base::Duration thread_processor_time() { return used_on(CLOCK_THREAD_CPUTIME_ID); }
+
+base::Duration program_processor_time() { return used_on(CLOCK_PROCESS_CPUTIME_ID); }
 
 /// Being interrupted between the readings would shift the stamps by as much, so the closest of a
 /// few readings counts; the first usually does.

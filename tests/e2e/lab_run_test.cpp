@@ -180,14 +180,18 @@ TEST_F(LabRun, KeepsRecordsThatAnalyseExportAndReplayTake)
 
 TEST_F(LabRun, RepeatsItselfAlongAnAxis)
 {
-    const auto outcome = run_into("axis", {"--set", "tasks=T1", "--set", "axis.key=both.delay",
-                                           "--set", "axis.values=[\"0ms\", \"5ms\"]"});
+    const auto outcome =
+        run_into("axis", {"--set", "tasks=T1", "--set", "axis.key=both.delay", "--set",
+                          "axis.values=[\"0ms\", \"5ms\"]", "--set", "axis.reference=0ms"});
     ASSERT_EQ(outcome.exit, 0) << outcome.err;
     const auto limits = result("axis", "limits_by_axis.csv");
     EXPECT_EQ(limits.find("parameter,value,algorithm,"), 0U) << limits;
     EXPECT_NE(limits.find("\nboth.delay,5ms,base,jitter,T1,"), std::string::npos) << limits;
     EXPECT_FALSE(result("axis", "sessions_by_axis.csv").empty());
     EXPECT_EQ(result("axis", "limits.csv"), "");
+    EXPECT_EQ(result("axis", "precision.csv").find("algorithm,task,figure,parameter,value,"), 0U);
+    EXPECT_NE(result("axis", "B2SUMS").find("precision.csv"), std::string::npos);
+    EXPECT_GT(manifest("axis")["processor_time_s"], 0.0);
     EXPECT_EQ(run("hapnet-lab", {"report", folder.file("axis")}).exit, 0);
 }
 

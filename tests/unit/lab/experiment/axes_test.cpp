@@ -148,6 +148,24 @@ TEST(Axes, ReadBackAsTheyArePrinted)
     EXPECT_EQ(to_text(*again), to_text(*read));
 }
 
+TEST(Axes, HaveAReferenceAmongTheirValues)
+{
+    const std::string table = "kind = \"table1\"\ntasks = \"T1\"\n[axis]\nkey = \"tick\"\n"
+                              "values = [\"2ms\", \"1ms\"]\nreference = ";
+    const auto read = parse_experiment(table + "\"1ms\"\n", "mine.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->axes.front().reference, "1ms");
+    const auto again = parse_experiment(to_text(*read), "again");
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->axes, read->axes);
+    EXPECT_NE(complaint_of(table + "\"3ms\"\n").find("'3ms' is not among the values"),
+              std::string::npos);
+    std::string two = table + "\"1ms\"\n";
+    two.replace(two.find("[axis]"), 6, "[[axis]]");
+    two += "[[axis]]\nkey = \"seeds\"\nvalues = [\"1\", \"2\"]\n";
+    EXPECT_NE(complaint_of(two).find("an experiment of one axis"), std::string::npos);
+}
+
 TEST(Axes, SayWhatIsWrongAndWhatWouldBeRight)
 {
     const auto says = [](std::string_view axis, std::initializer_list<std::string_view> words) {
@@ -165,6 +183,8 @@ TEST(Axes, SayWhatIsWrongAndWhatWouldBeRight)
     says(delay + "from = \"0ms\"\nto = \"5ms\"\nstep = \"1us\"\n", {"'step' is a number"});
     says(delay + "from = \"0ms\"\nto = \"5ms\"\nstep = \"0.0001ms\"\n", {"more than 10000 steps"});
     says("[latin_hypercube]\npoints = 5\n", {"needs an [[axis]]"});
+    const std::string held = "values = [\"0ms\", \"5ms\"]\nreference = ";
+    says(delay + held + "\"5ms\"\n", {"axis 'plane.delay'", "the kinds table1 and limits"});
     says(delay + "values = [\"0ms\"]\n[latin_hypercube]\npoints = 1\n", {"from 2 to 10000"});
     const std::string twice = "[[axis]]\nkey = \"seeds\"\nvalues = [\"1\", \"2\"]\n";
     says(twice + twice, {"axis 'seeds'", "there already"});

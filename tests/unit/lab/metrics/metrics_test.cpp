@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/metrics.hpp"
+
+#include "lab/metrics/scores.hpp"
 #include "scene/text/text.hpp"
 #include "tests/unit/lab/metrics/made_traces.hpp"
 
@@ -37,6 +39,7 @@ TEST(Metrics, OfASessionAtRestAreZeroOrNone)
     EXPECT_EQ(metrics.discrepancy_m, Spread{});
     EXPECT_EQ(metrics.body_vibration_m[1], ByOrder{});
     EXPECT_EQ(metrics.force_vibration_n[0], ByOrder{});
+    EXPECT_EQ(metrics.force_above_2hz_n[0], ByOrder{});
     EXPECT_EQ(metrics.contact_lost[0], 1.0);
     EXPECT_FALSE(metrics.force_discrepancy);
     EXPECT_FALSE(metrics.stiffness_n_per_m[0][0]);
@@ -57,6 +60,36 @@ TEST(Metrics, FindTheSpringsThatArePressed)
     EXPECT_EQ(metrics.similarity->lag_s, 0.0);
     // All but 0.75 s between the presses of either hand.
     EXPECT_NEAR(*metrics.contact_lost[0], 0.75 / 24.75, 1e-12);
+}
+
+TEST(Metrics, SeeASlowTugOfWarAbove2HzAndNotAbove20)
+{
+    // 0.5 N at 4 Hz on L's hand, beside a force of 1 N that stays: 60 s, of which half a second
+    // does not count. The gain is that of an analogue Butterworth filter at 4 Hz over 2 Hz.
+    virtual_time::Trace trace = resting(Task::t3, 60500);
+    constexpr double pi = 3.14159265358979323846, hertz = 4.0, newtons = 0.5;
+    for (std::size_t i = 0; i < trace.sides[0].size(); ++i) {
+        const double turns = hertz * static_cast<double>(i) * 1e-3;
+        trace.sides[0][i].on_hand.value.x = 1.0 + newtons * std::sin(2.0 * pi * turns);
+    }
+    const Metrics metrics = metrics_of(trace);
+    const auto& slow = metrics.force_above_2hz_n[0];
+    ASSERT_TRUE(slow);
+    const double rms = newtons / std::sqrt(2.0);
+    EXPECT_NEAR(slow->first, rms / std::sqrt(1.0 + 1.0 / 4.0), 2e-3);
+    EXPECT_NEAR(slow->second, rms / std::sqrt(1.0 + 1.0 / 16.0), 2e-3);
+    EXPECT_NEAR(slow->fourth, rms / std::sqrt(1.0 + 1.0 / 256.0), 2e-3);
+    EXPECT_NEAR(metrics.force_vibration_n[0]->first, rms / std::sqrt(1.0 + 25.0), 2e-3);
+    EXPECT_LT(metrics.force_vibration_n[0]->fourth, 1e-3);
+    EXPECT_EQ(metrics.force_above_2hz_n[1], ByOrder{}) << "the other hand feels nothing";
+    // Against the same hand with 0.3 N on a perfect network the rest is in quadrature: 0.4 N.
+    Metrics perfect = metrics;
+    for (double* order :
+         {&perfect.force_above_2hz_n[0]->first, &perfect.force_above_2hz_n[0]->second,
+          &perfect.force_above_2hz_n[0]->fourth})
+        *order *= 0.6;
+    EXPECT_NEAR(scores_of(metrics, perfect).force_above_2hz_added_n->first, 0.8 * slow->first,
+                1e-12);
 }
 
 TEST(Metrics, CountVibrationByTurnsOnlyWhereASideFollows)

@@ -22,7 +22,8 @@ TEST(Report, HasASectionExactlyIfTheFolderHasItsData)
         {sample_curves(), "curves"},       {sample_conventions(), "trust"},
         {sample_trajectories(), "fig7"},   {sample_qos(), "qos"},
         {sample_real_time(), "real-time"}, {sample_replay(), "replay"},
-        {sample_claims(), "beyond"},       {sample_manifest(), "runs"}};
+        {sample_claims(), "beyond"},       {sample_manifest(), "runs"},
+        {sample_precision(), "precision"}};
     const auto opening = [](const std::string& id) { return "<section id='" + id + "'"; };
     const std::string whole = page_of(whole_sample());
     for (const Expected& one : expected) {
@@ -66,6 +67,33 @@ TEST(Report, ShowsWhatIsClaimedBeyondThePaperAndWhatOfItIsMissed)
         holds(page, "<td class='ours missed'>0.98 to 1.46</td><td class='ours'>0.98 to 1.32</td>"));
     EXPECT_FALSE(holds(page_of({sample_claims()}), "0.98 to 1.32")) << "one file alone is shown";
     EXPECT_TRUE(holds(page, "<span class='badge missed'>missed</span>"));
+}
+
+TEST(Report, ShowsTheSlowForceThatNoClaimIsAboutOfTheFirstAlgorithm)
+{
+    const std::string page = page_of({sample_claims(), sample_claim_sessions()});
+    EXPECT_TRUE(holds(page, "<th scope='row'>100ms</th><td>0.070 (0.090)</td>"));
+    EXPECT_FALSE(holds(page_of({sample_claims()}), "above 2 Hz")) << "without the sessions";
+}
+
+TEST(Report, ShowsTheErrorOfEachFigureBesideItsCost)
+{
+    const std::string page = page_of({sample_precision()});
+    EXPECT_TRUE(holds(page, "<section id='precision'"));
+    // 0.7 and 0.3 mm beyond that of 0.5 ms: the order is 1.
+    EXPECT_TRUE(holds(page, "<td class='words'>mean, mm</td><td>13.2</td><td>0.7</td><td>0.3</td>"
+                            "<td>reference</td><td>1.0</td>"));
+    EXPECT_TRUE(holds(page, "<td>0.1<br>(0.08 … 0.12)</td><td>reference</td><td>–</td>"
+                            "<td>0.2</td><td>0.063</td><td>0.063</td>"));
+    results::File swaying = sample_precision();
+    const std::string above = "2ms,0.5ms,1,120000,13.500000,0.300000";
+    swaying.text.replace(swaying.text.find(above), above.size(),
+                         "2ms,0.5ms,1,120000,12.900000,-0.300000");
+    EXPECT_TRUE(holds(page_of({swaying}), "<td>-0.3</td><td>reference</td><td>–</td>"));
+    const auto files = report_files({sample_precision()});
+    EXPECT_TRUE(std::ranges::any_of(files, [](const results::File& file) {
+        return file.path == "figures/precision-base-T1-vibration-mm.svg";
+    }));
 }
 
 TEST(Report, DrawsEachSeedOfEachTaskAndALineThroughTheMedians)

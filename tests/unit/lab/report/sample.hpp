@@ -130,13 +130,40 @@ inline results::File sample_claims_quantiles()
                                            "\"mean discrepancy: P1, T1\",\"5.96, 5.41\",40\n"};
 }
 
+inline results::File sample_precision()
+{
+    return {"r/precision/precision.csv",
+            "algorithm,task,figure,parameter,value,reference,seeds,ticks,found,difference,ci_low,"
+            "ci_high,error\n"
+            "base,P1,mean_mm,tick,4ms,0.5ms,1,60000,13.900000,0.700000,,,0.700000\n"
+            "base,P1,mean_mm,tick,2ms,0.5ms,1,120000,13.500000,0.300000,,,0.300000\n"
+            "base,P1,mean_mm,tick,0.5ms,0.5ms,1,480000,13.200000,0.000000,,,0.000000\n"
+            "base,T1,vibration_mm,tick,2ms,0.5ms,1,120000,0.5,0.1,0.08,0.12,0.220000\n"
+            "base,T1,vibration_mm,tick,2ms,0.5ms,10,1200000,0.5,0.1,0.08,0.12,0.110000\n"
+            "base,T1,vibration_mm,tick,0.5ms,0.5ms,1,480000,0.4,0,0,0,0.200000\n"
+            "base,T1,vibration_mm,tick,0.5ms,0.5ms,10,4800000,0.4,0,0,0,0.063000\n"};
+}
+
+inline results::File sample_claim_sessions()
+{
+    return {
+        "r/beat/sessions.csv",
+        "algorithm,condition,task,hands,peers,delay_ms,jitter_ms,loss_percent,burst_of_100,seed,"
+        "mean_mm,max_mm,vibration_mm,stiffness_ratio,force_vibration_n,force_above_2hz_n,"
+        "force_discrepancy,contact_lost,energy_mj,scored_share,tier\n"
+        "remote-proxy,100ms,T1,nominal,2,100,0,0,0,9001,3,9,0.1,,0.01,0.0500,,,1,1,good\n"
+        "remote-proxy,100ms,T1,nominal,2,100,0,0,0,9002,3,9,0.1,,0.01,0.0900,,,1,1,good\n"
+        "remote-proxy,100ms,T1,nominal,2,100,0,0,0,9003,3,9,0.1,,0.01,0.0700,,,1,1,good\n"
+        "base,100ms,T1,nominal,2,100,0,0,0,9001,3,9,0.1,,0.01,0.9000,,,1,1,good\n"};
+}
+
 inline std::vector<results::File> whole_sample()
 {
-    return {sample_manifest(),        sample_table1(),       sample_tasks(),
-            sample_limits(),          sample_loss_limits(),  sample_curves(),
-            sample_conventions(),     sample_trajectories(), sample_qos(),
-            sample_real_time(),       sample_replay(),       sample_claims(),
-            sample_claims_quantiles()};
+    return {sample_manifest(),         sample_table1(),       sample_tasks(),
+            sample_limits(),           sample_loss_limits(),  sample_curves(),
+            sample_conventions(),      sample_trajectories(), sample_qos(),
+            sample_real_time(),        sample_replay(),       sample_claims(),
+            sample_claims_quantiles(), sample_precision()};
 }
 
 /// The files of the report of these; must be readable.

@@ -76,10 +76,10 @@ TEST(ComparedRows, MeasureByColumnsThatSessionsHave)
     SessionRow row;
     row.mean_mm = row.std_mm = row.max_mm = row.vibration_mm = row.stiffness_ratio = 1.0;
     row.force_vibration_n = row.force_discrepancy = row.contact_lost = row.force_step_n = 1.0;
-    row.drag_n = row.energy_mj = 1.0;
+    row.drag_n = row.energy_mj = row.force_above_2hz_n = 1.0;
     const File one{"a.csv", base::csv_text(std::vector{row})};
     const auto rows = compare_sessions(one, one).value();
-    EXPECT_EQ(rows.size(), 12U) << header;
+    EXPECT_EQ(rows.size(), 13U) << header;
 }
 
 } // namespace

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/psychometric.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::lab::metrics {
+
+// How far a figure is from the same by a finer step or by more seeds, and how that falls.
+
+/// Means of the values of `draws` seeds in each bootstrap replicate. Replicate i draws the same
+/// seeds as every other of as many.
+[[nodiscard]] std::vector<double> mean_replicates(std::span<const double> by_seed,
+                                                  std::size_t draws);
+
+/// The root of the mean square of how far values are from `truth`; infinite when one is. At least
+/// one value.
+[[nodiscard]] double root_mean_square_error(std::span<const double> values, double truth);
+
+/// A 95 % interval of a paired difference, by replicates that drew the same seeds.
+[[nodiscard]] Interval paired_interval(std::span<const double> a, std::span<const double> b,
+                                       std::uint32_t seeds);
+
+/// An error at a step, both above zero: of time, or 1 / n for n seeds.
+struct StepError {
+    double step = 0.0;
+    double error = 0.0;
+};
+
+/// The order p with which errors against a reference fall: |error| = C |step^p - reference^p|,
+/// fitted by least squares to the logarithms. `reference` is the step of the reference, 0 when that
+/// is the truth; steps are not equal to it. nullopt with fewer than two different steps, and when
+/// no p between 0.1 and 6 fits best.
+[[nodiscard]] std::optional<double> order_of(std::span<const StepError> errors,
+                                             double reference = 0.0);
+
+} // namespace hapnet::lab::metrics
