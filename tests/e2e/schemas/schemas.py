@@ -45,15 +45,15 @@ def strict(schema):
 
 def read_schemas():
     """All of the repository, by name; each may refer to the others by the names of their files."""
-    suffix = ".schema.json"
+    base, suffix = "file:///schemas/", ".schema.json"  # which are read here, not there
     files = {}
     for path in sorted((repository / "docs/formats/schemas").glob("*" + suffix)):
         schema = json.loads(path.read_text())
         Draft202012Validator.check_schema(schema)
-        files[path.name] = strict(schema)
-    return {name.removesuffix(suffix):
-            Draft202012Validator(schema, resolver=RefResolver("", schema, store=files))
-            for name, schema in files.items()}
+        files[base + path.name] = strict(schema)
+    return {url.removeprefix(base).removesuffix(suffix):
+            Draft202012Validator(schema, resolver=RefResolver(url, schema, store=files))
+            for url, schema in files.items()}
 
 
 validators = read_schemas()
