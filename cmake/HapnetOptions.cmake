@@ -13,6 +13,12 @@ option(HAPNET_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 set(HAPNET_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined")
 set_property(CACHE HAPNET_SANITIZE PROPERTY STRINGS "" "address,undefined" "thread")
 
+# Vectors and quaternions, which an emulator has none of.
+if(NOT HAPNET_ONLY)
+    set(HAPNET_GLM glm::glm)
+    set(HAPNET_GLM_HEADERS <glm/gtc/quaternion.hpp> <glm/glm.hpp>)
+endif()
+
 add_library(hapnet_options INTERFACE)
 target_include_directories(hapnet_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(hapnet_options INTERFACE
@@ -64,13 +70,14 @@ endfunction()
 option(HAPNET_PRECOMPILED "Precompile the headers that most files include" OFF)
 set(HAPNET_COMMON_HEADERS <algorithm> <array> <chrono> <cmath> <functional> <map> <memory>
     <optional> <span> <string> <string_view> <tuple> <utility> <variant> <vector>
-    <glm/gtc/quaternion.hpp> <glm/glm.hpp> <spdlog/fmt/fmt.h> <tl/expected.hpp>)
+    ${HAPNET_GLM_HEADERS} <spdlog/fmt/fmt.h> <tl/expected.hpp>)
 function(hapnet_precompiled_headers name)
     if(NOT TARGET ${name})
         set(source ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp)
         file(CONFIGURE OUTPUT ${source} CONTENT "")
         add_library(${name} OBJECT ${source})
-        target_link_libraries(${name} PRIVATE hapnet_options glm::glm spdlog::spdlog tl::expected)
+        target_link_libraries(${name} PRIVATE hapnet_options ${HAPNET_GLM} spdlog::spdlog
+            tl::expected)
         target_precompile_headers(${name} PRIVATE ${HAPNET_COMMON_HEADERS} ${ARGN})
     endif()
 endfunction()

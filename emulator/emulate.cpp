@@ -23,6 +23,7 @@
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
+#include "proto/net/service_manager.hpp"
 #include "proto/net/stop_signal.hpp"
 
 #include <algorithm>
@@ -109,7 +110,8 @@ public:
         std::fflush(stdout);
     }
 
-    void relay_until_stopped(net::StopSignal& stop)
+    /// The manager hears that this loop moves.
+    void relay_until_stopped(net::StopSignal& stop, net::ServiceManager& manager)
     {
         Workers workers{other_parts(), run_.options.timing};
         auto& part = *port_->parts().front();
@@ -123,8 +125,9 @@ public:
         auto now = start_;
         while (!stop.requested() && !is_stopped_ && !workers.has_failed() &&
                !base::is_due(end_, now)) {
-            pacer.wait(descriptors, next_deadline());
+            pacer.wait(descriptors, base::earlier(next_deadline(), manager.next_deadline()));
             now = relay(0);
+            manager.tell_alive(now);
             run_.elapsed = now - start_;
             if (control_) control_->serve(subject, now, paths_.front()->next_due());
             tell_of_kept();
@@ -297,10 +300,13 @@ template <typename Run, typename MakePort>
 base::Result<int> run_session(const Plan& plan, base::TimePoint start, const MakePort& make)
 {
     net::StopSignal stop{hangup_of(plan.options)};
+    net::ServiceManager manager;
     Session<Run> session{plan, start, make};
     if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
-    session.relay_until_stopped(stop);
+    manager.tell_ready();
+    session.relay_until_stopped(stop, manager);
+    manager.tell_stopping();
     return session.finish();
 }
 

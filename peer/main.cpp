@@ -11,12 +11,14 @@
 #include "peer/loop/servo.hpp"
 #include "peer/loop/supervise.hpp"
 #include "peer/monitor/control_session.hpp"
+#include "peer/monitor/event_log.hpp"
 #include "peer/monitor/monitor.hpp"
 #include "peer/monitor/report.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
+#include "proto/net/service_manager.hpp"
 #include "proto/net/standard_streams.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/text_queue.hpp"
@@ -45,6 +47,19 @@ struct Screen {
     net::TextQueue err{STDERR_FILENO};
 
     void say(std::string_view text) { err.put(fmt::format("{}: {}\n", program, text)); }
+    [[nodiscard]] std::uint64_t lost() const { return err.lost() + out.lost(); }
+};
+
+/// The control socket and the file of the statistics, as far as the options name them.
+struct Outlets {
+    explicit Outlets(const Options& options)
+    {
+        if (options.control) server.emplace(*options.control, monitor::ControlSession::limits);
+        if (options.stats && *options.stats != "-") statistics.emplace(*options.stats);
+    }
+
+    std::optional<control::Server> server;
+    std::optional<net::ResultFile> statistics;
 };
 
 struct Endpoints {
@@ -340,6 +355,27 @@ int finish(int code, const Screen& screen, const net::StopSignal& stop)
                                                                          : code;
 }
 
+/// Likewise for the events, unless they are part of what it says.
+int finish_events(int code, const std::optional<monitor::EventLog>& events, Screen& screen,
+                  const net::StopSignal& stop)
+{
+    if (!events || &events->queue() == &screen.out) return code;
+    const net::TextQueue& queue = events->queue();
+    loop::wait_for_readers(queue, stop);
+    if (queue.is_done() && queue.lost() == 0) return code;
+    screen.say(fmt::format("--events: some are missing: {}", queue.error() != 0
+                                                                 ? std::strerror(queue.error())
+                                                                 : "its reader did not take them"));
+    return code == 0 ? net::exit_environment : code;
+}
+
+/// In the file that the options name, which is emptied, or on stdout.
+std::optional<monitor::EventLog> events_for(const Options& options, Screen& screen)
+{
+    if (!options.events) return std::nullopt;
+    return std::optional<monitor::EventLog>{std::in_place, *options.events, screen.out};
+}
+
 /// To the plotter, where there is one.
 std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& plotter,
                                             std::uint16_t id, monitor::Monitor& monitor)
@@ -353,15 +389,13 @@ base::Result<int> run(const Options& options)
     const auto endpoints = look_up(options);
     if (!endpoints) return tl::unexpected{endpoints.error()};
     const net::StopSignal stop; // before any thread
+    net::ServiceManager manager;
     stop.enforce(gone_after, net::exit_environment);
     Screen screen;
     const net::CrashSignal crash;
     const net::CrashStack stack;
     net::UdpSocket socket{endpoints->listen};
-    std::optional<control::Server> server; // before the device is touched
-    if (options.control) server.emplace(*options.control, monitor::ControlSession::limits);
-    std::optional<net::ResultFile> file;
-    if (options.stats && *options.stats != "-") file.emplace(*options.stats);
+    Outlets outlets{options}; // before the device is touched
     loop::ForceGate gate{stop, dead_man_of(options)};
     auto opened = open_chosen(options.device, options.task);
     if (!opened) {
@@ -386,28 +420,30 @@ base::Result<int> run(const Options& options)
     line::Lines lines = lines_of(options, endpoints->remotes, settings.introduction.nonce);
     loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate,
                        std::chrono::milliseconds{1}, layout_for(options.scene)}};
-    // Last of all that may fail: the file is emptied.
+    // Last of all that may fail: the files are emptied.
+    auto events = events_for(options, screen);
     monitor::Monitor monitor{journal, screen.err, recording_for(options, device, rig, settings),
-                             named_in(settings)};
+                             named_in(settings), events ? &*events : nullptr};
 
     std::optional<monitor::ControlSession> control_session;
-    if (server) {
+    if (auto& server = outlets.server) {
         control_session.emplace(monitor::ControlSession::Parts{*server, servo, stop, gate, options,
                                                                monitor, device,
                                                                monitor::recovery_of(rig.device())});
     }
     auto plot = plot_for(endpoints->plot, options.id, monitor);
     loop::supervise({servo, monitor, stop, gate, screen.out, screen.err,
-                     control_session ? &*control_session : nullptr, plot ? &*plot : nullptr},
+                     control_session ? &*control_session : nullptr, plot ? &*plot : nullptr,
+                     &manager},
                     ready_line(options, socket, endpoints->remotes));
 
     if (kept) kept->on_rest(rig.governor().heat());
     const loop::ServoStatus status = servo.status();
-    const std::uint64_t texts_lost = screen.err.lost() + screen.out.lost();
     const monitor::Run run{
-        options, status, device, monitor.is_record_whole(), monitor.rows_lost(), texts_lost};
-    write_statistics(run, file, screen);
-    return finish(conclude(run, rig.governor(), screen), screen, stop);
+        options, status, device, monitor.is_record_whole(), monitor.rows_lost(), screen.lost()};
+    write_statistics(run, outlets.statistics, screen);
+    const int code = conclude(run, rig.governor(), screen);
+    return finish(finish_events(code, events, screen, stop), screen, stop);
 }
 
 base::Result<int> execute(const Command& command)

@@ -33,8 +33,9 @@ fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-
 
 package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian scdoc systemd)
 
-# What makes images of the Dockerfiles.
-ship_packages=(buildah mmdebstrap)
+# What makes images of the Dockerfiles and plays the compose file, and the shells whose completions
+# are tried.
+ship_packages=(buildah fish iproute2 jq mmdebstrap python3-yaml zsh)
 
 for argument in "$@"; do
     case $argument in

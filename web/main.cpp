@@ -3,6 +3,7 @@
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
+#include "proto/net/service_manager.hpp"
 #include "proto/net/standard_streams.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/text_file.hpp"
@@ -155,11 +156,16 @@ Stage::Setup stage_setup(const Options& options)
             .choices = all_choices(std::move(names))};
 }
 
-/// Ticks until a signal comes.
+/// Ticks until a signal comes, and lets the service manager hear of it.
 class Heart {
 public:
-    Heart(asio::io_context& io, Hub& hub, const net::StopSignal& stop)
-        : io_{io}, hub_{hub}, timer_{io}, stop_{stop}, signal_{io, dup(stop.descriptor())}
+    Heart(asio::io_context& io, Hub& hub, const net::StopSignal& stop, net::ServiceManager& manager)
+        : io_{io},
+          hub_{hub},
+          timer_{io},
+          stop_{stop},
+          manager_{manager},
+          signal_{io, dup(stop.descriptor())}
     {
         signal_.async_wait(asio::posix::stream_descriptor::wait_read,
                            [this](const boost::system::error_code&) { io_.stop(); });
@@ -176,6 +182,7 @@ private:
             const auto now = net::monotonic_now();
             late_ = std::clamp(now - due, base::Duration{0}, Hub::frame_every / 2);
             hub_.tick(now);
+            manager_.tell_alive(now);
             if (stop_.requested()) return io_.stop();
             beat();
         });
@@ -185,6 +192,7 @@ private:
     Hub& hub_;
     asio::steady_timer timer_;
     const net::StopSignal& stop_;
+    net::ServiceManager& manager_;
     asio::posix::stream_descriptor signal_;
     base::Duration late_{}; // made up for in the next beat
 };
@@ -192,6 +200,7 @@ private:
 base::Result<int> run(const Options& options)
 {
     const net::StopSignal stop; // before any thread
+    net::ServiceManager manager;
     std::signal(SIGPIPE, SIG_IGN);
     const auto token = token_of(options);
     if (!token) return tl::unexpected{token.error()};
@@ -215,8 +224,10 @@ base::Result<int> run(const Options& options)
     if (!options.url_file.empty()) net::ResultFile{options.url_file, "", 0600}.commit(url + "\n");
     fmt::print("open {}\n", url);
     net::require_stdout();
-    Heart heart{io, hub, stop};
+    manager.tell_ready();
+    Heart heart{io, hub, stop, manager};
     io.run();
+    manager.tell_stopping();
     return 0;
 }
 

@@ -13,6 +13,7 @@
 #include "scene/text/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
@@ -133,11 +134,19 @@ bool is_one_file(const std::string& a, const std::string& b)
 
 base::Result<void> check_results(const Options& options)
 {
-    if (!options.record || !options.stats || !is_one_file(*options.record, *options.stats)) {
-        return {};
+    const std::array files{std::pair{"--record", &options.record},
+                           std::pair{"--stats", &options.stats},
+                           std::pair{"--events", &options.events}};
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        for (std::size_t k = i + 1; k < files.size(); ++k) {
+            const auto& [name, file] = files.at(i);
+            const auto& [other_name, other] = files.at(k);
+            if (!*file || !*other || !is_one_file(**file, **other)) continue;
+            return base::fail(fmt::format("{} and {} are both {}: give each a file of its own",
+                                          name, other_name, **file));
+        }
     }
-    return base::fail(fmt::format("--record and --stats are both {}: give each a file of its own",
-                                  *options.record));
+    return {};
 }
 
 /// Who the peers are, and where the others are.
@@ -221,6 +230,10 @@ void add_results(cli::Command& program, Options& options)
                    cli::into(options.record, parse_record));
     program.option("--stats", "FILE", "Write statistics to FILE at the end; - is stdout",
                    cli::into(options.stats, parse_result_file));
+    program.option(
+        "--events", "FILE",
+        "Write a line of JSON to FILE for whatever happens (docs/use/peer.md); - is stdout",
+        cli::into(options.events, parse_result_file));
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which may show the session and "
                    "stop it, and change nothing: hapnet-ctl SOCKET "

@@ -44,6 +44,7 @@ struct Options {
     std::optional<std::string> dead_man; // "button", or "evdev:" and a device of the kernel
     std::optional<std::string> record;
     std::optional<std::string> stats;   // a file, or "-" for stdout
+    std::optional<std::string> events;  // likewise
     std::optional<std::string> control; // where its socket is to be
     std::optional<net::HostPort> plot;  // where frames are sent over UDP
     cli::KeepOptions keep{};            // the last seconds of a record

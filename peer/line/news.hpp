@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
+
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +19,16 @@ enum class News : std::uint8_t {
     other_circle,    // somebody has other keys than ours
     moved,           // the other side is heard from another place
     same_id,         // two programs seem to have the same key and push each other out
+    rekeyed,         // the two have gone over to a new key, as they do every two minutes
 };
-inline constexpr std::size_t kinds_of_news = 6;
+inline constexpr std::size_t kinds_of_news = 7;
+
+/// In what --events writes.
+constexpr auto names_of(base::Tag<News> /*enum*/)
+{
+    return base::names("sealed", "other_is_plain", "other_is_sealed", "other_circle", "moved",
+                       "same_id", "rekeyed");
+}
 
 /// News that nobody has taken yet, each once.
 class PendingNews {

@@ -66,6 +66,7 @@ void Sealed::look_for_news(base::TimePoint now)
     const bool is_new_run = counts.handshakes - counts.rekeys > before_.handshakes - before_.rekeys;
     if (is_new_run && before_.handshakes == 0) news_.put(News::sealed);
     if (is_new_run) on_restart(now);
+    if (counts.rekeys > before_.rekeys) news_.put(News::rekeyed);
     if (counts.roamed > before_.roamed) news_.put(News::moved);
     if (counts.handshakes == 0 && before_.other_circle < trouble_needed &&
         counts.other_circle >= trouble_needed)

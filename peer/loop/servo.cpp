@@ -182,8 +182,11 @@ void Servo::describe(ServoStatus& status) const
 void Servo::report_device(base::TimePoint now)
 {
     const device::Rig& rig = parts_.rig;
-    const auto news = reporter_.look(rig.calibration(), rig.governor().fault(), now);
-    if (news) parts_.journal.put(TimedDeviceNews{*news, now});
+    const device::Governor& governor = rig.governor();
+    if (const auto news = reporter_.look(rig.calibration(), governor.fault(), now))
+        parts_.journal.put(TimedDeviceNews{*news, now});
+    if (const auto news = reporter_.look_at_energy(governor.counters().energy_limited, now))
+        parts_.journal.put(TimedDeviceNews{*news, now});
 }
 
 void Servo::receive(base::TimePoint now)

@@ -55,6 +55,9 @@ public:
     /// From another thread: whether run() has returned.
     [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
 
+    /// From another thread: when the loop was at work last.
+    [[nodiscard]] base::TimePoint last_beat() const { return parts_.watchdog.last_beat(); }
+
     /// From another thread: what became of the newest datagram.
     [[nodiscard]] net::SendOutcome sending() const
     {

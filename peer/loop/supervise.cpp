@@ -7,6 +7,7 @@
 #include "proto/net/wait.hpp"
 
 #include <array>
+#include <csignal>
 #include <exception>
 #include <span>
 #include <spdlog/fmt/fmt.h>
@@ -50,44 +51,82 @@ private:
 void announce(const Supervised& supervised, const std::string& ready)
 {
     supervised.out.put(ready);
+    if (supervised.manager != nullptr) supervised.manager->tell_ready();
     const auto shortage = supervised.servo.real_time().shortage();
     if (!shortage.empty()) supervised.screen.put(fmt::format("hapnet-peer: {}\n", shortage));
 }
 
-/// The emergency stop: Enter at the terminal, or a client of the control socket.
-class EmergencyStop {
+/// The emergency stop: Enter at the terminal, or a client of the control socket. And a stop, of
+/// which only programs are told.
+class Stops {
 public:
-    EmergencyStop(ForceGate& gate, net::TextQueue& screen) : gate_{gate}, screen_{screen} {}
+    explicit Stops(const Supervised& supervised) : all_{supervised} {}
 
-    void look()
+    void look(base::TimePoint now)
     {
-        if (key_.was_pressed()) gate_.stop_in_emergency();
-        if (is_told_ || !gate_.is_stopped_in_emergency()) return;
-        is_told_ = true;
-        screen_.put("hapnet-peer: emergency stop: zero force until the program is started anew; "
-                    "Ctrl-C ends it\n");
+        if (key_.was_pressed()) all_.gate.stop_in_emergency();
+        if (!is_emergency_told_ && all_.gate.is_stopped_in_emergency()) {
+            is_emergency_told_ = true;
+            all_.screen.put("hapnet-peer: emergency stop: zero force until the program is started "
+                            "anew; Ctrl-C ends it\n");
+            all_.monitor.note({.at = now, .name = "emergency_stop"});
+        }
+        if (!is_stop_told_ && all_.stop.requested()) {
+            is_stop_told_ = true;
+            all_.monitor.note(
+                {.at = now, .name = "stop", .details = {{"cause", cause_of(all_.stop)}}});
+        }
     }
 
 private:
-    ForceGate& gate_;
-    net::TextQueue& screen_;
+    [[nodiscard]] static std::string_view cause_of(const net::StopSignal& stop)
+    {
+        const int number = stop.number();
+        return number == SIGINT ? "SIGINT" : number == SIGHUP ? "SIGHUP" : "SIGTERM";
+    }
+
+    const Supervised& all_;
     net::TerminalKey key_;
-    bool is_told_ = false;
+    bool is_emergency_told_ = false;
+    bool is_stop_told_ = false;
+};
+
+/// Signs of life to the service manager, while the loop moves.
+class SignsOfLife {
+public:
+    SignsOfLife(const Servo& servo, net::ServiceManager* manager)
+        : servo_{servo}, manager_{manager}, beat_{servo.last_beat()}
+    {}
+
+    void look(base::TimePoint now)
+    {
+        const base::TimePoint beat = servo_.last_beat();
+        if (manager_ == nullptr || beat == beat_) return;
+        beat_ = beat;
+        manager_->tell_alive(now);
+    }
+
+private:
+    const Servo& servo_;
+    net::ServiceManager* manager_;
+    base::TimePoint beat_;
 };
 
 /// One round of the thread that watches; it sleeps until something happens, or for a while.
-void look_after(const Supervised& supervised, EmergencyStop& emergency)
+void look_after(const Supervised& supervised, Stops& stops)
 {
-    const auto& [servo, monitor, stop, gate, out, screen, control_session, plot] = supervised;
+    auto& monitor = supervised.monitor;
+    auto* const control_session = supervised.control_session;
+    auto* const plot = supervised.plot;
     const base::Duration every = control_session != nullptr ? monitor::ControlSession::every
                                  : plot != nullptr          ? monitor::PlotStream::every
                                                             : drain_every;
     // Once a stop is asked for, the descriptor may stay readable: then only sleep.
-    const std::array descriptors{stop.descriptor()};
-    net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
+    const std::array descriptors{supervised.stop.descriptor()};
+    net::wait_readable(supervised.stop.requested() ? std::span<const int>{} : descriptors,
                        net::monotonic_now() + every);
-    emergency.look();
-    monitor.on_sending(servo.sending());
+    stops.look(net::monotonic_now());
+    monitor.on_sending(supervised.servo.sending());
     monitor.drain(); // first: frames are made of it
     if (control_session != nullptr) control_session->serve(net::monotonic_now());
     if (plot != nullptr) plot->serve(net::monotonic_now());
@@ -99,16 +138,18 @@ void supervise(const Supervised& supervised, const std::string& ready)
 {
     Servo& servo = supervised.servo;
     monitor::Monitor& monitor = supervised.monitor;
-    EmergencyStop emergency{supervised.gate, supervised.screen};
+    Stops stops{supervised};
+    SignsOfLife signs{servo, supervised.manager};
     ServoThread thread{servo};
     bool is_announced = false;
     try {
         while (!servo.is_done() && !thread.has_failed()) {
-            look_after(supervised, emergency);
+            look_after(supervised, stops);
             if (!is_announced && servo.is_running()) {
                 announce(supervised, ready);
                 is_announced = true;
             }
+            signs.look(net::monotonic_now());
             monitor.show(net::monotonic_now());
         }
     } catch (...) {
@@ -117,9 +158,10 @@ void supervise(const Supervised& supervised, const std::string& ready)
         throw;
     }
     thread.join();
+    if (supervised.manager != nullptr) supervised.manager->tell_stopping();
     monitor.close();
     while (!monitor.is_done() && supervised.stop.requested_for() < give_up_after) {
-        look_after(supervised, emergency);
+        look_after(supervised, stops);
     }
     monitor.finish();
 }

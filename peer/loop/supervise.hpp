@@ -6,6 +6,7 @@
 #include "peer/monitor/control_session.hpp"
 #include "peer/monitor/monitor.hpp"
 #include "peer/monitor/plot_stream.hpp"
+#include "proto/net/service_manager.hpp"
 #include "proto/net/stop_signal.hpp"
 
 #include <string>
@@ -22,6 +23,7 @@ struct Supervised {
     net::TextQueue& screen;                             // stderr
     monitor::ControlSession* control_session = nullptr; // null: there is no control socket
     monitor::PlotStream* plot = nullptr;                // null: there is no --plotjuggler
+    net::ServiceManager* manager = nullptr;             // null: nobody is told how it goes
 };
 
 /// After a stop was asked for, what is not written by then is given up.
@@ -31,7 +33,8 @@ inline constexpr base::Duration text_patience{std::chrono::seconds{2}};
 
 /// Runs the servo on a thread of its own and watches it from this one until it has ended; SIGINT,
 /// SIGTERM and SIGHUP end it, and clients of the control socket may. Enter at the terminal is an
-/// emergency stop. Prints `ready` when its first tick has run. Waits for nobody who does not take
+/// emergency stop. Prints `ready` when its first tick has run, and tells the manager so; signs of
+/// life go to that one while the loop moves. Waits for nobody who does not take
 /// what is written; at the end, and until a stop, for the record. What the servo throws comes out
 /// of here, when the device has been told zero force.
 void supervise(const Supervised& supervised, const std::string& ready);

@@ -50,6 +50,12 @@ public:
                (crash_ != nullptr && net::CrashSignal::has_come());
     }
 
+    /// From any thread: when the loop was at work last; the same as before: it has not moved.
+    [[nodiscard]] base::TimePoint last_beat() const
+    {
+        return base::TimePoint{base::Duration{last_beat_.load(std::memory_order_acquire)}};
+    }
+
     /// Number of silences in which it halted the device. When this has changed since a tick began,
     /// the force of that tick is outdated.
     [[nodiscard]] std::uint64_t halts() const { return halts_.load(std::memory_order_acquire); }

@@ -41,7 +41,8 @@ Recovery recovery_of(const device::Device& device)
 
 std::string describe(const DeviceNews& news)
 {
-    if (news.is_of_calibration) {
+    if (news.change == DeviceChange::energy) return ""; // the summary tells
+    if (news.change == DeviceChange::calibration) {
         if (news.calibration == device::CalibrationStep::done) return "the device is calibrated";
         return std::string{device::describe(news.calibration)};
     }
@@ -71,16 +72,27 @@ std::optional<DeviceNews> DeviceReporter::look(device::CalibrationStep calibrati
     if (!(fault == told_.fault) && is_time(fault_told_, now)) {
         told_.fault = fault;
         DeviceNews news = told_;
-        news.is_of_calibration = false;
+        news.change = DeviceChange::fault;
         return news;
     }
     if (calibration != told_.calibration && is_time(calibration_told_, now)) {
         told_.calibration = calibration;
         DeviceNews news = told_;
-        news.is_of_calibration = true;
+        news.change = DeviceChange::calibration;
         return news;
     }
     return std::nullopt;
+}
+
+std::optional<DeviceNews> DeviceReporter::look_at_energy(std::uint64_t limited_ticks,
+                                                         base::TimePoint now)
+{
+    if (limited_ticks == told_.energy_limited_ticks || !is_time(energy_told_, now))
+        return std::nullopt;
+    told_.energy_limited_ticks = limited_ticks;
+    DeviceNews news = told_;
+    news.change = DeviceChange::energy;
+    return news;
 }
 
 } // namespace hapnet::peer::monitor

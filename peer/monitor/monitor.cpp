@@ -139,6 +139,7 @@ std::string_view describe(line::News news)
     case line::News::same_id:
         return "two programs seem to play with the other peer's key and push each other out: end "
                "one of them";
+    case line::News::rekeyed: return ""; // every two minutes: no news to a person
     }
     return "";
 }
@@ -165,9 +166,10 @@ std::string describe_in_circle(Event event, std::string_view shared, std::uint16
 }
 
 Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen, Recorder::Setup recording,
-                 Named named)
+                 Named named, EventLog* log)
     : journal_{journal},
       screen_{screen},
+      log_{log},
       frames_{named.peer_id},
       named_{std::move(named)},
       line_{STDERR_FILENO}
@@ -190,11 +192,16 @@ void Monitor::drain()
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
             on_event(*event);
         } else if (const auto* line = std::get_if<loop::TimedLineNews>(&*entry)) {
-            tell(line->at, is_pair() ? std::string{describe(line->news)}
-                                     : describe_in_circle(line->news, line->about));
+            tell({.at = line->at,
+                  .name = base::name_of(line->news),
+                  .about = line->about,
+                  .words = is_pair() ? std::string{describe(line->news)}
+                                     : describe_in_circle(line->news, line->about)});
         } else {
-            const auto& [news, at] = std::get<loop::TimedDeviceNews>(*entry);
-            tell(at, describe(news));
+            const auto& timed = std::get<loop::TimedDeviceNews>(*entry);
+            LoggedEvent of_device = event_of(timed);
+            of_device.words = describe(timed.news);
+            tell(of_device);
         }
     }
     look_at_record();
@@ -206,8 +213,11 @@ void Monitor::on_event(const loop::TimedEvent& event)
         std::erase_if(status_.awaited,
                       [&](std::uint16_t id) { return is_pair() || id == event.about; });
     }
-    tell(event.at, is_pair() ? describe(event.event, named_.shared())
-                             : describe_in_circle(event.event, named_.shared(), event.about));
+    tell({.at = event.at,
+          .name = name_of(event.event),
+          .about = event.about,
+          .words = is_pair() ? describe(event.event, named_.shared())
+                             : describe_in_circle(event.event, named_.shared(), event.about)});
 }
 
 void Monitor::take(const record::Row& row)
@@ -272,20 +282,32 @@ bool Monitor::is_record_whole() const
     return !record_failure() && rows_lost() == 0 && (!is_closed_ || is_done());
 }
 
-void Monitor::tell(base::TimePoint at, std::string_view words)
+std::optional<base::TimePoint> Monitor::start() const
 {
-    if (!events_.admits(at)) {
+    return status_.session ? std::optional{status_.session->start} : std::nullopt;
+}
+
+void Monitor::note(const LoggedEvent& event)
+{
+    if (log_ != nullptr) log_->put(event, start());
+}
+
+void Monitor::tell(const LoggedEvent& event)
+{
+    if (!events_.admits(event.at)) {
         ++events_left_out_;
         return;
     }
     if (const auto left_out = std::exchange(events_left_out_, 0); left_out > 0) {
         say(fmt::format("{} messages were left out here: too many at a time", left_out));
+        note({.at = event.at, .name = "left_out", .details = {{"events", left_out}}});
     }
-    const bool in_session = status_.session && at >= status_.session->start;
-    if (in_session) {
-        say(fmt::format("{:.1f} s: {}", base::to_seconds(at - status_.session->start), words));
+    note(event);
+    if (event.words.empty()) return;
+    if (start() && event.at >= *start()) {
+        say(fmt::format("{:.1f} s: {}", base::to_seconds(event.at - *start()), event.words));
     } else {
-        say(words);
+        say(event.words);
     }
 }
 

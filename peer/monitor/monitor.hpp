@@ -4,6 +4,7 @@
 
 #include "peer/control/frame_tap.hpp"
 #include "peer/loop/journal.hpp"
+#include "peer/monitor/event_log.hpp"
 #include "peer/monitor/rate_limit.hpp"
 #include "peer/monitor/recorder.hpp"
 #include "proto/net/batch_sender.hpp"
@@ -53,8 +54,9 @@ public:
     static constexpr int events_at_once = 20;
     static constexpr base::Duration event_every{std::chrono::milliseconds{500}};
 
-    /// Text goes to `screen`, which outlives it.
-    Monitor(loop::Journal& journal, net::TextQueue& screen, Recorder::Setup recording, Named named);
+    /// Text goes to `screen`, and each event to `log`, too, unless that is null; both outlive it.
+    Monitor(loop::Journal& journal, net::TextQueue& screen, Recorder::Setup recording, Named named,
+            EventLog* log = nullptr);
 
     /// Reads everything in the journal. When the record cannot be written any more (a full disk),
     /// it says so once and goes on without it.
@@ -63,6 +65,8 @@ public:
     void show(base::TimePoint now);
     /// What became of the newest datagram that was sent.
     void on_sending(net::SendOutcome outcome) { status_.sending = outcome; }
+    /// Something of which the journal does not know, for programs alone.
+    void note(const LoggedEvent& event);
     /// After the servo has ended: reads the rest and closes the record, without waiting for that.
     void close();
     /// After close(): whether the record is on the disk, as far as it will ever be.
@@ -98,11 +102,13 @@ private:
     void look_at_record();
     [[nodiscard]] bool is_pair() const { return named_.others.size() <= 1; }
     void on_event(const loop::TimedEvent& event);
-    void tell(base::TimePoint at, std::string_view words);
+    void tell(const LoggedEvent& event);
+    [[nodiscard]] std::optional<base::TimePoint> start() const;
     void say(std::string_view text);
 
     loop::Journal& journal_;
     net::TextQueue& screen_;
+    EventLog* log_;
     std::optional<Recorder> recorder_;
     FrameTap frames_;
     bool is_failure_told_ = false;

@@ -298,11 +298,11 @@ std::string_view state_of(const loop::ServoStatus& status)
 
 std::string says(const loop::ServoStatus& status, const Recovery& recovery)
 {
-    DeviceNews news{status.calibration, status.fault, false, recovery};
+    DeviceNews news{.calibration = status.calibration, .fault = status.fault, .recovery = recovery};
     std::string withheld{words_on(status.withheld)};
     if (status.withheld == loop::Withheld::by_emergency_stop) return withheld;
     if (is_at_fault(status)) return describe(news);
-    news.is_of_calibration = true;
+    news.change = DeviceChange::calibration;
     if (is_calibrating(status)) return describe(news);
     if (!withheld.empty()) return withheld;
     if (const auto trouble = describe(status.loop.last_send); !trouble.empty()) {

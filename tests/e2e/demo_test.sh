@@ -39,4 +39,5 @@ for peers in 2 3; do
         and .settled_discrepancy_mm <= 0.1 and .settled_turned_apart_deg <= 0.1' \
         "$folder/t8/analysis.json" >/dev/null ||
         fail "the analysis of $peers hands: $(<"$folder/t8/analysis.json")"
+    validate_json "$folder"
 done

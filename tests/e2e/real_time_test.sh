@@ -25,6 +25,7 @@ done < <(tail -n +2 "$out/real_time.csv")
 grep -q 'real time against virtual time' "$out/said" || fail "no table was printed"
 jq -e '.kind == "real-time" and (.real_time.sessions | length) == 2' "$out/manifest.json" \
     >/dev/null || fail "manifest.json"
+validate_json "$out"
 
 # Two and three hands that turn a cube, each beside the same in virtual time.
 for peers in 2 3; do
@@ -77,6 +78,7 @@ for result in "$sweep"/cells/*/attempt-1/result.json; do
 done
 [[ -z $(compgen -G "$sweep/cells/*/*/*.rec") ]] || fail "records were left behind"
 jq -e '(.real_time.sessions | length) == 2' "$sweep/manifest.json" >/dev/null || fail "the manifest"
+validate_json "$sweep"
 # A session that was broken off is played again, and no other; one that was not valid is not used.
 read -r first second < <(echo "$sweep"/cells/*/attempt-1/result.json)
 before=$(stat -c %Y%i "$first")

@@ -6,6 +6,7 @@
 #include "peer/loop/supervise.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
+#include "proto/net/service_manager.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -194,6 +195,7 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
 {
     const auto& [asked, pipe] = options;
     const net::StopSignal stop;
+    net::ServiceManager manager;
     stop.enforce(800ms, net::exit_environment);
     net::TextQueue out{STDOUT_FILENO};
     net::TextQueue screen{STDERR_FILENO};
@@ -229,9 +231,9 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
         control_session.emplace(peer::monitor::ControlSession::Parts{*server, servo, stop, gate,
                                                                      unused, monitor, "recorded"});
     }
-    peer::loop::supervise(
-        {servo, monitor, stop, gate, out, screen, control_session ? &*control_session : nullptr},
-        asked.blocked || asked.terminal >= 0 ? "ready\n" : "");
+    peer::loop::supervise({servo, monitor, stop, gate, out, screen,
+                           control_session ? &*control_session : nullptr, nullptr, &manager},
+                          asked.blocked || asked.terminal >= 0 ? "ready\n" : "");
     peer::loop::wait_for_readers(screen, stop);
     return monitor.is_record_whole() ? 0 : net::exit_environment;
 }

@@ -17,3 +17,11 @@ fail() {
     echo "FAILED: $1" >&2
     exit 1
 }
+
+# validate_json FOLDER: all JSON in it is as its schema says, where jsonschema is there to look.
+validate_json() {
+    local code=0
+    PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 \
+        "$(dirname "${BASH_SOURCE[0]}")/schemas/schemas.py" "$1" || code=$?
+    ((code == 0 || code == 77)) || fail "JSON in $1"
+}

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # The Dockerfiles, built with buildah on a bare Debian 12 of our own instead of a registry's image,
-# and each image's program run in it. Says why where it cannot be done, and exits 77.
+# each image's program run in it, the page of hapnet-web asked for, and the services of the compose
+# file played (compose_test.sh). Says why where it cannot be done, and exits 77.
 #   images_test.sh REPOSITORY PACKAGES WORK_DIR
 set -euo pipefail
 repository=$(realpath "$1")
@@ -41,7 +42,7 @@ buildah "${storage[@]}" commit -q "$base" localhost/hapnet-base >/dev/null
 
 mkdir -p "$work/context/packages"
 cp "$packages"/*.deb "$work/context/packages/"
-for role in emulator peer lab; do
+for role in emulator peer lab web; do
     begin=$SECONDS
     buildah "${storage[@]}" build --network host --build-arg BASE=localhost/hapnet-base \
         -f "$repository/packaging/docker/$role.Dockerfile" -t "localhost/hapnet-$role" \
@@ -56,3 +57,29 @@ for role in emulator peer lab; do
     [[ $entry == "[hapnet-$role]" ]] || fail "the image of $role begins with $entry"
     echo "images_test: $role: $said, built in $((SECONDS - begin)) s"
 done
+
+# The page, from the image, as a browser would ask for it.
+page=$(buildah "${storage[@]}" from --pull=never localhost/hapnet-web)
+buildah "${storage[@]}" run "$page" -- timeout --preserve-status 20 hapnet-web --port 0 \
+    >"$work/web.out" 2>"$work/web.err" &
+serving=$!
+for _ in {1..150}; do
+    url=$(sed -n 's/^open //p' "$work/web.out")
+    [[ -z $url ]] || break
+    sleep 0.1
+done
+[[ -n $url ]] || fail "hapnet-web in its image: $(cat "$work/web.out" "$work/web.err")"
+python3 - "${url%%#*}" <<'PYTHON' || fail "the image of web serves no page"
+import sys
+import urllib.request
+
+with urllib.request.urlopen(sys.argv[1], timeout=10) as answer:
+    page = answer.read().decode()
+assert answer.status == 200 and "<title>Hapnet" in page, page[:200]
+PYTHON
+wait "$serving" || fail "hapnet-web in its image ended with $?: $(cat "$work/web.err")"
+echo "images_test: web: the page is served"
+
+composed=0
+"$repository/tests/ship/compose_test.sh" "$repository" "$work" "$work/compose" || composed=$?
+((composed == 0 || composed == 77)) || fail "the services of the compose file did not play"

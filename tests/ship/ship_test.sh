@@ -44,22 +44,38 @@ for notice in libusb-1.0-0-dev libhidapi-dev libsodium-dev LGPL-2.1 README; do
     [[ -s $folder/share/doc/hapnet/linked/$notice ]] || fail "the tarball has no notice $notice"
 done
 
+# What the shells complete, and the manual pages, of the programs of the tarball.
+for shell in zsh fish; do
+    command -v "$shell" >/dev/null || fail "$shell is missing: scripts/setup.sh --ship installs it"
+done
+"$repository/tests/e2e/install/install_test.sh" "$folder/bin"
+
 complaints=$(systemd-analyze verify "$repository"/packaging/systemd/*.service 2>&1 |
     grep "/packaging/" | grep -v "is not executable: No such file" || true)
 [[ -z $complaints ]] || fail "systemd-analyze verify: $complaints"
+for unit in "$repository"/packaging/systemd/*.service; do
+    systemd-analyze security --offline=true --threshold=30 "$unit" >"$work/security.log" 2>&1 ||
+        fail "systemd-analyze security ${unit##*/}: $(tail -1 "$work/security.log")"
+    echo "ship_test: ${unit##*/}: $(sed -n 's/^.* \(Overall exposure.*: [0-9.]*\) .*/\1/p' \
+        "$work/security.log")"
+done
 
 root=$work/root
 cleanup() {
-    mountpoint -q "$root/proc" && umount "$root/proc"
-    rm -rf "$root" "$root.13"
+    local place
+    for place in "$root" "$root.build"; do
+        ! mountpoint -q "$place/proc" || umount "$place/proc"
+    done
+    rm -rf "$root" "$root.13" "$root.build"
 }
 trap cleanup EXIT
-rm -rf "$root" "$root.13"
+rm -rf "$root" "$root.13" "$root.build"
 debootstrap --variant=minbase bookworm "$root" >"$work/debootstrap.log" 2>&1 ||
     fail "no bare root: $(tail -3 "$work/debootstrap.log")"
 cp /etc/apt/sources.list "$root/etc/apt/" 2>/dev/null || true
 cp -r /etc/apt/sources.list.d /etc/apt/apt.conf.d "$root/etc/apt/" 2>/dev/null || true
 cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
+cp -a --reflink=auto "$root" "$root.build"
 mount -t proc proc "$root/proc"
 inside() {
     chroot "$root" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"
@@ -95,6 +111,26 @@ nothing_left() {
     echo "ship_test: $*: removed without a trace"
 }
 nothing_left hapnet-emulator
+
+# The emulator alone, built in another bare root as docs/use/build.md says, with what it installs.
+mkdir "$root.build/root/clone"
+git -c safe.directory='*' -C "$repository" ls-files -z |
+    tar -C "$repository" --null --ignore-failed-read -T - -c | tar -C "$root.build/root/clone" -x
+awk '
+    /^<!-- not run by readme_test: .* scripts\/test.sh ship does it / { meant = 1; next }
+    /^```sh$/ && meant { wanted = 1; next }
+    /^```/ { if (wanted) exit }
+    wanted' "$repository/docs/use/build.md" >"$root.build/root/clone/emulator.sh"
+begin=$SECONDS
+mount -t proc proc "$root.build/proc"
+chroot "$root.build" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+    sh -eu -c 'apt-get -q update && cd /root/clone && sh -eux emulator.sh' \
+    >"$work/emulator.log" 2>&1 || fail "the emulator alone: $(tail -5 "$work/emulator.log")"
+grep '^hapnet-emulator [0-9]' "$work/emulator.log" ||
+    fail "the emulator alone: $(tail -1 "$work/emulator.log")"
+umount "$root.build/proc"
+rm -rf "$root.build"
+echo "ship_test: the emulator alone was built in $((SECONDS - begin)) s"
 
 # The tarball runs where no package of ours is.
 cp -r "$folder" "$root/root/"

@@ -53,6 +53,23 @@ done
 [[ $(completes hapnet-emulator --up) == --upstream ]] || fail "--up is not completed"
 [[ $(completes hapnet-emulator probe --qu) == --quiet ]] || fail "probe --qu is not completed"
 [[ -z $(completes hapnet-emulator --profile x) ]] || fail "a file is left to the shell"
+if command -v fish >/dev/null; then
+    # fish_completes LINE: what fish offers for it.
+    fish_completes() {
+        HOME=$work fish -c "source $work/hapnet-emulator.fish; complete -C '$1'" | cut -f 1
+    }
+    [[ $(fish_completes "hapnet-emulator pred") == predict ]] || fail "fish: pred"
+    [[ $(fish_completes "hapnet-emulator --timing e") == eco ]] || fail "fish: --timing e"
+    [[ $(fish_completes "hapnet-emulator --up") == *--upstream* ]] || fail "fish: --up"
+fi
+if command -v zsh >/dev/null; then
+    # What zsh's completion would be told, without a terminal.
+    offered=$(zsh -fc '_describe() { print -rl -- $commands }; _arguments() { print -rl -- "$@" }
+        words=(hapnet-emulator "") CURRENT=2; source '"$work/hapnet-emulator.zsh")
+    for one in "predict:" "--timing\[.*:(eco precise " "--upstream\["; do
+        grep -q -- "^\*\?$one" <<<"$offered" || fail "zsh: $one"
+    done
+fi
 
 ! "$bin/hapnet-ctl" --generate perl 2>"$work/refused" || fail "perl is no shell"
 grep -q "expected one of man|bash|zsh|fish" "$work/refused" || fail "perl: $(cat "$work/refused")"

@@ -171,6 +171,22 @@ TEST(Line, WithAKeyCarriesAMessageUnchangedAndShowsNothingOfIt)
     EXPECT_TRUE(status_of(pair.line(1), pair.now()).key->is_agreed);
 }
 
+TEST(Line, WithAKeyTellsOfEveryNextOne)
+{
+    LinePair pair{keyed_line({.id = 1, .run = 11}), keyed_line({.id = 2, .run = 22})};
+    pair.run(100ms);
+    for (int i = 0; i < 300; ++i) { // 5 min: two new keys
+        pair.say(0, hello_of(1, 11));
+        pair.say(1, hello_of(2, 22));
+        pair.run(1s);
+    }
+    for (const std::size_t side : {0U, 1U}) {
+        EXPECT_EQ(status_of(pair.line(side), pair.now()).key->counts.rekeys, 2U);
+        EXPECT_EQ(std::ranges::count(pair.news(side), News::rekeyed), 2);
+        EXPECT_EQ(std::ranges::count(pair.news(side), News::sealed), 1);
+    }
+}
+
 TEST(Line, WithAKeyTakesNoHelloOfAnotherRunOrPeer)
 {
     LinePair pair{keyed_line({.id = 1, .run = 11}), keyed_line({.id = 2, .run = 22})};

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/loop/journal.hpp"
+#include "proto/net/text_queue.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hapnet::peer::monitor {
+
+/// Something that happened, for programs and, with words, for a person.
+struct LoggedEvent {
+    base::TimePoint at;
+    std::string_view name;            // docs/use/peer.md has all
+    std::uint16_t about = 0;          // the id of another peer; 0: it is about all, or not known
+    std::string words{};              // "": a person need not be told
+    nlohmann::ordered_json details{}; // further keys; null: none
+};
+
+/// What they are called.
+[[nodiscard]] std::string_view name_of(Event event);
+/// Of a device, which has no words yet.
+[[nodiscard]] LoggedEvent event_of(const loop::TimedDeviceNews& news);
+
+/// The line of an event. `start`: of the session, as far as it is known.
+[[nodiscard]] std::string line_of(const LoggedEvent& event, std::optional<base::TimePoint> start);
+
+/// Where --events writes: a line of JSON for each event, by a thread of its own. Nobody waits for
+/// whoever reads them; lines that find no room are dropped, and counted.
+class EventLog {
+public:
+    /// A file, which is emptied, a FIFO, which need not have a reader yet, or "-": `out`, which
+    /// outlives this. Throws std::system_error naming the file.
+    EventLog(const std::string& place, net::TextQueue& out);
+
+    void put(const LoggedEvent& event, std::optional<base::TimePoint> start)
+    {
+        queue_.put(line_of(event, start));
+    }
+
+    [[nodiscard]] const net::TextQueue& queue() const { return queue_; }
+
+private:
+    std::optional<net::TextQueue> own_; // nullopt: stdout
+    net::TextQueue& queue_;
+};
+
+} // namespace hapnet::peer::monitor

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <optional>
+#include <string_view>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+namespace hapnet::net {
+
+/// Tells the service manager that started this program how it goes, as sd_notify(3) has it: systemd
+/// does with Type=notify and WatchdogSec=. Tells nobody where the environment names none. Never
+/// blocks: a message that the manager has no room for is lost.
+class ServiceManager {
+public:
+    /// Before any thread. Takes what it reads out of the environment: the programs that this one
+    /// starts do not speak for it.
+    ServiceManager();
+    ~ServiceManager();
+    ServiceManager(const ServiceManager&) = delete;
+    ServiceManager& operator=(const ServiceManager&) = delete;
+
+    void tell_ready() const { tell("READY=1"); }
+    /// From here on the manager does not ask for signs of life.
+    void tell_stopping() const { tell("STOPPING=1"); }
+    /// The loop that must not stand still has moved. Sends a sign of life when one is due, which is
+    /// twice as often as the manager asks for; call it as often as you like.
+    void tell_alive(base::TimePoint now);
+    /// When the next sign of life is due; nullopt: the manager asks for none.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_; }
+
+private:
+    void tell(std::string_view message) const;
+
+    int socket_ = -1; // -1: nobody is told
+    sockaddr_un manager_{};
+    socklen_t manager_length_ = 0;
+    base::Duration every_{};
+    std::optional<base::TimePoint> next_;
+};
+
+} // namespace hapnet::net

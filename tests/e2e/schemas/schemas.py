@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+"""Validates what the programs write against docs/formats/schemas.
+
+As a program: schemas.py FOLDER... validates all JSON in these folders, each file by the schema that
+its name stands for; one that stands for none is a fault. Exits 1 with faults, and 77 without the
+module jsonschema. Keys that a schema does not list are faults here, though not to its users: later
+versions may add some.
+"""
+
+import json
+import re
+import sys
+import warnings
+from pathlib import Path
+
+try:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of newer versions: Debian 12 has 4.10
+        from jsonschema import Draft202012Validator, RefResolver
+except ImportError:
+    print("skipped: the module jsonschema is missing (Debian: python3-jsonschema)")
+    sys.exit(77)
+
+repository = Path(__file__).resolve().parents[3]
+
+# Which schema a file of a folder of results is of, by its name.
+of_files = [(r"manifest\.json", "manifest"), (r"analysis\.json", "analysis"),
+            (r"emulator\.json", "emulator"), (r"peer-\d+\.json", "peer"), (r"plan\.json", "plan"),
+            (r"(sessions|\d+-of-\d+)\.jsonl", "sessions"), (r"result\.json", "attempt"),
+            (r"peer-\d+-events\.jsonl", "events")]
+
+
+def strict(schema):
+    """The same schema, to which keys that it does not list are errors."""
+    if isinstance(schema, list):
+        return [strict(one) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    copy = {key: strict(value) for key, value in schema.items()}
+    if "properties" in copy and "additionalProperties" not in copy:
+        copy["additionalProperties"] = False
+    return copy
+
+
+def read_schemas():
+    """All of the repository, by name; each may refer to the others by the names of their files."""
+    base, suffix = "file:///schemas/", ".schema.json"  # which are read here, not there
+    files = {}
+    for path in sorted((repository / "docs/formats/schemas").glob("*" + suffix)):
+        schema = json.loads(path.read_text())
+        Draft202012Validator.check_schema(schema)
+        files[base + path.name] = strict(schema)
+    return {url.removeprefix(base).removesuffix(suffix):
+            Draft202012Validator(schema, resolver=RefResolver(url, schema, store=files))
+            for url, schema in files.items()}
+
+
+validators = read_schemas()
+
+
+def faults_in(name, document):
+    """What keeps a document from being as the schema of this name says."""
+    faults = []
+    for error in validators[name].iter_errors(document):
+        # Of several forms, the one that it nearly has.
+        while error.context:
+            forms = {}
+            for one in error.context:
+                forms.setdefault(one.schema_path[0], []).append(one)
+            error = min(forms.values(), key=len)[0]
+        faults.append(f"{'.'.join(map(str, error.absolute_path))}: {error.message[:200]}")
+    return faults
+
+
+def faults_in_file(path):
+    """Likewise for a file, line by line where it is one of lines; and how many it has."""
+    name = next((schema for pattern, schema in of_files if re.fullmatch(pattern, path.name)), None)
+    if name is None:
+        return [f"{path}: no schema is for files of this name"], 0
+    text = path.read_text()
+    parts = text.splitlines() if path.suffix == ".jsonl" else [text]
+    faults = [f"{path}: {fault}" for part in parts for fault in faults_in(name, json.loads(part))]
+    return faults, len(parts)
+
+
+def faults_in_folder(folder):
+    """Likewise for all of a folder; and how many documents it has."""
+    faults, documents = [], 0
+    for path in sorted(Path(folder).rglob("*.json*")):
+        found, count = faults_in_file(path)
+        faults += found
+        documents += count
+    return faults, documents
+
+
+if __name__ == "__main__":
+    for folder in sys.argv[1:]:
+        found, documents = faults_in_folder(folder)
+        for fault in found:
+            print("FAULT", fault)
+        if found or documents == 0:
+            sys.exit(f"{folder}: {len(found)} faults in {documents} documents")
+        print(f"{folder}: {documents} documents validated")
