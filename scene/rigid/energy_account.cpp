@@ -178,8 +178,9 @@ double EnergyAccount::turning_slack(const Tick& tick, const BodyTick& body, cons
     if (!body.has_moved) {
         double spin =
             std::max(before, length(motion.spin + motion.spin_forced + share * motion.spin_change));
-        // It turns by so much that its spin at the end is another one.
-        if (wobble * spin * tick.config.tick > 1.0 - certainly)
+        // It may turn by so much that its spin at the end is another one.
+        const double angle = spin * tick.config.tick;
+        if (angle <= followed_turn && wobble * angle > 1.0 - certainly)
             spin = std::max(before, length(spin_at_end(tick, body, momentum)));
         return certainly * wobble * std::min(spin * tick.config.tick, followed_turn) * spin * given;
     }
