@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <glm/vec3.hpp>
 
 namespace hapnet::scene {
@@ -15,6 +16,14 @@ namespace hapnet::scene {
 using Two = double __attribute__((vector_size(16)));
 
 [[nodiscard]] inline Two both(double a) { return Two{a, a}; }
+/// Of two numbers side by side, wherever they are.
+[[nodiscard]] inline Two two_of(const double* from)
+{
+    Two two;
+    std::memcpy(&two, from, sizeof two);
+    return two;
+}
+inline void put_two(Two two, double* to) { std::memcpy(to, &two, sizeof two); }
 [[nodiscard]] inline Two swapped(Two a) { return Two{a[1], a[0]}; }
 [[nodiscard]] inline Two sizes(Two a)
 {

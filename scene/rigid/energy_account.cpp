@@ -26,6 +26,10 @@ constexpr double far_turn = 0.25;
 
 // What keeps this share of its velocities loses hardly any motion.
 constexpr double hardly_slowed = 0.99;
+// What is slowed may gain less than before: so much of its energy too much is settled, a tenth of
+// what energy_tolerance leaves. That takes three rounds or so.
+constexpr double nearly_settled = 1e-8;
+constexpr int slowing_rounds_max = 16;
 
 void count(Interventions& interventions, double share)
 {
@@ -111,6 +115,27 @@ EnergyAccount::BodyTick EnergyAccount::moved_tick_of(const Tick& tick, Slot slot
     return body;
 }
 
+/// The same, were all velocities at the end so much slower.
+EnergyAccount::BodyTick EnergyAccount::slowed(BodyTick body, double slowing)
+{
+    body.end_velocity *= slowing;
+    body.end_angular_momentum *= slowing;
+    return body;
+}
+
+/// With an angular momentum, and with the inertia that the body has where it comes to.
+glm::dvec3 EnergyAccount::spin_at_end(const Tick& tick, const BodyTick& body,
+                                      const glm::dvec3& momentum)
+{
+    const Bodies& bodies = tick.state.bodies;
+    const glm::dquat orientation =
+        body.has_moved ? bodies.orientation.at(body.slot)
+                       : placement_at_end(*body.integration, bodies, body.slot,
+                                          tick.solver.mean_motion(body.slot + 1), tick.config.tick)
+                             .orientation;
+    return Bodies::apply_inverse_inertia(bodies.properties[body.slot], orientation, momentum);
+}
+
 EnergyAccount::Motion EnergyAccount::motion_of(const Tick& tick, const BodyTick& body)
 {
     const Bodies& bodies = tick.state.bodies;
@@ -149,16 +174,18 @@ double EnergyAccount::turning_slack(const Tick& tick, const BodyTick& body, cons
     constexpr double certainly = 0.9;
     const double given = share * length(motion.angular);
     const double before = length(motion.spin);
+    const glm::dvec3 momentum = body.angular_momentum + motion.twist + share * motion.angular;
     if (!body.has_moved) {
-        const double spin =
+        double spin =
             std::max(before, length(motion.spin + motion.spin_forced + share * motion.spin_change));
+        // It may turn by so much that its spin at the end is another one.
+        const double angle = spin * tick.config.tick;
+        if (angle <= followed_turn && wobble * angle > 1.0 - certainly)
+            spin = std::max(before, length(spin_at_end(tick, body, momentum)));
         return certainly * wobble * std::min(spin * tick.config.tick, followed_turn) * spin * given;
     }
     // Touches push at their moment, with the inertia that the body has then.
-    const glm::dvec3 momentum = body.angular_momentum + motion.twist + share * motion.angular;
-    const double spin =
-        std::max(before, length(Bodies::apply_inverse_inertia(
-                             properties, tick.state.bodies.orientation.at(body.slot), momentum)));
+    const double spin = std::max(before, length(spin_at_end(tick, body, momentum)));
     const double angle = spin * tick.config.tick;
     const double slack = wobble * angle * spin * given;
     if (angle <= far_turn) return certainly * slack;
@@ -172,7 +199,8 @@ double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, con
 {
     const double radius = length(tick.state.bodies.properties[body.slot].half);
     const glm::dvec3 velocity = body.velocity + motion.forced + share * motion.change;
-    const glm::dvec3 spin = motion.spin + motion.spin_forced + share * motion.spin_change;
+    const glm::dvec3 spin =
+        spin_at_end(tick, body, body.angular_momentum + motion.twist + share * motion.angular);
     const double fastest = std::max(length(body.velocity) + radius * length(motion.spin),
                                     length(velocity) + radius * length(spin));
     return body.integration->grips.given(share, fastest);
@@ -202,12 +230,13 @@ void EnergyAccount::Balance::add(const Balance& other)
     is_settled = is_settled && other.is_settled;
 }
 
-void EnergyAccount::Balance::slow()
+bool EnergyAccount::Balance::slow()
 {
     const double excess = gain.at(1.0) - (stored + given + detour);
-    if (!is_held || excess > (1.0 - hardly_slowed * hardly_slowed) * kinetic) return;
-    slowing = std::sqrt(1.0 - excess / kinetic);
-    is_settled = true;
+    const double slower = slowing * std::sqrt(1.0 - excess / kinetic);
+    if (!is_held || !(slower >= hardly_slowed)) return false;
+    slowing = slower;
+    return true;
 }
 
 double EnergyAccount::Balance::share_within() const
@@ -418,16 +447,50 @@ void EnergyAccount::sum_islands(const Tick& tick, std::span<const Slot> slots)
     leave_joined(tick.solver.joints());
 }
 
+/// Finds how much slower the islands have to become that are held and gained little. What may be
+/// gained shrinks with that, too: what grips give, and what is not followed of what turns.
+template <typename TickOf>
+void EnergyAccount::slow_held(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot)
+{
+    bool any = false;
+    for (const Slot slot : slots) {
+        Balance& island = balances_[slot + 1];
+        island.is_slowing =
+            islands_.root_of(slot + 1) == slot + 1 && island.is_exceeded() && island.slow();
+        any = any || island.is_slowing;
+    }
+    for (int round = 1; any; ++round) {
+        for (const Slot slot : slots) {
+            Balance& island = balances_[slot + 1];
+            if (island.is_slowing) island = island.emptied();
+        }
+        for (const Slot slot : slots) {
+            Balance& island = balances_[islands_.root_of(slot + 1)];
+            if (island.is_slowing)
+                island.add(balance_of(tick, slowed(tick_of_slot(slot), island.slowing)));
+        }
+        any = false;
+        for (const Slot slot : slots) {
+            Balance& island = balances_[slot + 1];
+            if (!island.is_slowing) continue;
+            island.is_slowing = false;
+            if (!island.is_held || !island.is_exceeded(nearly_settled * island.kinetic)) continue;
+            island.is_slowing = any = true;
+            if (round < slowing_rounds_max && island.slow()) continue;
+            // It would take more: then its impulses pay, from what it was.
+            island.slowing = 1.0;
+            island.is_held = false;
+        }
+    }
+}
+
 template <typename TickOf>
 void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
                                 TickOf&& tick_of_slot)
 {
     sum_islands(tick, slots);
     find_held(tick);
-    for (const Slot slot : slots) {
-        Balance& island = balances_[slot + 1];
-        if (islands_.root_of(slot + 1) == slot + 1 && island.is_exceeded()) island.slow();
-    }
+    slow_held(tick, slots, tick_of_slot);
     // What may be gained shrinks with the share: with that of hands, and of what turns.
     for (int round = 0; round < share_rounds_max; ++round) {
         bool any = false;

@@ -69,14 +69,27 @@ private:
         double slowing = 1.0;    // of all velocities at the end
         bool is_held = false;    // by something fixed, and nothing that moves by itself
         bool is_settled = false; // there is nothing to be looked at
+        bool is_slowing = false; // how much slower it has to become is being looked for
 
         void add(const Balance& other);
-        [[nodiscard]] bool is_exceeded() const
+        /// Without its sums.
+        [[nodiscard]] Balance emptied() const
         {
-            return gain.at(share) > stored + given + detour && !is_settled;
+            Balance empty;
+            empty.share = share;
+            empty.slowing = slowing;
+            empty.is_held = is_held;
+            empty.is_slowing = is_slowing;
+            return empty;
         }
-        /// Keeps the impulses and slows what is held, where that takes hardly any of its motion.
-        void slow();
+        /// By more than so much, J.
+        [[nodiscard]] bool is_exceeded(double by = 0.0) const
+        {
+            return gain.at(share) > stored + given + detour + by && !is_settled;
+        }
+        /// Slows what is held further, where that takes hardly any of its motion; whether it does.
+        /// Its impulses are kept.
+        [[nodiscard]] bool slow();
         /// The share with which it is not, were what is given so much for its share.
         [[nodiscard]] double share_within() const;
     };
@@ -84,6 +97,9 @@ private:
     [[nodiscard]] static BodyTick tick_of(const Tick& tick, Slot slot);
     [[nodiscard]] static BodyTick moved_tick_of(const Tick& tick, Slot slot,
                                                 const ContinuousCollision& touches);
+    [[nodiscard]] static BodyTick slowed(BodyTick body, double slowing);
+    [[nodiscard]] static glm::dvec3 spin_at_end(const Tick& tick, const BodyTick& body,
+                                                const glm::dvec3& momentum);
     [[nodiscard]] static Motion motion_of(const Tick& tick, const BodyTick& body);
     [[nodiscard]] static double turning_slack(const Tick& tick, const BodyTick& body,
                                               const Motion& motion, double share);
@@ -97,6 +113,8 @@ private:
     void sum_islands(const Tick& tick, std::span<const Slot> slots);
     void leave_joined(const JointSolver& joints);
     void find_held(const Tick& tick);
+    template <typename TickOf>
+    void slow_held(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
     template <typename TickOf>
     void find_shares(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
     template <typename Scale>

@@ -6,17 +6,6 @@
 
 namespace hapnet::scene {
 
-namespace {
-
-double product(const double* a, const double* b, std::size_t size)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < size; ++i) sum += a[i] * b[i];
-    return sum;
-}
-
-} // namespace
-
 Anderson::Anderson(std::size_t size_max) : size_max_{size_max}
 {
     last_step_.reserve(size_max);
@@ -67,14 +56,26 @@ void Anderson::learn(std::span<const double> in, std::span<const double> out)
             result[i] = out[i] - last_result_[i];
         }
         const std::size_t columns = std::min(seen_, depth);
-        for (std::size_t other = 0; other < columns; ++other) {
-            products_[column][other] = products_[other][column] =
-                product(step, step_change(other), size_);
-        }
+        const std::array<double, depth> its = products_with(step);
+        for (std::size_t other = 0; other < columns; ++other)
+            products_[column][other] = products_[other][column] = its[other];
     }
     for (std::size_t i = 0; i < size_; ++i) last_step_[i] = out[i] - in[i];
     std::copy(out.begin(), out.end(), last_result_.begin());
     ++seen_;
+}
+
+/// With each column of steps_. A sum waits for itself at every step, so they go side by side, also
+/// those of columns that are not known yet.
+std::array<double, Anderson::depth> Anderson::products_with(const double* one) const
+{
+    std::array<double, depth> sums{};
+    const double* const steps = steps_.data();
+    for (std::size_t i = 0; i < size_; ++i) {
+        for (std::size_t column = 0; column < depth; ++column)
+            sums[column] += one[i] * steps[column * size_ + i];
+    }
+    return sums;
 }
 
 /// Of the columns, so that with them taken away the last step is shortest.
@@ -83,11 +84,12 @@ std::array<double, Anderson::depth> Anderson::weights()
     const std::size_t columns = std::min(seen_ - 1, depth);
     Square<depth> matrix{};
     std::array<double, depth> wanted{};
+    const std::array<double, depth> missed = products_with(last_step_.data());
     // The newest first: of columns that depend on each other it is the one that counts.
     const auto column_of = [&](std::size_t age) { return (seen_ - 2 - age) % depth; };
     for (std::size_t i = 0; i < columns; ++i) {
         for (std::size_t j = 0; j <= i; ++j) matrix[i][j] = products_[column_of(i)][column_of(j)];
-        wanted[i] = product(step_change(column_of(i)), last_step_.data(), size_);
+        wanted[i] = missed[column_of(i)];
     }
     const std::array<double, depth> by_age = Ldl<depth>{matrix}.solve(wanted);
     std::array<double, depth> weight{};

@@ -38,6 +38,7 @@ private:
     [[nodiscard]] double* step_change(std::size_t column) { return &steps_[column * size_]; }
     [[nodiscard]] double* result_change(std::size_t column) { return &results_[column * size_]; }
     void learn(std::span<const double> in, std::span<const double> out);
+    [[nodiscard]] std::array<double, depth> products_with(const double* one) const;
     [[nodiscard]] std::array<double, depth> weights();
 
     std::size_t size_max_;

@@ -31,8 +31,8 @@ Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
 bool is_new(BlockFactors& factors, const PointSet& set)
 {
     std::uint32_t& known = factors.sets[set.count - 1];
-    const bool is_new = known != set.bits();
-    known = set.bits();
+    const bool is_new = known != set.bits;
+    known = set.bits;
     return is_new;
 }
 
@@ -80,7 +80,7 @@ PointSet outermost(const ContactBlock& block, const PlaneFit& fit)
     return two;
 }
 
-/// The largest response of the slip to friction: no step of one over it overshoots.
+/// The largest response of the slip to friction.
 double slip_response(const ContactBlock& block)
 {
     const double arm = block.torsion_arm;
@@ -90,6 +90,16 @@ double slip_response(const ContactBlock& block)
     const double across = std::abs(m[4][3]);
     return std::max({m[3][3] + across + coupled_1, m[4][4] + across + coupled_2,
                      m[5][5] * arm * arm + coupled_1 + coupled_2});
+}
+
+/// A step of friction over the slip that does not overshoot.
+double slip_step(ContactBlock& block)
+{
+    double& step = block.factors.slip_step;
+    if (step > 0.0) return step;
+    const double most = slip_response(block);
+    step = most > 0.0 ? 1.0 / most : 0.0;
+    return step;
 }
 
 using Friction = std::array<double, 3>; // along the tangents, and torsion over its arm
@@ -128,7 +138,11 @@ public:
     /// Sticking contact. False when something would pull or friction would pass its limit.
     bool stick(double tolerance);
     /// Slipping or frictionless contact: the normal impulses for the friction as it is.
-    void push(double tolerance);
+    void push(double tolerance)
+    {
+        set_given();
+        push_for_friction(tolerance);
+    }
     /// Slipping contact, in at most that many rounds. False when friction does not reach its limit.
     bool slip(double tolerance, int rounds_max);
 
@@ -144,18 +158,18 @@ private:
     void hold_few(const PointSet& set);
     template <std::size_t points, std::size_t frictions>
     void hold_exactly(const PointSet& set);
-    /// The first velocities without the normal impulses.
-    [[nodiscard]] ContactVector given() const
+    /// Finds the first velocities without the normal impulses: once for each friction.
+    void set_given()
     {
         const auto& m = block_.matrix;
-        ContactVector velocity{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            velocity[i] =
-                free_[i] + (m[i][3] * modal_[3] + m[i][4] * modal_[4] + m[i][5] * modal_[5]);
-        }
-        return velocity;
+        put_two(two_of(&free_[0]) +
+                    (both(modal_[3]) * two_of(&m[3][0]) + both(modal_[4]) * two_of(&m[4][0]) +
+                     both(modal_[5]) * two_of(&m[5][0])),
+                &given_[0]);
+        given_[2] = free_[2] + (m[2][3] * modal_[3] + m[2][4] * modal_[4] + m[2][5] * modal_[5]);
     }
-    void set_normals(const PointSet& set);
+    void push_for_friction(double tolerance);
+    void set_normals();
     void set_friction(double tangent_1, double tangent_2, double torsion)
     {
         answer_.tangent_1 = modal_[3] = tangent_1;
@@ -178,7 +192,8 @@ private:
     ContactBlock& block_;
     ContactVector modal_; // the answer
     ContactVector free_;
-    ContactVector now_; // with the answer
+    ContactVector now_;     // with the answer
+    ContactVector given_{}; // see set_given()
     ContactImpulse answer_;
     bool is_at_limit_ = false;
     bool has_settled_ = false;
@@ -186,41 +201,42 @@ private:
 
 PointSet Trial::pushing(double tolerance) const
 {
-    PointSet set;
-    for (std::uint32_t i = 0; i < block_.count; ++i) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < manifold_points_max; ++i) {
         const double speed = block_.normal_speed(now_, i) - block_.speed_min[i];
-        if (answer_.normal[i] > 0.0 || speed < -tolerance) set.add(i);
+        const auto pushes = static_cast<std::uint32_t>(answer_.normal[i] > 0.0);
+        const auto has_to = static_cast<std::uint32_t>(speed < -tolerance);
+        bits |= (pushes | has_to) << i;
     }
-    return set;
+    return PointSet::of(bits & ((1U << block_.count) - 1U)); // what is beyond is no point
 }
 
 PointSet Trial::without_pulling(const PointSet& set) const
 {
-    PointSet rest;
-    for (std::uint32_t i = 0; i < set.count; ++i) {
-        if (answer_.normal[set.at[i]] > 0.0) rest.add(set.at[i]);
-    }
-    return rest;
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < manifold_points_max; ++i)
+        bits |= static_cast<std::uint32_t>(answer_.normal[i] > 0.0) << i;
+    return PointSet::of(bits & set.bits);
 }
 
-void Trial::set_normals(const PointSet& set)
+void Trial::set_normals()
 {
     modal_[0] = modal_[1] = modal_[2] = 0.0;
-    for (std::uint32_t i = 0; i < set.count; ++i) {
-        const std::size_t at = set.at[i];
-        modal_[0] += answer_.normal[at];
-        modal_[1] += block_.along_2[at] * answer_.normal[at];
-        modal_[2] -= block_.along_1[at] * answer_.normal[at];
+    for (std::size_t i = 0; i < manifold_points_max; ++i) { // those that do not push add nothing
+        modal_[0] += answer_.normal[i];
+        modal_[1] += block_.along_2[i] * answer_.normal[i];
+        modal_[2] -= block_.along_1[i] * answer_.normal[i];
     }
 }
 
 void Trial::move_normals()
 {
-    const ContactVector before = given();
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto& row = block_.matrix[i];
-        now_[i] = before[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2]);
-    }
+    const auto& m = block_.matrix;
+    put_two(two_of(&given_[0]) +
+                (both(modal_[0]) * two_of(&m[0][0]) + both(modal_[1]) * two_of(&m[1][0]) +
+                 both(modal_[2]) * two_of(&m[2][0])),
+            &now_[0]);
+    now_[2] = given_[2] + (m[2][0] * modal_[0] + m[2][1] * modal_[1] + m[2][2] * modal_[2]);
 }
 
 void Trial::move_tangents()
@@ -235,7 +251,7 @@ void Trial::move_tangents()
 template <std::size_t points, std::size_t frictions>
 void Trial::hold_exactly(const PointSet& set)
 {
-    const ContactVector before = frictions > 0 ? free_ : given();
+    const ContactVector& before = frictions > 0 ? free_ : given_;
     std::array<double, points + frictions> wanted{};
     for (std::size_t i = 0; i < points; ++i) {
         wanted[i] = block_.speed_min[set.at[i]] - block_.normal_speed(before, set.at[i]);
@@ -248,7 +264,7 @@ void Trial::hold_exactly(const PointSet& set)
         set_friction(unknown[points], unknown[points + 1],
                      frictions > 2 ? unknown[points + frictions - 1] : 0.0);
     }
-    set_normals(set);
+    set_normals();
 }
 
 template <bool sticks>
@@ -267,7 +283,7 @@ void Trial::hold_all(const PlaneFit& fit)
 {
     const std::array<double, 3> least = fit.modal_least(block_.speed_min);
     const Ldl<6>& factors = whole_factors(block_);
-    const ContactVector before = sticks ? free_ : given();
+    const ContactVector& before = sticks ? free_ : given_;
     const std::array<double, 3> wanted{least[0] - before[0], least[1] - before[1],
                                        least[2] - before[2]};
     answer_.normal = {};
@@ -279,7 +295,7 @@ void Trial::hold_all(const PlaneFit& fit)
     } else {
         fit.spread(factors.solve(wanted), answer_.normal);
     }
-    set_normals(fit.set());
+    set_normals();
 }
 
 template <bool sticks>
@@ -288,6 +304,7 @@ void Trial::hold_points(const PointSet& set)
     if (set.count == 0) {
         answer_ = {};
         modal_ = {};
+        set_given();
     } else if (set.count <= 2) {
         hold_few<sticks>(set);
     } else if (const PlaneFit& fit = fit_of(block_, set); fit.is_flat()) {
@@ -317,6 +334,7 @@ bool Trial::stick(double tolerance)
 /// Whether the points are at their least speeds or faster, with the answer as it is.
 bool Trial::opens(double tolerance)
 {
+    set_given();
     move_normals();
     for (std::uint32_t i = 0; i < block_.count; ++i) {
         if (block_.normal_speed(now_, i) - block_.speed_min[i] < -tolerance) return false;
@@ -324,7 +342,7 @@ bool Trial::opens(double tolerance)
     return true;
 }
 
-void Trial::push(double tolerance)
+void Trial::push_for_friction(double tolerance)
 {
     PointSet set = pushing(tolerance);
     for (std::uint32_t round = 0; round < 2 * manifold_points_max; ++round) {
@@ -360,21 +378,21 @@ double Trial::slip_once(double step)
         for (double& part : f) part *= share;
     }
     set_friction(f[0], f[1], f[2] * arm);
+    set_given();
     move_normals();
     return std::max({std::abs(f[0] - was[0]), std::abs(f[1] - was[1]), std::abs(f[2] - was[2])});
 }
 
 bool Trial::slip(double tolerance, int rounds_max)
 {
-    const double most = slip_response(block_);
-    const double step = most > 0.0 ? 1.0 / most : 0.0;
+    const double step = slip_step(block_);
     constexpr double settled = 1e-14; // of the impulses: rounding
     push(tolerance);
     bool reached = false;
     for (int round = 0; round < rounds_max; ++round) {
         const double change = slip_once(step);
         reached = is_at_limit_;
-        push(tolerance);
+        push_for_friction(tolerance);
         has_settled_ = change <= settled * normal_sum();
         if (has_settled_) return reached;
     }
@@ -404,11 +422,11 @@ double dissipative_share(const ContactBlock& block, const Trial& trial)
     return energy.at(1.0) <= rounding * energy.square ? 1.0 : energy.share_of_least();
 }
 
-ContactVector finish(ContactBlock& block, Trial& trial, const Trial& start)
+ContactVector finish(ContactBlock& block, Trial& trial, const ContactVector& start)
 {
     if (const double share = dissipative_share(block, trial); !(share >= 1.0)) trial.scale(share);
     block.impulse = trial.answer();
-    return minus(trial.impulse(), start.impulse());
+    return minus(trial.impulse(), start);
 }
 
 } // namespace
@@ -462,16 +480,19 @@ ContactVector solve(ContactBlock& block, const ContactVector& velocity, double t
 {
     if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
     const double still = std::max(tolerance, rounding_of(block, velocity));
-    const Trial start{block, velocity};
     constexpr int rounds = 8;
     // A block that slipped at the end of the last tick mostly slips on.
     const bool slips = is_slipping(block, velocity, still);
-    Trial slipping = start;
-    if (slips && slipping.slip(still, rounds) && slipping.has_settled())
-        return finish(block, slipping, start);
-    Trial sticking = start;
-    if (sticking.stick(still)) return finish(block, sticking, start);
-    if (!slips) slipping.slip(still, rounds);
+    Trial first{block, velocity};
+    const ContactVector start = first.impulse();
+    if (slips) {
+        if (first.slip(still, rounds) && first.has_settled()) return finish(block, first, start);
+        Trial sticking{block, velocity};
+        return finish(block, sticking.stick(still) ? sticking : first, start);
+    }
+    if (first.stick(still)) return finish(block, first, start);
+    Trial slipping{block, velocity};
+    slipping.slip(still, rounds);
     return finish(block, slipping, start);
 }
 
@@ -479,25 +500,27 @@ ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double
 {
     if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
     const double still = std::max(tolerance, rounding_of(block, velocity));
-    const Trial start{block, velocity};
-    Trial slipping = start;
     // A block that slipped mostly slips on.
     bool& slipped = block.factors.slipped;
-    if (slipped && slipping.slip(still, 1)) return finish(block, slipping, start);
-    Trial sticking = start;
-    if (sticking.stick(still)) {
-        slipped = false;
-        return finish(block, sticking, start);
+    Trial first{block, velocity};
+    const ContactVector start = first.impulse();
+    if (slipped) {
+        if (first.slip(still, 1)) return finish(block, first, start);
+        Trial sticking{block, velocity};
+        slipped = !sticking.stick(still);
+        return finish(block, slipped ? first : sticking, start);
     }
-    if (!slipped) slipping.slip(still, 1);
+    if (first.stick(still)) return finish(block, first, start);
     slipped = true;
+    Trial slipping{block, velocity};
+    slipping.slip(still, 1);
     return finish(block, slipping, start);
 }
 
 ContactVector solve_normals(ContactBlock& block, const ContactVector& velocity, double tolerance)
 {
-    const Trial start{block, velocity};
-    Trial trial = start;
+    Trial trial{block, velocity};
+    const ContactVector start = trial.impulse();
     trial.push(std::max(tolerance, rounding_of(block, velocity)));
     return finish(block, trial, start);
 }

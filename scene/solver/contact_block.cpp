@@ -357,6 +357,7 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
     block.has_matrix = true;
     block.factors.has_whole = block.factors.slipped = false;
     block.factors.sets = {};
+    block.factors.slip_step = 0.0;
 }
 
 EnergyOfShare energy_of(const ContactBlock& block, const ContactVector& impulse,

@@ -5,6 +5,7 @@
 #include "scene/collide/manifold.hpp"
 #include "scene/collide/pairs.hpp"
 #include "scene/maths/energy_share.hpp"
+#include "scene/maths/lanes.hpp"
 #include "scene/solver/ldl.hpp"
 #include "scene/solver/plane_fit.hpp"
 
@@ -60,7 +61,8 @@ struct BlockFactors {
     std::array<Ldl<5>, 2> few{};
     std::array<PlaneFit, 2> fits{};
     bool has_whole = false;
-    bool slipped = false; // when last looked at
+    bool slipped = false;   // when last looked at
+    double slip_step = 0.0; // of friction over the slip; 0: not known
 };
 
 /// One manifold to be solved as a whole: up to four points that push, and friction as one vector
@@ -182,13 +184,14 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
 [[nodiscard]] EnergyOfShare energy_of(const ContactBlock& block, const ContactVector& impulse,
                                       const ContactVector& velocity);
 
+/// Of a block's matrix, whose columns are its rows: so two numbers are worked on at once.
 [[nodiscard]] inline ContactVector times(const Square<6>& matrix, const ContactVector& impulse)
 {
     ContactVector velocity;
-    for (std::size_t i = 0; i < 6; ++i) {
-        const auto& row = matrix[i];
-        velocity[i] = row[0] * impulse[0] + row[1] * impulse[1] + row[2] * impulse[2] +
-                      row[3] * impulse[3] + row[4] * impulse[4] + row[5] * impulse[5];
+    for (std::size_t i = 0; i < 6; i += 2) {
+        Two sum = both(impulse[0]) * two_of(&matrix[0][i]);
+        for (std::size_t j = 1; j < 6; ++j) sum += both(impulse[j]) * two_of(&matrix[j][i]);
+        put_two(sum, &velocity[i]);
     }
     return velocity;
 }

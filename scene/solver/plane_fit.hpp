@@ -15,17 +15,28 @@ using PointNumbers = std::array<double, manifold_points_max>;
 /// Which of the points push, in their order.
 struct PointSet {
     std::array<std::uint8_t, manifold_points_max> at{};
-    std::uint32_t count = 0;
+    std::uint16_t count = 0;
+    std::uint16_t bits = 0; // one for each
 
-    void add(std::uint32_t point) { at[count++] = static_cast<std::uint8_t>(point); }
-    /// A bit for each.
-    [[nodiscard]] std::uint32_t bits() const
+    constexpr void add(std::uint32_t point)
     {
-        std::uint32_t sum = 0;
-        for (std::uint32_t i = 0; i < count; ++i) sum |= 1U << at[i];
-        return sum;
+        at[count++] = static_cast<std::uint8_t>(point);
+        bits = static_cast<std::uint16_t>(bits | 1U << point);
     }
+    [[nodiscard]] static constexpr const PointSet& of(std::uint32_t bits);
 };
+
+/// All sets: to be looked up, as building one takes a branch for each point.
+inline constexpr auto point_sets = [] {
+    std::array<PointSet, 1U << manifold_points_max> sets{};
+    for (std::uint32_t bits = 0; bits < sets.size(); ++bits) {
+        for (std::uint32_t point = 0; point < manifold_points_max; ++point)
+            if ((bits >> point & 1U) != 0) sets[bits].add(point);
+    }
+    return sets;
+}();
+
+constexpr const PointSet& PointSet::of(std::uint32_t bits) { return point_sets[bits]; }
 
 /// A plane over the tangents through numbers given at three or four points: the numbers' best fit,
 /// and for impulses of a given sum and moment those of the least squares.
@@ -75,12 +86,11 @@ public:
         double mean = 0.0;
         double u_moment = 0.0;
         double v_moment = 0.0;
-        for (std::uint32_t i = 0; i < set_.count; ++i) {
-            const double value = least[set_.at[i]];
-            mean += value;
-            u_moment += u_[i] * value;
-            v_moment += v_[i] * value;
-        }
+        for_points([&](std::size_t i, std::size_t at) {
+            mean += least[at];
+            u_moment += u_[i] * least[at];
+            v_moment += v_[i] * least[at];
+        });
         mean *= share_;
         const auto [u, v] = slope(u_moment, v_moment);
         return {mean - u * middle_1_ - v * middle_2_, v, -u};
@@ -91,12 +101,22 @@ public:
         const auto [u, v] =
             slope(-total[2] - total[0] * middle_1_, total[1] - total[0] * middle_2_);
         const double mean = total[0] * share_;
-        for (std::uint32_t i = 0; i < set_.count; ++i) {
-            impulse[set_.at[i]] = mean + u * u_[i] + v * v_[i];
-        }
+        for_points(
+            [&](std::size_t i, std::size_t at) { impulse[at] = mean + u * u_[i] + v * v_[i]; });
     }
 
 private:
+    /// Calls visit(which of the set, which of all) for the three or four points, in loops whose
+    /// lengths are known.
+    template <typename Visit>
+    void for_points(Visit visit) const
+    {
+        if (set_.count == manifold_points_max) {
+            for (std::size_t i = 0; i < manifold_points_max; ++i) visit(i, i);
+        } else {
+            for (std::size_t i = 0; i + 1 < manifold_points_max; ++i) visit(i, set_.at[i]);
+        }
+    }
     [[nodiscard]] std::array<double, 2> slope(double u_moment, double v_moment) const
     {
         return {u_by_u_ * u_moment + u_by_v_ * v_moment, u_by_v_ * u_moment + v_by_v_ * v_moment};
