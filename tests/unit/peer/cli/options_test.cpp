@@ -163,7 +163,8 @@ TEST(PeerOptions, SayWhatDoesNotFitACircle)
     expect_words(refusal_to_circle({}), "--scene paper has room for 2 hands");
     expect_words(refusal_to_circle({}), "use --task T7, or --scene carry");
     EXPECT_EQ(refusal_to_circle({"--task", "T7", "--algorithm", "sep"}),
-              "--algorithm sep is for two peers: more than two play with base or remote-proxy");
+              "--algorithm sep is for two peers: more than two play with another one, such as "
+              "base or remote-proxy");
     EXPECT_EQ(refusal_to_circle({"--task", "T7", "--peer", "2=127.0.0.1:7"}),
               "--peer 2: this peer is named twice");
     expect_words(refusal_to_circle({"--task", "T7", "--id", "3"}), "--peer 3: this is the id of");
