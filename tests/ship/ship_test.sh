@@ -115,7 +115,8 @@ nothing_left hapnet-emulator
 # The emulator alone, built in another bare root as docs/use/build.md says, with what it installs.
 mkdir "$root.build/root/clone"
 git -c safe.directory='*' -C "$repository" ls-files -z |
-    tar -C "$repository" --null --ignore-failed-read -T - -c | tar -C "$root.build/root/clone" -x
+    tar -C "$repository" --null --ignore-failed-read -T - -c |
+    tar -C "$root.build/root/clone" -x || fail "the sources are no clone"
 awk '
     /^<!-- not run by readme_test: .* scripts\/test.sh ship does it / { meant = 1; next }
     /^```sh$/ && meant { wanted = 1; next }
