@@ -20,9 +20,8 @@ namespace {
 constexpr double stray_max = 0.1;
 
 /// The part of a displacement or velocity along unlocked axes.
-glm::dvec3 unlocked_part(const BodyProperties& properties, const glm::dvec3& way)
+glm::dvec3 unlocked_part(const glm::dvec3& light, const glm::dvec3& way)
 {
-    const glm::dvec3& light = properties.inverse_mass;
     return {light.x > 0.0 ? way.x : 0.0, light.y > 0.0 ? way.y : 0.0, light.z > 0.0 ? way.z : 0.0};
 }
 
@@ -171,16 +170,30 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
                         glm::dvec3{0.0}};
     if (integration.drag == 0.0) return;
     // Against the drag the velocity along the plane goes exponentially to where it would stay.
-    const BodyProperties& properties = state.bodies.properties[slot];
+    const glm::dvec3& light = response.inverse_mass;
     const double keeps = base::exp(-integration.drag * tick);
     const glm::dvec3 driven =
-        unlocked_part(properties, tangential_part(rate, integration.support_normal));
+        unlocked_part(light, tangential_part(rate, integration.support_normal));
     const glm::dvec3 excess =
-        unlocked_part(properties, tangential_part(before, integration.support_normal)) -
+        unlocked_part(light, tangential_part(before, integration.support_normal)) -
         driven / integration.drag;
     const glm::dvec3 lost = (1.0 - keeps) * excess;
     integration.predicted.velocity += -lost - tick * driven;
     integration.mean.velocity += lost / (integration.drag * tick) - excess - (0.5 * tick) * driven;
+}
+
+VelocityChange change_within(const BodyIntegration& integration, const BodyResponse& response,
+                             const glm::dvec3& change, double share_left, double tick)
+{
+    VelocityChange found{change, share_left * change};
+    if (integration.drag == 0.0) return found;
+    const double rate = integration.drag * tick;
+    const double keeps = base::exp(-rate * share_left);
+    const glm::dvec3 along =
+        unlocked_part(response.inverse_mass, tangential_part(change, integration.support_normal));
+    found.at_end -= (1.0 - keeps) * along;
+    found.mean += ((1.0 - keeps) / rate - share_left) * along;
+    return found;
 }
 
 BodyDynamics dynamics_of(const BodyIntegration& integration, const WorldState& state, Slot slot,
@@ -240,8 +253,8 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
     const BodyIntegration& integration = body.integration;
     const double sign = body.is_second ? 1.0 : -1.0;
     const glm::dvec3 set_start = integration.start.velocity - body.ground;
-    const glm::dvec3 slip =
-        unlocked_part(properties, set_start - glm::dot(set_start, block.normal) * block.normal);
+    const glm::dvec3 slip = unlocked_part(
+        properties.inverse_mass, set_start - glm::dot(set_start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;

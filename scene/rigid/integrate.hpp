@@ -82,6 +82,16 @@ struct HandForces {
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
                         const BodyResponse& response, const WorldConfig& config);
 
+/// What a change of a body's velocity, with a share of the tick left, is at the end and adds to the
+/// mean: along the plane that supports it drag takes from it what it takes from any velocity.
+struct VelocityChange {
+    glm::dvec3 at_end{0.0};
+    glm::dvec3 mean{0.0};
+};
+[[nodiscard]] VelocityChange change_within(const BodyIntegration& integration,
+                                           const BodyResponse& response, const glm::dvec3& change,
+                                           double share_left, double tick);
+
 /// What acts on a body with hands on it, beside those.
 [[nodiscard]] BodyDynamics dynamics_of(const BodyIntegration& integration, const WorldState& state,
                                        Slot slot, const BodyResponse& response,

@@ -79,7 +79,7 @@ struct BounceTarget {
 };
 
 /// Adds an impulse at a moment of the tick: to the velocities at once, to the mean velocities by
-/// the share of the tick that is left.
+/// the share of the tick that is left, and less of both against drag.
 void add(const BounceTarget& target, const Wrench& push, double time, double tick)
 {
     BodyMotion change;
@@ -91,9 +91,11 @@ void add(const BounceTarget& target, const Wrench& push, double time, double tic
     integration.bounce_offset.velocity -= time * change.velocity;
     integration.bounce_offset.spin -= time * change.spin;
     integration.last_bounce = time;
-    integration.predicted.velocity += change.velocity;
+    const VelocityChange later =
+        change_within(integration, target.response, change.velocity, share_left, tick);
+    integration.predicted.velocity += later.at_end;
     integration.predicted.spin += change.spin;
-    integration.mean.velocity += share_left * change.velocity;
+    integration.mean.velocity += later.mean;
     integration.mean.spin += share_left * change.spin;
     integration.bounce_angular_impulse += change.angular_impulse;
     integration.bounce_angular_impulse_mean += share_left * change.angular_impulse;

@@ -206,6 +206,16 @@ INSTANTIATE_TEST_SUITE_P(Heaps, StaleForces,
                          testing::Values(900000082, 900000732, 900001103, 900001212, 900001646,
                                          900002266, 900002621, 900004474, 900005361));
 
+/// A bounce was given whole after the drag of the tick, in a corner of two planes and off a body.
+TEST(RandomPlay, OfBouncesAgainstDragNeedsNoGuard)
+{
+    for (const std::uint64_t seed : {500400499U, 500432776U}) {
+        const PlayOutcome outcome = judge(random_play(seed), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+        EXPECT_EQ(outcome.interventions.guards(), 0U) << "seed " << seed;
+    }
+}
+
 /// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.
 class Crowds : public testing::TestWithParam<std::uint64_t> {};
 

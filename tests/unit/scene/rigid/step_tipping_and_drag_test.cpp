@@ -44,5 +44,30 @@ TEST(RigidStepper, DragActsFromTheFirstTickOnWhatIsPutOnAPlane)
     EXPECT_NEAR(world.body(0).position.x(), 0.2 * 0.01, 1e-14);
 }
 
+/// Whenever in the tick it hits the wall: what a bounce gives is dragged from then on.
+TEST(RigidStepper, DragTakesItsPartOfABounceWithinTheTick)
+{
+    Description scene = paper_scene();
+    scene.bodies.resize(1);
+    scene.bodies[0].turning = Turning::free;
+    scene.bodies[0].locked = {};
+    constexpr double speed = 0.2, restitution = 0.5;
+    scene.bodies[0].velocity = {{speed, 0.0, 0.0}};
+    scene.hands.count = 0;
+    const double rate = scene.bodies[0].drag_ns_per_m / scene.bodies[0].mass_kg;
+    constexpr double tick = 1e-3;
+    for (const double when : {0.05, 0.3, 0.6, 0.95}) {
+        Description walled = scene;
+        const double wall = walled.bodies[0].position.x() + walled.bodies[0].half.x +
+                            speed * (1.0 - std::exp(-rate * when * tick)) / rate;
+        walled.planes.push_back({"wall", {-1.0, 0.0, 0.0}, -wall, {.restitution = restitution}});
+        World world = World::freeze(walled).value();
+        world.tick();
+        const double end = -restitution * speed * std::exp(-rate * tick);
+        // That the speed falls evenly until the touch is of second order.
+        EXPECT_NEAR(world.body(0).velocity.x(), end, 0.5 * rate * rate * tick * tick * speed);
+    }
+}
+
 } // namespace
 } // namespace hapnet::scene
