@@ -76,9 +76,10 @@ std::optional<Section> axis_section(const results::Results& results)
             if (row.parameter == parameter && row.limit.impairment == impairment)
                 rows.push_back(row);
         }
-        section.add_figure(fmt::format("axis-{}-{}", parameter, impairment), axis_bars(rows),
-                           escaped(fmt::format("Limit of {} by the {}", impairment_text(impairment),
-                                               parameter_text(parameter))));
+        section.add_figure(
+            fmt::format("axis-{}-{}", parameter, impairment), axis_bars(rows),
+            escaped(fmt::format("Limit of {} by the {}, {} seeds", impairment_text(impairment),
+                                parameter_text(parameter), rows.front().limit.seeds)));
     }
     section.html += "</div>\n";
     return section;

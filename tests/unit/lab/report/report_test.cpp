@@ -154,7 +154,7 @@ TEST(Report, ShowsWhatWasNotChosenAndTheSeedsOfTwoAlgorithms)
               limit + "algorithm.dead-reckoning.velocity,sender,dead-reckoning," + limit},
          {"r/table1/paired.csv", "algorithm,reference,task,measure,seeds,difference,ci_low,ci_high,"
                                  "sign_test_p\nsep,base,T3,mean_mm,10,0.27,0.2,0.3,0.002\n"}});
-    EXPECT_TRUE(holds(page, "Limit of delay by the velocity of dead reckoning"));
+    EXPECT_TRUE(holds(page, "Limit of delay by the velocity of dead reckoning, 20 seeds"));
     EXPECT_TRUE(holds(page, ">sender</text>"));
     EXPECT_TRUE(holds(page, "<td>0.270</td><td>0.200 … 0.300</td><td>0.002</td>"));
 }
