@@ -492,13 +492,20 @@ void Play::judge_others(std::size_t index)
     }
 }
 
-/// Its hands are off, and it hears all others.
+/// Its hands are off, and it hears what all others have sent since all is well: what was on its way
+/// before may still come for seconds, and nothing overtakes it where order is kept.
 bool Play::is_settled(std::size_t index) const
 {
-    return world_.side(index).last().phase == Phase::hands_off &&
-           std::ranges::all_of(watches_[index].others, [&](const Watch::Heard& heard) {
-               return heard.arrived && world_.now() - heard.at < silent_after;
-           });
+    const VirtualPlayer& side = world_.side(index);
+    if (side.last().phase != Phase::hands_off) return false;
+    for (std::size_t i = 0; i < side.peer().others().size(); ++i) {
+        const Watch::Heard& heard = watches_[index].others[i];
+        if (!heard.arrived || world_.now() - heard.at >= silent_after) return false;
+        const VirtualPlayer& other = world_.side(i < index ? i : i + 1);
+        const base::TimePoint sent = side.peer().others()[i].remote().state()->sent;
+        if (sent - other.clock_ahead < VirtualWorld::start + attack_) return false;
+    }
+    return true;
 }
 
 /// For long enough to compare their copies; also when one of them never did.
