@@ -98,11 +98,12 @@ public:
 
     void spread(const std::array<double, 3>& total, PointNumbers& impulse) const
     {
-        const auto [u, v] =
+        const auto slopes =
             slope(-total[2] - total[0] * middle_1_, total[1] - total[0] * middle_2_);
         const double mean = total[0] * share_;
-        for_points(
-            [&](std::size_t i, std::size_t at) { impulse[at] = mean + u * u_[i] + v * v_[i]; });
+        for_points([&](std::size_t i, std::size_t at) {
+            impulse[at] = mean + slopes[0] * u_[i] + slopes[1] * v_[i];
+        });
     }
 
 private:
