@@ -145,7 +145,8 @@ std::string table_of(const PrecisionRows& rows, const std::vector<PrecisionRows>
 /// the values.
 Drawing drawn(const PrecisionRows& figure)
 {
-    const auto values = distinct(figure, [](const auto& row) { return row.value; });
+    auto values = distinct(figure, [](const auto& row) { return row.value; });
+    std::ranges::reverse(values); // the last first, mostly the finest
     const bool is_one = figure.size() == values.size();
     std::vector<plot::Curve> curves;
     const auto begin = [&](std::string_view name) {
@@ -154,10 +155,10 @@ Drawing drawn(const PrecisionRows& figure)
                           .shows_points = true});
     };
     if (is_one) begin(figure.front().parameter);
-    for (auto value = values.rbegin(); value != values.rend(); ++value) {
-        if (!is_one) begin(*value);
+    for (const auto& value : values) {
+        if (!is_one) begin(value);
         for (const results::PrecisionRow& row : figure) {
-            if (row.value == *value && row.error && *row.error > 0.0)
+            if (row.value == value && row.error && *row.error > 0.0)
                 curves.back().points.push_back({static_cast<double>(row.ticks), *row.error});
         }
     }

@@ -24,7 +24,7 @@ struct LoggedEvent {
 /// What they are called.
 [[nodiscard]] std::string_view name_of(Event event);
 /// Of a device, which has no words yet.
-[[nodiscard]] LoggedEvent event_of(const loop::TimedDeviceNews& news);
+[[nodiscard]] LoggedEvent event_of(const loop::TimedDeviceNews& timed);
 
 /// The line of an event. `start`: of the session, as far as it is known.
 [[nodiscard]] std::string line_of(const LoggedEvent& event, std::optional<base::TimePoint> start);
