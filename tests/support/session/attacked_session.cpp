@@ -30,6 +30,12 @@ using peer::Phase;
 constexpr base::Duration length = 10s; // 7 s hands on
 // With keys the two may first have to wait for 5 s, when both answered what the other has given up.
 constexpr base::Duration sealed_length = 18s;
+// How much later than at once they may begin when all is well: what was on its way comes within
+// 4 s, and then, with keys, a side whose date was set back is refused by one that has used a key of
+// a later date. It gives up after 5 s, listens for 1 s, and may begin anew, for 5 s, just before
+// the other's handshake reaches it. Only then does it answer.
+constexpr base::Duration begins_within = 10s;
+constexpr base::Duration begins_within_sealed = 4s + 11s;
 constexpr base::Duration attack_max = 8s;       // over before the hands let go
 constexpr base::Duration agree_within = 1200ms; // of hands off
 // Of 3 s hands off. A start is converted from one clock to the other once, by an echo that he may
@@ -259,6 +265,7 @@ private:
 
     Draws draw_;
     base::Duration attack_;
+    base::Duration begins_within_;
     VirtualWorld world_;
     Habits habits_;
     Mallory mallory_;
@@ -272,6 +279,7 @@ private:
 Play::Play(const Asked& asked)
     : draw_{base::Seed{asked.seed}, "attacked session"},
       attack_{2s + draw_.up_to(attack_max - 2s)},
+      begins_within_{asked.seal == Seal::keys ? begins_within_sealed : begins_within},
       world_{drawn_setting(asked, draw_, attack_),
              {.datagrams_max = asked.peers == 2 ? 16'384U : 4096U, .bytes_max = 16U << 20}},
       habits_{drawn_habits(draw_)},
@@ -360,7 +368,7 @@ AttackedSession Play::run() &&
 
 bool Play::is_over() const
 {
-    if (elapsed() > attack_ + world_.setting().length + 10s) return true;
+    if (elapsed() > attack_ + world_.setting().length + begins_within_) return true;
     if (elapsed() < attack_) return false;
     if (result_.compared) return true;
     for (std::size_t side = 0; side < sides(); ++side) {
