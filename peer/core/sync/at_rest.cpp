@@ -8,7 +8,7 @@ std::optional<Presence::Pose> AtRest::pose(base::Position body, const Presence& 
                                            const Situation& situation, const Times& times)
 {
     if (!untouched_since_) untouched_since_ = situation.now;
-    const bool waited = times.after && situation.now - *untouched_since_ >= *times.after;
+    const bool waited = has_waited(situation.now, times);
     if (!situation.yields || !waited || !remote.pose || situation.freshness <= 0.0) {
         blend_.reset();
         return std::nullopt;

@@ -29,6 +29,11 @@ public:
         const BaseOptions base;
         return {base.settle_after, base.settle_within};
     }
+    /// Whether nothing has touched it for so long that copies that yield move to the others'.
+    [[nodiscard]] bool has_waited(base::TimePoint now, const Times& times = usual()) const
+    {
+        return untouched_since_ && times.after && now - *untouched_since_ >= *times.after;
+    }
     /// To where a body that no hand touches is to be put; nullopt: it is to be left alone.
     [[nodiscard]] std::optional<Presence::Pose> pose(base::Position body, const Presence& remote,
                                                      const Situation& situation,

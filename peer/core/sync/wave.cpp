@@ -64,9 +64,13 @@ Outcome Wave::tick(scene::World& world, const Situation& situation)
 {
     const Presence remote = presence_of(situation, BaseOptions{});
     const glm::dvec3 velocity = world.velocity(situation.body).value;
+    // A copy that is put where another was answers no wave: what it takes from that one's past
+    // velocity would drive that one on for ever.
+    const bool is_closed = at_rest_.has_waited(situation.now);
     glm::dvec3 sum{0.0};
-    for (const Channel& channel : channels_) {
-        if (!channel.is_open) continue;
+    for (Channel& channel : channels_) {
+        if (is_closed) channel.incoming.reset();
+        if (!channel.is_open || is_closed) continue;
         sum -= options_.impedance_ns_per_m * velocity;
         if (channel.incoming) sum += root_ * *channel.incoming;
     }
@@ -81,7 +85,8 @@ Outcome Wave::tick(scene::World& world, const Situation& situation)
     const glm::dvec3 after = world.velocity(situation.body).value;
     for (Channel& channel : channels_) {
         const glm::dvec3 incoming = channel.incoming.value_or(glm::dvec3{0.0});
-        channel.ring[channel.sent++ % ring_max] = {situation.now, outgoing(after, incoming)};
+        const glm::dvec3 wave = is_closed ? glm::dvec3{0.0} : outgoing(after, incoming);
+        channel.ring[channel.sent++ % ring_max] = {situation.now, wave};
         channel.incoming.reset();
     }
     if (outcome.touched.touching || remote.touching) {

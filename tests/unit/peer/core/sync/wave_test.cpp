@@ -47,5 +47,23 @@ TEST(Wave, FromASenderThatHadOursIsLessByIt)
     EXPECT_NEAR(copy.tick(52.0).remote_force.x(), -10.0 * speed_then, 1e-9);
 }
 
+TEST(Wave, IsNotAnsweredWhileNoHandIsOnTheBody)
+{
+    auto copy = with_one_other();
+    const auto push_after = [&copy](double now_ms, bool touching) {
+        const auto number = static_cast<std::uint32_t>(now_ms);
+        copy.hear(
+            {.sequence = number, .sent_ms = now_ms, .speed_m_per_s = 0.1, .touching = touching},
+            now_ms);
+        return copy.tick(now_ms).remote_force.x();
+    };
+    for (double now_ms = 1.0; now_ms < 201.0; ++now_ms) ASSERT_GT(push_after(now_ms, false), 0.0);
+    for (double now_ms = 201.0; now_ms < 300.0; ++now_ms)
+        ASSERT_EQ(push_after(now_ms, false), 0.0) << now_ms;
+    static_cast<void>(push_after(300.0, true)); // touched: from the next tick on
+    const double speed = copy.speed();
+    EXPECT_NEAR(push_after(301.0, true), 2.0 * 10.0 * 0.1 - 10.0 * speed, 1e-9);
+}
+
 } // namespace
 } // namespace hapnet::peer::wave_test
