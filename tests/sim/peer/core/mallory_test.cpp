@@ -56,5 +56,19 @@ TEST(MalloryWithMessagesOfAFormerRun, KeepsNobodyInItsSession)
     expect_to_hold(5'001'246, Seal::keys);
 }
 
+// All hands were off, and the waves of copies that were put after the leader's drove that one on.
+TEST(MalloryAmongWaves, LeavesABodyThatComesToRestWhenAllHandsAreOff)
+{
+    expect_to_hold(12'001'225, Seal::none, 3);
+    expect_to_hold(12'001'010, Seal::keys, 4);
+}
+
+// One of four came back with its date a day back, and another had just answered a recorded
+// initiation: they met 11 s later.
+TEST(MalloryWithRecordedInitiations, KeepsOneOfManyOutNoLongerThanTheHandshakeAllows)
+{
+    expect_to_hold(12'001'374, Seal::keys, 4);
+}
+
 } // namespace
 } // namespace hapnet::test
