@@ -64,8 +64,8 @@ Outcome Wave::tick(scene::World& world, const Situation& situation)
 {
     const Presence remote = presence_of(situation, BaseOptions{});
     const glm::dvec3 velocity = world.velocity(situation.body).value;
-    // A copy that is put where another was answers no wave: what it takes from that one's past
-    // velocity would drive that one on for ever.
+    // A copy that is put where another was answers no wave: that one's own past velocity would come
+    // back to it and drive it on.
     const bool is_closed = at_rest_.has_waited(situation.now);
     glm::dvec3 sum{0.0};
     for (Channel& channel : channels_) {
