@@ -118,7 +118,7 @@ void MidpointRule<rubs>::set_friction(std::span<FrictionSpring> frictions) requi
 template <bool rubs>
 int MidpointRule<rubs>::substeps(double time)
 {
-    set_rows(time);
+    set_rows(PlaneDrag{dynamics_, time}, time);
     double square = 0.0;
     for (std::size_t i = 0; i < rows_; ++i) {
         const Row& row = row_[i];
@@ -139,7 +139,8 @@ std::size_t MidpointRule<rubs>::advance(double time)
     const double substep = time / count;
     const PlaneDrag drag{dynamics_, substep};
     for (int i = 0; i < count; ++i) {
-        set_rows(substep);
+        const bool are_set = !rubs && count == 1; // by substeps()
+        if (!are_set) set_rows(drag, substep);
         solve(substep);
         apply(drag, substep);
     }
@@ -147,9 +148,8 @@ std::size_t MidpointRule<rubs>::advance(double time)
 }
 
 template <bool rubs>
-void MidpointRule<rubs>::set_rows(double substep)
+void MidpointRule<rubs>::set_rows(const PlaneDrag& drag, double substep)
 {
-    const PlaneDrag drag{dynamics_, substep};
     const double half = 0.5 * substep;
     const glm::dvec3 velocity = drag.mean_velocity(body_.velocity, dynamics_.acceleration);
     const glm::dvec3 momentum = body_.angular_momentum + half * dynamics_.torque;

@@ -106,7 +106,7 @@ private:
     };
 
     [[nodiscard]] int substeps(double time);
-    void set_rows(double substep);
+    void set_rows(const PlaneDrag& drag, double substep);
     void solve(double substep);
     /// The forces at these velocities; returns how far they are from what the forces make of them.
     Six update_forces(const Six& velocities, double substep);

@@ -12,8 +12,8 @@ namespace hapnet::scene {
 PlaneDrag::PlaneDrag(const BodyDynamics& dynamics, double time)
     : time_{time}, root_of_inverse_mass_{glm::sqrt(dynamics.inverse_mass)}
 {
-    along_ = across_ = factors_of(dynamics.drag * time);
     if (dynamics.drag == 0.0) return;
+    along_ = across_ = factors_of(dynamics.drag * time);
     // Along locked axes nothing moves: of the plane's normal the rest counts.
     const glm::dvec3& light = dynamics.inverse_mass;
     const glm::dvec3& normal = dynamics.drag_normal;

@@ -35,11 +35,11 @@ public:
 
 private:
     /// With x = drag times time: exp(-x), (1 - exp(-x))/x and (x - 1 + exp(-x))/x^2.
-    struct Factors {
+    struct Factors { // without drag
         double kept = 1.0;
         double mean = 1.0;
         double moved = 0.5;
-        double root_of_moved = 0.0;
+        double root_of_moved = root_of_half;
     };
     [[nodiscard]] static Factors factors_of(double x);
     [[nodiscard]] glm::dvec3 scaled(const glm::dvec3& v, double Factors::*factor) const
@@ -47,6 +47,8 @@ private:
         const double beside = along_.*factor;
         return beside * v + ((across_.*factor - beside) * glm::dot(across_axis_, v)) * across_axis_;
     }
+
+    static constexpr double root_of_half = 0.70710678118654752440;
 
     double time_;
     glm::dvec3 root_of_inverse_mass_;

@@ -121,6 +121,14 @@ public:
           answer_{block.impulse}
     {}
 
+    /// Begins again; it was made with the same velocity.
+    void begin_again(const ContactVector& velocity, const ContactVector& start)
+    {
+        answer_ = block_.impulse;
+        modal_ = start;
+        now_ = velocity;
+        is_at_limit_ = has_settled_ = false;
+    }
     /// Whether slip() has found the answer.
     [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
@@ -188,6 +196,7 @@ private:
         return answer_.normal[0] + answer_.normal[1] + answer_.normal[2] + answer_.normal[3];
     }
     double slip_once(double step);
+    [[nodiscard]] Friction within_limit(Friction f);
 
     ContactBlock& block_;
     ContactVector modal_; // the answer
@@ -363,13 +372,9 @@ void Trial::push_for_friction(double tolerance)
     move_normals();
 }
 
-/// Moves friction toward the direction against the slip; returns by how much.
-double Trial::slip_once(double step)
+/// The largest friction in that direction, where it is more than the normal impulses allow.
+Friction Trial::within_limit(Friction f)
 {
-    const double arm = block_.torsion_arm;
-    const Friction was = scaled_friction();
-    move_tangents();
-    Friction f{was[0] - step * now_[3], was[1] - step * now_[4], was[2] - step * now_[5] * arm};
     const double limit = block_.friction * normal_sum();
     const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
     is_at_limit_ = size > limit;
@@ -377,6 +382,17 @@ double Trial::slip_once(double step)
         const double share = limit / size;
         for (double& part : f) part *= share;
     }
+    return f;
+}
+
+/// Moves friction toward the direction against the slip; returns by how much.
+double Trial::slip_once(double step)
+{
+    const double arm = block_.torsion_arm;
+    const Friction was = scaled_friction();
+    move_tangents();
+    const Friction f = within_limit(
+        {was[0] - step * now_[3], was[1] - step * now_[4], was[2] - step * now_[5] * arm});
     set_friction(f[0], f[1], f[2] * arm);
     set_given();
     move_normals();
@@ -396,7 +412,8 @@ bool Trial::slip(double tolerance, int rounds_max)
         has_settled_ = change <= settled * normal_sum();
         if (has_settled_) return reached;
     }
-    slip_once(0.0); // within the limit
+    const Friction f = within_limit(scaled_friction());
+    set_friction(f[0], f[1], f[2] * block_.torsion_arm);
     return reached;
 }
 
@@ -487,13 +504,14 @@ ContactVector solve(ContactBlock& block, const ContactVector& velocity, double t
     const ContactVector start = first.impulse();
     if (slips) {
         if (first.slip(still, rounds) && first.has_settled()) return finish(block, first, start);
-        Trial sticking{block, velocity};
+        Trial sticking = first;
+        sticking.begin_again(velocity, start);
         return finish(block, sticking.stick(still) ? sticking : first, start);
     }
     if (first.stick(still)) return finish(block, first, start);
-    Trial slipping{block, velocity};
-    slipping.slip(still, rounds);
-    return finish(block, slipping, start);
+    first.begin_again(velocity, start);
+    first.slip(still, rounds);
+    return finish(block, first, start);
 }
 
 ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double tolerance)
@@ -506,15 +524,16 @@ ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double
     const ContactVector start = first.impulse();
     if (slipped) {
         if (first.slip(still, 1)) return finish(block, first, start);
-        Trial sticking{block, velocity};
+        Trial sticking = first;
+        sticking.begin_again(velocity, start);
         slipped = !sticking.stick(still);
         return finish(block, slipped ? first : sticking, start);
     }
     if (first.stick(still)) return finish(block, first, start);
     slipped = true;
-    Trial slipping{block, velocity};
-    slipping.slip(still, 1);
-    return finish(block, slipping, start);
+    first.begin_again(velocity, start);
+    first.slip(still, 1);
+    return finish(block, first, start);
 }
 
 ContactVector solve_normals(ContactBlock& block, const ContactVector& velocity, double tolerance)

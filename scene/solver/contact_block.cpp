@@ -71,14 +71,22 @@ struct Jacobian {
     glm::dvec3 angular;
 };
 
+// Rows that push along something; the others only turn.
+constexpr std::array<std::size_t, 3> pushing_rows{0, 3, 4};
+
 void add_body(Square<6>& matrix, const std::array<Jacobian, 6>& rows, const BodyResponse& body)
 {
-    for (std::size_t i = 0; i < 6; ++i) {
+    Square<6> own{};
+    for (const std::size_t i : pushing_rows) {
         const glm::dvec3 moved = body.inverse_mass * rows[i].linear;
-        const glm::dvec3 rotated = body.inverse_inertia * rows[i].angular;
-        for (std::size_t j = 0; j <= i; ++j) {
-            matrix[i][j] += glm::dot(moved, rows[j].linear) + glm::dot(rotated, rows[j].angular);
+        for (const std::size_t j : pushing_rows) {
+            if (j <= i) own[i][j] = glm::dot(moved, rows[j].linear);
         }
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+        const glm::dvec3 rotated = body.inverse_inertia * rows[i].angular;
+        for (std::size_t j = 0; j <= i; ++j)
+            matrix[i][j] += own[i][j] + glm::dot(rotated, rows[j].angular);
     }
 }
 

@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double block_ns = 20'000.0; // long beside the clock's 30 ns, short beside a time slice
-constexpr std::size_t block_steps_max = 64;
+constexpr std::size_t block_steps_max = 256; // as long for who is fast as for who is slow
 constexpr std::size_t blocks_min = 9;
 constexpr std::size_t blocks_max = 400;
 

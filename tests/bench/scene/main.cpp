@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "tests/bench/common/options.hpp"
+#include "tests/bench/common/stages.hpp"
 #include "tests/bench/scene/crowd.hpp"
 #include "tests/bench/scene/heaps.hpp"
 #include "tests/bench/scene/instructions.hpp"
@@ -45,21 +46,36 @@ base::Result<int> measure(const Options& options)
     if (const auto missing = missing_peers(); !missing.empty()) net::say(program, missing);
     const std::vector<Subject> all = subjects();
 
+    const bool wants_points =
+        files.wants("--csv") || files.wants("--plot") || files.wants("--markdown");
+    Stages stages{program, 5 + (options.quick ? 0 : 1) + (wants_points ? 1 : 0)};
+    stages.begin("costs");
     std::vector<Row> rows = measure_costs(all, options.quick);
+    stages.begin("accuracy");
     for (const Scenario& scenario : all_scenarios(options.quick)) {
+        stages.detail(scenario.name);
         append(rows, judge(scenario, all, options.quick ? 0.03 : 0.2));
     }
+    stages.begin("how far each can be driven");
     append(rows, measure_limits(all, options.quick));
+    stages.begin("what tumbles");
     append(rows, measure_tumbling(all));
+    stages.begin("heaps");
     append(rows, measure_heaps(all, options.quick));
     append(rows, compare({"every scene above", "", "guards", 0.0},
                          std::vector<Reading>{
                              {"hapnet", own_family, static_cast<double>(hapnet_guards())}}));
-    if (!options.quick) append(rows, instructions(all));
+    if (!options.quick) {
+        stages.begin("instructions");
+        append(rows, instructions(all));
+    }
+    stages.clear();
     fmt::print("{}", rows_table(rows));
+    std::fflush(stdout);
     files.write("--json", rows_json(machine, rows));
     std::vector<WorkPoint> points;
-    if (files.wants("--csv") || files.wants("--plot") || files.wants("--markdown")) {
+    if (wants_points) {
+        stages.begin("work and precision");
         points = measure_precision(all, options.quick);
     }
     files.write("--markdown",
