@@ -556,9 +556,9 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
     const BodyMotion& surface = (is_b ? a : b).motion;
     const BodyMotion now = toucher(around, driven, time).motion;
     const double taken = 0.5 * (work_of(by, arm, (is_b ? b : a).motion) + work_of(by, arm, now));
-    departures_[bodies.slot_of[driven.body]].beginning.add_driven(
-        driven_energy(work_of(by, surface_arm, surface), taken),
-        length(surface.velocity + glm::cross(surface.spin, surface_arm)));
+    departures_[bodies.slot_of[driven.body]].beginning.driven.add(
+        {driven_energy(work_of(by, surface_arm, surface), taken),
+         length(velocity_at(surface, surface_arm))});
     return true;
 }
 

@@ -70,14 +70,7 @@ public:
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         glm::dvec3 velocity{0.0};
         glm::dvec3 angular_momentum{0.0};
-        double energy_driven = 0.0; // J: what kinematic bodies did to it since then, in touches
-        double driven_speed = 0.0;  // m/s: of their surfaces there, at most
-
-        void add_driven(double energy, double speed)
-        {
-            energy_driven += energy;
-            driven_speed = std::max(driven_speed, speed);
-        }
+        DrivenEnergy driven{}; // of kinematic bodies since then, in touches
     };
     /// Of an awake body since begin(), and of a sleeper that the last solve() changed.
     [[nodiscard]] const Beginning& beginning(Slot slot) const

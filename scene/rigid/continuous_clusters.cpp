@@ -122,8 +122,8 @@ void ContinuousCollision::stick_to_wall(const Surroundings& around, FlyerIndex i
             const glm::dvec3 mean =
                 before + 0.5 * change - (scales_.tick - time) * departures_[slot].acceleration;
             const glm::dvec3 push = bodies.properties[slot].mass * change;
-            departures_[slot].beginning.add_driven(
-                driven_energy(glm::dot(push, ground), glm::dot(push, mean)), length(ground));
+            departures_[slot].beginning.driven.add(
+                {driven_energy(glm::dot(push, ground), glm::dot(push, mean)), length(ground)});
         }
         note_push(bodies, flyer.body);
         flyer.flight.centre -= time * change;

@@ -19,6 +19,8 @@ constexpr double energy_tolerance = 9e-7;
 constexpr double speed_tolerance = 1.9;
 // Of the smallest half edge in a tick: what crosses so little is at rest.
 constexpr double rest = 0.95e-6;
+// So many times faster than surfaces that close like scissors becomes what they squeeze out.
+constexpr double squeezed_max = 5.0;
 // Radians in a tick beyond which the change of a body's inertia is not followed.
 constexpr double followed_turn = 0.3;
 // Radians in a tick beyond which the inertia at the start says little of a touch.
@@ -50,8 +52,7 @@ struct EnergyAccount::BodyTick {
     glm::dvec3 mean_velocity{0.0}; // by which it goes
     glm::dvec3 mean_spin{0.0};
     const BodyIntegration* integration = nullptr; // where something acted on it but gravity
-    double driven_in_touches = 0.0;               // J
-    double driven_speed = 0.0;                    // m/s: of the surfaces that did so, at most
+    DrivenEnergy driven{};                        // of kinematic bodies, in touches
     bool has_moved = false;
 };
 
@@ -106,8 +107,7 @@ EnergyAccount::BodyTick EnergyAccount::moved_tick_of(const Tick& tick, Slot slot
                   .end_angular_momentum = bodies.angular_momentum.at(slot),
                   .mean_velocity =
                       tick.scales.rate * (bodies.position.at(slot) - beginning.position),
-                  .driven_in_touches = beginning.energy_driven,
-                  .driven_speed = beginning.driven_speed,
+                  .driven = beginning.driven,
                   .has_moved = true};
     if (!tick.active.contains(slot)) return body;
     body.integration = &tick.integrations[slot + 1];
@@ -206,17 +206,22 @@ double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, con
     return body.integration->grips.given(share, fastest);
 }
 
-/// What kinematic bodies did to a body in touches: no more than what it has of their impulses in
-/// the end, at the speed of their surfaces. Where it is locked or wedged, impulses may be any.
-double EnergyAccount::driven_in_touches(const Tick& tick, const BodyTick& body,
-                                        const Motion& motion)
+/// What a body has of all impulses in the end, N s. Where it is locked or wedged, those of contacts
+/// may be any.
+double EnergyAccount::passed(const Tick& tick, const BodyTick& body, const Motion& motion)
 {
-    if (body.driven_in_touches <= 0.0) return body.driven_in_touches;
     const BodyProperties& properties = tick.state.bodies.properties[body.slot];
     const glm::dvec3& half = properties.half;
-    const double passed = properties.mass * length(motion.change) +
-                          length(motion.angular) / std::min({half.x, half.y, half.z});
-    return std::min(body.driven_in_touches, body.driven_speed * passed);
+    return properties.mass * length(motion.change) +
+           length(motion.angular) / std::min({half.x, half.y, half.z});
+}
+
+/// Between surfaces that close like scissors an impulse may be any: what they squeeze out becomes
+/// faster than they are, but within limits, and does not go far in the tick.
+DrivenEnergy EnergyAccount::squeezing(const Tick& tick, const DrivenEnergy& driven)
+{
+    const double far = far_way * tick.scales.least * tick.scales.rate;
+    return {driven.energy, std::max(driven.speed, std::min(squeezed_max * driven.speed, far))};
 }
 
 void EnergyAccount::Balance::add(const Balance& other)
@@ -225,14 +230,18 @@ void EnergyAccount::Balance::add(const Balance& other)
     gain.square += other.gain.square;
     stored += other.stored;
     given += other.given;
+    driven.add(other.driven);
+    passed += other.passed;
     detour += other.detour;
     kinetic += other.kinetic;
     is_settled = is_settled && other.is_settled;
 }
 
+double EnergyAccount::Balance::given_at_most() const { return given + driven.within(passed); }
+
 bool EnergyAccount::Balance::slow()
 {
-    const double excess = gain.at(1.0) - (stored + given + detour);
+    const double excess = gain.at(1.0) - (stored + given_at_most() + detour);
     const double slower = slowing * std::sqrt(1.0 - excess / kinetic);
     if (!is_held || !(slower >= hardly_slowed)) return false;
     slowing = slower;
@@ -241,7 +250,7 @@ bool EnergyAccount::Balance::slow()
 
 double EnergyAccount::Balance::share_within() const
 {
-    const EnergyOfShare own{0.0, gain.linear - given / share, gain.square};
+    const EnergyOfShare own{0.0, gain.linear - given_at_most() / share, gain.square};
     return std::min(share, own.share_within(stored));
 }
 
@@ -276,11 +285,16 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
                              glm::dot(body.end_angular_momentum, spin_at_end));
     balance.stored =
         energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
-    balance.given =
-        turning_slack(tick, body, motion, share) + share * driven_in_touches(tick, body, motion);
+    balance.given = turning_slack(tick, body, motion, share);
+    const bool any_kinematic = tick.state.bodies.moving != tick.state.bodies.movable;
+    if (any_kinematic) {
+        balance.passed = share * passed(tick, body, motion);
+        balance.given += body.driven.scaled(share).within(balance.passed);
+    }
     if (body.integration == nullptr) return balance;
     balance.stored += body.integration->hand_energy_stored;
-    balance.given += share * body.integration->energy_driven;
+    balance.given += share * body.integration->hand_energy_driven;
+    if (any_kinematic) balance.driven = squeezing(tick, body.integration->driven.scaled(share));
     if (body.integration->grips.impulse > 0.0)
         balance.given += given_by_grips(tick, body, motion, share);
     return balance;
@@ -377,6 +391,7 @@ void EnergyAccount::cut_ways(const Tick& tick, const ContinuousCollision& touche
 {
     Bodies& bodies = tick.state.bodies;
     double fastest = 0.0; // m/s, of all at the start and at the end
+    double driven = 0.0;  // m/s, of kinematic surfaces in touches
     double there = 0.0;   // J, at the start
     for (const Slot slot : moved_) {
         const BodyTick body = moved_tick_of(tick, slot, touches);
@@ -384,16 +399,17 @@ void EnergyAccount::cut_ways(const Tick& tick, const ContinuousCollision& touche
         const glm::dvec3 spin =
             Bodies::apply_inverse_inertia(properties, body.orientation, body.angular_momentum);
         const double radius = length(properties.half);
+        driven = std::max(driven, body.driven.speed);
         fastest =
-            std::max({fastest, body.driven_speed, length(body.velocity) + radius * length(spin),
+            std::max({fastest, driven, length(body.velocity) + radius * length(spin),
                       length(body.end_velocity) + radius * length(bodies.angular_velocity(slot))});
         there += 0.5 * (properties.mass * glm::dot(body.velocity, body.velocity) +
                         glm::dot(body.angular_momentum, spin));
     }
+    if (driven == 0.0) return;
     constexpr double cornerwise = 2.0;
     touches.for_changed(bodies, [&](Slot slot) {
         const ContinuousCollision::Beginning& beginning = touches.beginning(slot);
-        if (!(beginning.driven_speed > 0.0)) return;
         const BodyProperties& properties = bodies.properties[slot];
         const double beyond =
             tick.scales.rate *
@@ -528,7 +544,8 @@ bool EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots,
         scale(slot, share, slowing);
         if (!tick.active.contains(slot)) continue;
         BodyIntegration& integration = tick.integrations[slot + 1];
-        integration.energy_driven *= share;
+        integration.hand_energy_driven *= share;
+        integration.driven = integration.driven.scaled(share);
         integration.grips.scale(share);
         if (integration.has_hands)
             tick.hands.scale_impulses(tick.state.bodies.properties[slot].id, share);

@@ -58,16 +58,18 @@ private:
     struct Motion;
     /// Of a body, or the sum over an island, J, with a share of the impulses.
     struct Balance {
-        EnergyOfShare gain;      // less the work of gravity, pushes and torques
-        double stored = 0.0;     // what may be gained without impulses: what springs held, rounding
-        double given = 0.0;      // what by the impulses: by grips, by the motion of hands and of
-                                 // kinematic bodies, by what is not followed of a turning inertia
-        double detour = 0.0;     // of gravity, pushes and torques where the way is not the mean
-                                 // velocity's
-        double share = 1.0;      // of the impulses
-        double kinetic = 0.0;    // J, at the end
-        double slowing = 1.0;    // of all velocities at the end
-        bool is_held = false;    // by something fixed, and nothing that moves by itself
+        EnergyOfShare gain;   // less the work of gravity, pushes and torques
+        double stored = 0.0;  // what may be gained without impulses: what springs held, rounding
+        double given = 0.0;   // what by the impulses: by grips, by the motion of hands, by touches
+                              // of kinematic bodies, by what is not followed of a turning inertia
+        DrivenEnergy driven;  // in contacts with kinematic bodies
+        double passed = 0.0;  // N s, of the impulses
+        double detour = 0.0;  // of gravity, pushes and torques where the way is not the mean
+                              // velocity's
+        double share = 1.0;   // of the impulses
+        double kinetic = 0.0; // J, at the end
+        double slowing = 1.0; // of all velocities at the end
+        bool is_held = false; // by something fixed, and nothing that moves by itself
         bool is_settled = false; // there is nothing to be looked at
         bool is_slowing = false; // how much slower it has to become is being looked for
 
@@ -82,10 +84,12 @@ private:
             empty.is_slowing = is_slowing;
             return empty;
         }
+        /// J, by the impulses.
+        [[nodiscard]] double given_at_most() const;
         /// By more than so much, J.
         [[nodiscard]] bool is_exceeded(double by = 0.0) const
         {
-            return gain.at(share) > stored + given + detour + by && !is_settled;
+            return gain.at(share) > stored + given_at_most() + detour + by && !is_settled;
         }
         /// Slows what is held further, where that takes hardly any of its motion; whether it does.
         /// Its impulses are kept.
@@ -105,8 +109,9 @@ private:
                                               const Motion& motion, double share);
     [[nodiscard]] static double given_by_grips(const Tick& tick, const BodyTick& body,
                                                const Motion& motion, double share);
-    [[nodiscard]] static double driven_in_touches(const Tick& tick, const BodyTick& body,
-                                                  const Motion& motion);
+    [[nodiscard]] static double passed(const Tick& tick, const BodyTick& body,
+                                       const Motion& motion);
+    [[nodiscard]] static DrivenEnergy squeezing(const Tick& tick, const DrivenEnergy& driven);
     [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body,
                                             double share = 1.0);
     void join_islands(const Tick& tick, std::span<const Slot> slots);

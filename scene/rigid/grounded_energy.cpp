@@ -38,7 +38,7 @@ void GroundedEnergy::leave_pushed(const ContinuousCollision& touches) const
             if (active.contains(slot)) integrations[slot + 1].is_grounded = false;
     });
     touches.for_changed(bodies, [&](Slot slot) {
-        if (active.contains(slot) && touches.beginning(slot).driven_speed > 0.0)
+        if (active.contains(slot) && touches.beginning(slot).driven.speed > 0.0)
             integrations[slot + 1].is_grounded = false;
     });
 }

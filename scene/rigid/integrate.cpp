@@ -111,7 +111,8 @@ void reset(BodyIntegration& integration)
     integration.has_hands = false;
     integration.is_joined = false;
     integration.hand_energy_stored = 0.0;
-    integration.energy_driven = 0.0;
+    integration.hand_energy_driven = 0.0;
+    integration.driven = {};
     integration.grips.impulse = 0.0;
     integration.first_touch.time = std::numeric_limits<double>::infinity();
 }
@@ -122,7 +123,8 @@ void begin_again(BodyIntegration& integration, const glm::dvec3& twist)
     integration.contact_angular_impulse = twist;
     integration.bounce_angular_impulse = glm::dvec3{0.0};
     integration.bounce_angular_impulse_mean = glm::dvec3{0.0};
-    integration.energy_driven = 0.0;
+    integration.hand_energy_driven = 0.0;
+    integration.driven = {};
 }
 
 void begin_bounces(BodyIntegration& integration)
@@ -229,7 +231,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
             : advance_with_friction(body, dynamics, {hands.springs, hands.frictions, hands.work},
                                     config.tick);
     integration.hand_energy_stored = energy.stored;
-    integration.energy_driven = energy.driven;
+    integration.hand_energy_driven = energy.driven;
     integration.grips = energy.grips;
     integration.hands_are_braked = energy.is_braked;
     integration.hand_rows = energy.rows;

@@ -6,6 +6,7 @@
 #include "scene/hand/advance.hpp"
 #include "scene/hand/friction.hpp"
 #include "scene/maths/vector.hpp"
+#include "scene/rigid/driven_energy.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
 
@@ -40,7 +41,8 @@ struct BodyIntegration {
     glm::dvec3 support_normal{0.0};              // its normal
     FirstTouch first_touch;                      // of those met on its way
     bool is_joined = false;                      // a joint holds it: it goes where that lets it
-    double energy_driven = 0.0; // J: work of the own motion of hands and of kinematic bodies
+    double hand_energy_driven = 0.0;             // J: work of the own motion of hands
+    DrivenEnergy driven{};                       // of kinematic bodies, in contacts
 
     bool is_grounded = false; // see GroundedEnergy, for these four
     bool meets_another = false;

@@ -140,8 +140,8 @@ void JointEnergy::add(const Tick& tick, Slot slot)
             work += tick.config.tick *
                     glm::dot(about_unlocked_axes(properties, tick.state.torques[properties.id]),
                              tick.solver.mean_motion(slot + 1).spin);
-        given = integration.hand_energy_stored + integration.energy_driven +
-                given_by_grips(integration, bodies, slot);
+        given = integration.hand_energy_stored + integration.hand_energy_driven +
+                integration.driven.energy + given_by_grips(integration, bodies, slot);
     }
     island.gain += now - from.energy - work - given;
     island.there += now + from.energy + std::abs(work) + std::abs(given);

@@ -18,6 +18,15 @@ bool is_at_rest(const BodyMotion& motion)
     return motion.velocity == glm::dvec3{0.0} && motion.spin == glm::dvec3{0.0};
 }
 
+/// How far a change agrees with the mean of what changes: 1 where that is midway, 0 where the mean
+/// is so far off that it would have to become faster than at both ends.
+double agreement(const glm::dvec3& start, const glm::dvec3& mean, const glm::dvec3& end)
+{
+    const double gain = length(end - start);
+    const double off = length(start + end - 2.0 * mean);
+    return off < gain ? 1.0 - off / gain : 0.0;
+}
+
 /// Where in its period something is at a time: 0..1.
 double phase_at(double time, double period)
 {
@@ -30,8 +39,7 @@ double phase_at(double time, double period)
 BodyMotion KinematicTick::motion_at(double time, double tick) const
 {
     const double share = time / tick - 0.5;
-    return {mean.velocity + share * (end.velocity - start.velocity),
-            mean.spin + share * (end.spin - start.spin), glm::dvec3{0.0}};
+    return {mean.velocity + share * gain.velocity, mean.spin + share * gain.spin, glm::dvec3{0.0}};
 }
 
 void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
@@ -47,6 +55,7 @@ void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
         const glm::dquat turned = bodies.orientation.at(slot);
         now.start = {bodies.velocity.at(slot), bodies.angular_momentum.at(slot), glm::dvec3{0.0}};
         now.end = now.mean = now.start;
+        bool is_placed = false;
         now.position = {from + tick * now.start.velocity};
         now.orientation = is_at_rest(now.start) ? turned : rotated(turned, tick * now.start.spin);
         switch (script.kind) {
@@ -69,7 +78,14 @@ void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
             now.mean.velocity = (now.position.value - from) / tick;
             now.mean.spin = turn_between(turned, now.orientation) / tick;
             script.kind = KinematicScript::Kind::steady;
+            is_placed = true;
             break;
+        }
+        now.gain.velocity = now.end.velocity - now.start.velocity;
+        now.gain.spin = now.end.spin - now.start.spin;
+        if (is_placed) {
+            now.gain.velocity *= agreement(now.start.velocity, now.mean.velocity, now.end.velocity);
+            now.gain.spin *= agreement(now.start.spin, now.mean.spin, now.end.spin);
         }
         now.moves = !is_at_rest(now.start) || !is_at_rest(now.mean) || !is_at_rest(now.end);
         const double across = length(bodies.properties[slot].half);
@@ -95,13 +111,6 @@ void Kinematics::begin_contacts(const Bodies& bodies, ContactSolver& solver,
     }
 }
 
-double driven_energy(double given, double taken)
-{
-    // What pushes a body at rest gives it all that it gains, but for rounding.
-    constexpr double rounding = 1e-12;
-    return std::min(given, taken + rounding * std::abs(taken));
-}
-
 namespace {
 
 /// From the centres of two that touch to where they do.
@@ -119,9 +128,13 @@ void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integra
         const BodyMotion& end = solver.end_motion(body);
         const double taken =
             0.5 * (work_of(push, arms.of_body, start) + work_of(push, arms.of_body, end));
-        const double given = std::max(work_of(push, arms.of_surface, integrations[by].mean),
-                                      work_of(push, arms.of_surface, integrations[by].predicted));
-        integrations[body].energy_driven += driven_energy(given, taken);
+        const BodyMotion& mean = integrations[by].mean;
+        const BodyMotion& at_end = integrations[by].predicted;
+        const double given =
+            std::max(work_of(push, arms.of_surface, mean), work_of(push, arms.of_surface, at_end));
+        integrations[body].driven.add(
+            {driven_energy(given, taken), std::max(length(velocity_at(mean, arms.of_surface)),
+                                                   length(velocity_at(at_end, arms.of_surface)))});
     };
     for (const ContactBlock& block : solver.blocks()) {
         const bool a_drives = solver.is_kinematic(block.a);

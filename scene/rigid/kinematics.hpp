@@ -16,11 +16,12 @@ struct KinematicTick {
     BodyMotion start;
     BodyMotion end;
     BodyMotion mean;
+    BodyMotion gain;           // from start to end, as far as that agrees with the mean
     base::Position position{}; // at the end
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     bool moves = false;
 
-    /// In the tick: its mean, and about that what it gains from start to end.
+    /// In the tick: its mean, and about that what it gains.
     [[nodiscard]] BodyMotion motion_at(double time, double tick) const;
 };
 
@@ -52,11 +53,6 @@ private:
     bool any_far_ = false;
     Scratch<KinematicTick> ticks_;
 };
-
-/// Of the work, J, of an impulse on the surface of a kinematic body the other gets no more than it
-/// takes by its own motion: what cannot follow, because it is locked or wedged, gets no energy, and
-/// its impulse may be any.
-[[nodiscard]] double driven_energy(double given, double taken);
 
 /// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
 /// as constant over the tick, or as a blow at its end: whichever is more.

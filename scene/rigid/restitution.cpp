@@ -78,6 +78,12 @@ struct BounceTarget {
     glm::dvec3 arm;
 };
 
+/// The kinematic body that throws it.
+struct BounceSurface {
+    const BodyIntegration& integration;
+    glm::dvec3 arm;
+};
+
 /// Adds an impulse at a moment of the tick: to the velocities at once, to the mean velocities by
 /// the share of the tick that is left, and less of both against drag.
 void add(const BounceTarget& target, const Wrench& push, double time, double tick)
@@ -99,6 +105,28 @@ void add(const BounceTarget& target, const Wrench& push, double time, double tic
     integration.mean.spin += share_left * change.spin;
     integration.bounce_angular_impulse += change.angular_impulse;
     integration.bounce_angular_impulse_mean += share_left * change.angular_impulse;
+}
+
+/// A body's motion when so much of the tick has gone by, after `from` at its start.
+BodyMotion motion_at(double share, const BodyMotion& from, const BodyMotion& to)
+{
+    return {from.velocity + share * (to.velocity - from.velocity),
+            from.spin + share * (to.spin - from.spin), glm::dvec3{0.0}};
+}
+
+/// Adds what the motion of a kinematic body does while it throws one that has not bounced yet.
+void add_driven(const BounceTarget& target, const BounceSurface& surface, const Wrench& push,
+                double share)
+{
+    BodyIntegration& integration = target.integration;
+    BodyMotion motion = motion_at(share, integration.start_after_bounces, integration.predicted);
+    double taken = 0.5 * work_of(push, target.arm, motion);
+    apply(push, target.arm, target.response, motion);
+    taken += 0.5 * work_of(push, target.arm, motion);
+    const BodyMotion thrower =
+        motion_at(share, surface.integration.start, surface.integration.predicted);
+    integration.driven.add({driven_energy(work_of(push, surface.arm, thrower), taken),
+                            length(velocity_at(thrower, surface.arm))});
 }
 
 /// The share of an impulse that leaves the energy at most what it was. Points that bounce by
@@ -202,26 +230,17 @@ double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
     block.bounce_impulse = change[0];
     const Wrench on_b = wrench(block, change);
     const Wrench on_a{-on_b.impulse, -on_b.angular};
-    // What the motion of a kinematic body does while it throws the other.
-    const auto driven = [&](const BodyIntegration& other, const glm::dvec3& arm,
-                            const Wrench& push) {
-        return work_of(
-            push, arm,
-            {other.start.velocity + share * (other.predicted.velocity - other.start.velocity),
-             other.start.spin + share * (other.predicted.spin - other.start.spin),
-             glm::dvec3{0.0}});
-    };
     if (solver.responds(block.b)) {
-        BodyIntegration& b = integrations[block.b];
-        add({b, solver.response(block.b), block.arm_b}, on_b, first.time, scales.tick);
+        const BounceTarget b{integrations[block.b], solver.response(block.b), block.arm_b};
         if (solver.is_kinematic(block.a))
-            b.energy_driven += driven(integrations[block.a], block.arm_a, on_b);
+            add_driven(b, {integrations[block.a], block.arm_a}, on_b, share);
+        add(b, on_b, first.time, scales.tick);
     }
     if (solver.responds(block.a)) {
-        BodyIntegration& a = integrations[block.a];
-        add({a, solver.response(block.a), block.arm_a}, on_a, first.time, scales.tick);
+        const BounceTarget a{integrations[block.a], solver.response(block.a), block.arm_a};
         if (solver.is_kinematic(block.b))
-            a.energy_driven += driven(integrations[block.b], block.arm_b, on_a);
+            add_driven(a, {integrations[block.b], block.arm_b}, on_a, share);
+        add(a, on_a, first.time, scales.tick);
     }
     return kept_share;
 }

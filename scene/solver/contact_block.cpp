@@ -328,8 +328,7 @@ Wrench wrench(const ContactBlock& block, const ContactVector& impulse)
 
 double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion)
 {
-    return glm::dot(push.impulse, motion.velocity + glm::cross(motion.spin, arm)) +
-           glm::dot(push.angular, motion.spin);
+    return glm::dot(push.impulse, velocity_at(motion, arm)) + glm::dot(push.angular, motion.spin);
 }
 
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,

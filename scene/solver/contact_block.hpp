@@ -173,6 +173,11 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
 /// What an impulse on a body does while the other side moves so: J. `arm` is from that one's
 /// centre.
 [[nodiscard]] double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion);
+/// Of a point so far from the centre.
+[[nodiscard]] inline glm::dvec3 velocity_at(const BodyMotion& motion, const glm::dvec3& arm)
+{
+    return motion.velocity + glm::cross(motion.spin, arm);
+}
 /// On one body: `arm` from its centre to the anchor.
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
            BodyMotion& motion);

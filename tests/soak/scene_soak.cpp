@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_scene FIRST COUNT [joints]: plays the random scenes of the seeds FIRST .. FIRST + COUNT - 1
-// under the laws; with `joints`, each with joints between its bodies. Prints every seed that breaks
-// one, and at the end the worst of each, and how often the ticks had to step in. With
-// HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits 0 when none is broken.
+// soak_scene FIRST COUNT [joints|compounds]: plays the random scenes of the seeds FIRST ..
+// FIRST + COUNT - 1 under the laws; with `joints`, each with joints between its bodies, with
+// `compounds`, of bodies of several parts. Prints every seed that breaks one, and at the end the
+// worst of each, and how often the ticks had to step in. With HAPNET_SOAK_GUARDS set, also every
+// seed in which a guard acted. Exits 0 when none is broken.
 //
 // soak_scene --worst FIRST COUNT [BODIES]: of the same scenes with at most so many movable bodies
 // (8) prints the ticks that take longest.

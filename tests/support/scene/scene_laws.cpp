@@ -4,6 +4,7 @@
 
 #include "proto/base/random.hpp"
 #include "scene/fields.hpp"
+#include "scene/maths/rotation.hpp"
 #include "scene/query.hpp"
 #include "tests/support/scene/dice.hpp"
 
@@ -331,11 +332,14 @@ double SceneLaws::turning_slack(const BodyDescription& form, const Moment& was, 
            spinning_range(form, now.angular_momentum);
 }
 
-/// The work of a torque that is held for the tick, with the inertia as it is before it; and, as
-/// with forces, what it adds to the spin twice.
+/// The work of a torque that is held for the tick: over the mean of the spins, with the inertia as
+/// it is before it or as it becomes, or over the angle that the body really turned; and, as with
+/// forces, what it adds to the spin twice.
 void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const Moment& was,
-                           const Moment& now, const glm::dvec3& twist)
+                           const Moment& now, const glm::dvec3& torque) const
 {
+    const double tick = base::to_seconds(play_.options.tick);
+    const glm::dvec3 twist = tick * torque;
     const auto spin_of = [&](const glm::dvec3& momentum) {
         const glm::dvec3 inertia = scene::inertia_of(form);
         if (form.turning != Turning::free) return momentum / inertia_about_axes(form);
@@ -346,7 +350,9 @@ void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const 
         0.5 * glm::dot(twist, spin_of(was.angular_momentum) + spin_of(now.angular_momentum));
     const double went =
         0.5 * glm::dot(twist, was.state.angular_velocity + now.state.angular_velocity);
-    balance.work += std::max(held, went);
+    const double over_turn =
+        glm::dot(torque, scene::turn_between(was.state.orientation, now.state.orientation));
+    balance.work += std::max({held, went, over_turn});
     constexpr double miss = 2.0;
     balance.slack += miss * miss * glm::dot(twist, spin_of(twist));
     balance.angular += length(twist);
@@ -383,7 +389,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     balance.kinetic_after += 0.5 * mass * glm::dot(v1, v1) + spinning;
     balance.work += std::max(glm::dot(force, steady), glm::dot(force, moved));
     const glm::dvec3 torque = steady_torque(world, id);
-    if (torque != glm::dvec3{0.0}) add_torque(balance, form, was, now, tick * torque);
+    if (torque != glm::dvec3{0.0}) add_torque(balance, form, was, now, torque);
     const double least = least_half(form);
     balance.passed += length(mass * (v1 - v0) - tick * force) +
                       length(now.angular_momentum - was.angular_momentum - tick * torque) / least;

@@ -85,8 +85,8 @@ private:
     [[nodiscard]] glm::dvec3 steady_force(const scene::World& world, scene::BodyId id,
                                           bool sleeps) const;
     [[nodiscard]] glm::dvec3 steady_torque(const scene::World& world, scene::BodyId id) const;
-    static void add_torque(Balance& balance, const scene::BodyDescription& form, const Moment& was,
-                           const Moment& now, const glm::dvec3& twist);
+    void add_torque(Balance& balance, const scene::BodyDescription& form, const Moment& was,
+                    const Moment& now, const glm::dvec3& torque) const;
     void add_driven(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
                                               const Moment& now, double angle);

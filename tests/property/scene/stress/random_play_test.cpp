@@ -112,7 +112,14 @@ INSTANTIATE_TEST_SUITE_P(RandomPlayOfElements, Scars,
                                          Scar{elements_from + 4001, "DrivenFarAlongItsLocks"},
                                          Scar{elements_from + 4137,
                                               "HurriedByAStiffFieldIntoTheFloor"},
-                                         Scar{elements_from + 20869, "PressedTogetherByAField"}),
+                                         Scar{elements_from + 20869, "PressedTogetherByAField"},
+                                         Scar{3000000003259, "TwistedWhileItTurnsBackInABounce"},
+                                         Scar{3000000011760, "SqueezedOutAsIfByScissors"},
+                                         Scar{3000000032474, "SqueezedOutAmongLocked"},
+                                         Scar{3000000026946, "ThrownByOneThatIsPutElsewhere"},
+                                         Scar{3000000052886, "DrivenFarBesideOthers"},
+                                         Scar{3000000035222, "SqueezedOutAmongOthers"},
+                                         Scar{3200000041501, "SqueezedOutSlowly"}),
                          [](const auto& each) { return std::string{each.param.name}; });
 
 INSTANTIATE_TEST_SUITE_P(

@@ -105,6 +105,37 @@ TEST(Kinematic, AWallThatComesTakesACubeAlongOrThrowsItTwiceAsFast)
     }
 }
 
+/// A smooth ball between two smooth plates, one of which closes: where they meet it by the angle a,
+/// it goes out by the speed over tan(a).
+TEST(Kinematic, TwoThatCloseLikeScissorsSqueezeABallOutFasterThanTheyAre)
+{
+    constexpr double angle = 0.3, speed = 0.02, radius = 0.02;
+    Description scene;
+    scene.gravity = glm::dvec3{0.0};
+    scene.hands.count = 0;
+    BodyDescription ball{.name = "ball", .shape = Shape::sphere};
+    ball.half = glm::dvec3{radius};
+    ball.material = {0.0, 0.0};
+    scene.bodies.push_back(ball);
+    for (const bool closes : {false, true}) {
+        BodyDescription plate{.name = closes ? "closes" : "stays", .movable = false};
+        plate.kinematic = closes;
+        plate.half = {1.0, 0.01, 1.0};
+        plate.material = {0.0, 0.0};
+        const double turn = closes ? 0.5 * angle : -0.5 * angle;
+        plate.orientation = {std::cos(0.5 * turn), 0.0, 0.0, std::sin(0.5 * turn)};
+        const glm::dvec3 up = plate.orientation * glm::dvec3{0.0, closes ? 1.0 : -1.0, 0.0};
+        plate.position = {(radius + 0.01) * up};
+        if (closes) plate.velocity = {-speed * up};
+        scene.bodies.push_back(plate);
+    }
+    World world = world_of(scene);
+    for (int i = 0; i < 100; ++i) world.tick();
+    EXPECT_EQ(world.state().interventions.guards(), 0U);
+    // Along the middle, by the half of the closing over the sine of the half angle.
+    EXPECT_NEAR(std::abs(world.velocity(0).x()), 0.5 * speed / std::sin(0.5 * angle), 1e-3 * speed);
+}
+
 TEST(Kinematic, ALiftCarriesWhatItAcceleratesAndAContactTellsTheLoad)
 {
     Description scene = plate_with_cube();
