@@ -19,8 +19,10 @@ constexpr double energy_tolerance = 9e-7;
 constexpr double speed_tolerance = 1.9;
 // Of the smallest half edge in a tick: what crosses so little is at rest.
 constexpr double rest = 0.95e-6;
-// So many times faster than surfaces that close like scissors becomes what they squeeze out.
+// Surfaces that close like scissors squeeze out what becomes so many times faster, but does not go
+// farther than so many smallest half edges in a tick, unless they do: beyond that it leaves them.
 constexpr double squeezed_max = 5.0;
+constexpr double squeezed_way = 0.05;
 // Radians in a tick beyond which the change of a body's inertia is not followed.
 constexpr double followed_turn = 0.3;
 // Radians in a tick beyond which the inertia at the start says little of a touch.
@@ -216,12 +218,12 @@ double EnergyAccount::passed(const Tick& tick, const BodyTick& body, const Motio
            length(motion.angular) / std::min({half.x, half.y, half.z});
 }
 
-/// Between surfaces that close like scissors an impulse may be any: what they squeeze out becomes
-/// faster than they are, but within limits, and does not go far in the tick.
+/// By which speed kinematic bodies count: between surfaces that close like scissors an impulse may
+/// be any.
 DrivenEnergy EnergyAccount::squeezing(const Tick& tick, const DrivenEnergy& driven)
 {
-    const double far = far_way * tick.scales.least * tick.scales.rate;
-    return {driven.energy, std::max(driven.speed, std::min(squeezed_max * driven.speed, far))};
+    const double most = squeezed_way * tick.scales.least * tick.scales.rate;
+    return {driven.energy, std::max(driven.speed, std::min(squeezed_max * driven.speed, most))};
 }
 
 void EnergyAccount::Balance::add(const Balance& other)
@@ -289,12 +291,13 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
     const bool any_kinematic = tick.state.bodies.moving != tick.state.bodies.movable;
     if (any_kinematic) {
         balance.passed = share * passed(tick, body, motion);
-        balance.given += body.driven.scaled(share).within(balance.passed);
+        const DrivenEnergy touches = body.driven.scaled(share);
+        balance.driven = {touches.within(balance.passed), touches.speed};
     }
     if (body.integration == nullptr) return balance;
     balance.stored += body.integration->hand_energy_stored;
     balance.given += share * body.integration->hand_energy_driven;
-    if (any_kinematic) balance.driven = squeezing(tick, body.integration->driven.scaled(share));
+    if (any_kinematic) balance.driven.add(squeezing(tick, body.integration->driven.scaled(share)));
     if (body.integration->grips.impulse > 0.0)
         balance.given += given_by_grips(tick, body, motion, share);
     return balance;

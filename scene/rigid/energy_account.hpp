@@ -60,9 +60,9 @@ private:
     struct Balance {
         EnergyOfShare gain;   // less the work of gravity, pushes and torques
         double stored = 0.0;  // what may be gained without impulses: what springs held, rounding
-        double given = 0.0;   // what by the impulses: by grips, by the motion of hands, by touches
-                              // of kinematic bodies, by what is not followed of a turning inertia
-        DrivenEnergy driven;  // in contacts with kinematic bodies
+        double given = 0.0;   // what by the impulses: by grips, by the motion of hands, by what is
+                              // not followed of a turning inertia
+        DrivenEnergy driven;  // by kinematic bodies
         double passed = 0.0;  // N s, of the impulses
         double detour = 0.0;  // of gravity, pushes and torques where the way is not the mean
                               // velocity's

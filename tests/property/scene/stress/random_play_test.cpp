@@ -103,24 +103,24 @@ TEST_P(Scars, StayHealed)
     EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
 }
 
-INSTANTIATE_TEST_SUITE_P(RandomPlayOfElements, Scars,
-                         testing::Values(Scar{elements_from + 958, "DrivenAgainstALockedBody"},
-                                         Scar{elements_from + 657, "DrivenInAHeap"},
-                                         Scar{elements_from + 1028, "DrivenAmongSlow"},
-                                         Scar{elements_from + 1273, "ThrownOffARoughHand"},
-                                         Scar{elements_from + 1821, "ThrownOffAStiffRoughHand"},
-                                         Scar{elements_from + 4001, "DrivenFarAlongItsLocks"},
-                                         Scar{elements_from + 4137,
-                                              "HurriedByAStiffFieldIntoTheFloor"},
-                                         Scar{elements_from + 20869, "PressedTogetherByAField"},
-                                         Scar{3000000003259, "TwistedWhileItTurnsBackInABounce"},
-                                         Scar{3000000011760, "SqueezedOutAsIfByScissors"},
-                                         Scar{3000000032474, "SqueezedOutAmongLocked"},
-                                         Scar{3000000026946, "ThrownByOneThatIsPutElsewhere"},
-                                         Scar{3000000052886, "DrivenFarBesideOthers"},
-                                         Scar{3000000035222, "SqueezedOutAmongOthers"},
-                                         Scar{3200000041501, "SqueezedOutSlowly"}),
-                         [](const auto& each) { return std::string{each.param.name}; });
+INSTANTIATE_TEST_SUITE_P(
+    RandomPlayOfElements, Scars,
+    testing::Values(
+        Scar{elements_from + 958, "DrivenAgainstALockedBody"},
+        Scar{elements_from + 657, "DrivenInAHeap"}, Scar{elements_from + 1028, "DrivenAmongSlow"},
+        Scar{elements_from + 1273, "ThrownOffARoughHand"},
+        Scar{elements_from + 1821, "ThrownOffAStiffRoughHand"},
+        Scar{elements_from + 4001, "DrivenFarAlongItsLocks"},
+        Scar{elements_from + 4137, "HurriedByAStiffFieldIntoTheFloor"},
+        Scar{elements_from + 20869, "PressedTogetherByAField"},
+        Scar{3000000003259, "TwistedWhileItTurnsBackInABounce"},
+        Scar{3000000011760, "SqueezedOutAsIfByScissors"},
+        Scar{3000000032474, "SqueezedOutAmongLocked"},
+        Scar{3000000026946, "ThrownByOneThatIsPutElsewhere"},
+        Scar{3000000052886, "DrivenFarBesideOthers"}, Scar{3000000035222, "SqueezedOutAmongOthers"},
+        Scar{3200000041501, "SqueezedOutSlowly"}, Scar{3200000056236, "SqueezedOutByOneThatTurns"},
+        Scar{3200000071674, "SqueezedOutAtOnce"}, Scar{3300000017772, "ThrownAndSqueezedAtOnce"}),
+    [](const auto& each) { return std::string{each.param.name}; });
 
 INSTANTIATE_TEST_SUITE_P(
     RandomPlay, Scars,
