@@ -6,6 +6,7 @@
 #include "scene/collide/advancement.hpp"
 #include "scene/collide/pair_finder.hpp"
 #include "scene/rigid/cluster.hpp"
+#include "scene/rigid/driven_energy.hpp"
 #include "scene/rigid/flight.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/kinematics.hpp"

@@ -19,8 +19,12 @@ constexpr double energy_tolerance = 9e-7;
 constexpr double speed_tolerance = 1.9;
 // Of the smallest half edge in a tick: what crosses so little is at rest.
 constexpr double rest = 0.95e-6;
-// Surfaces that close like scissors squeeze out what becomes so many times faster, but does not go
-// farther than so many smallest half edges in a tick, unless they do: beyond that it leaves them.
+// Two surfaces that close at a small angle squeeze a body out faster than they move, without limit
+// as the angle goes to 0. For the work of contacts the speed of a surface counts as up to so many
+// times what it is, but not as more than so many smallest half edges in a tick, unless it is faster
+// itself: what goes farther leaves them within the tick. Both were found by random scenes with
+// every element, 100 000 each from seeds 3.0e12, 3.1e12 and 3.2e12 on: more lets bodies gain, less
+// stops fair ones.
 constexpr double squeezed_max = 5.0;
 constexpr double squeezed_way = 0.05;
 // Radians in a tick beyond which the change of a body's inertia is not followed.
@@ -208,8 +212,8 @@ double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, con
     return body.integration->grips.given(share, fastest);
 }
 
-/// What a body has of all impulses in the end, N s. Where it is locked or wedged, those of contacts
-/// may be any.
+/// The momentum that all impulses of the tick left in a body, N s, angular momentum as linear at
+/// its smallest half edge. Impulses that cancel, of locks and wedges, do not count.
 double EnergyAccount::passed(const Tick& tick, const BodyTick& body, const Motion& motion)
 {
     const BodyProperties& properties = tick.state.bodies.properties[body.slot];
@@ -218,9 +222,8 @@ double EnergyAccount::passed(const Tick& tick, const BodyTick& body, const Motio
            length(motion.angular) / std::min({half.x, half.y, half.z});
 }
 
-/// By which speed kinematic bodies count: between surfaces that close like scissors an impulse may
-/// be any.
-DrivenEnergy EnergyAccount::squeezing(const Tick& tick, const DrivenEnergy& driven)
+/// The same work, with the speed at which it counts raised for what squeezes a body out.
+DrivenEnergy EnergyAccount::with_squeezing(const Tick& tick, const DrivenEnergy& driven)
 {
     const double most = squeezed_way * tick.scales.least * tick.scales.rate;
     return {driven.energy, std::max(driven.speed, std::min(squeezed_max * driven.speed, most))};
@@ -296,8 +299,15 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
     }
     if (body.integration == nullptr) return balance;
     balance.stored += body.integration->hand_energy_stored;
-    balance.given += share * body.integration->hand_energy_driven;
-    if (any_kinematic) balance.driven.add(squeezing(tick, body.integration->driven.scaled(share)));
+    const double by_hands = share * body.integration->hand_energy_driven;
+    if (any_kinematic) {
+        balance.driven.add(with_squeezing(tick, body.integration->driven.scaled(share)));
+        // A hand that gives way takes what a surface gives: that leaves no momentum.
+        balance.driven.energy += std::min(by_hands, 0.0);
+        balance.given += std::max(by_hands, 0.0);
+    } else {
+        balance.given += by_hands;
+    }
     if (body.integration->grips.impulse > 0.0)
         balance.given += given_by_grips(tick, body, motion, share);
     return balance;
@@ -403,8 +413,9 @@ void EnergyAccount::cut_ways(const Tick& tick, const ContinuousCollision& touche
             Bodies::apply_inverse_inertia(properties, body.orientation, body.angular_momentum);
         const double radius = length(properties.half);
         driven = std::max(driven, body.driven.speed);
+        const double forced = length(motion_of(tick, body).forced); // may be gone again at the end
         fastest =
-            std::max({fastest, driven, length(body.velocity) + radius * length(spin),
+            std::max({fastest, driven, length(body.velocity) + forced + radius * length(spin),
                       length(body.end_velocity) + radius * length(bodies.angular_velocity(slot))});
         there += 0.5 * (properties.mass * glm::dot(body.velocity, body.velocity) +
                         glm::dot(body.angular_momentum, spin));

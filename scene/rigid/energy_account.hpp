@@ -5,6 +5,7 @@
 #include "scene/bounded.hpp"
 #include "scene/maths/energy_share.hpp"
 #include "scene/rigid/continuous.hpp"
+#include "scene/rigid/driven_energy.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
@@ -49,8 +50,9 @@ public:
     /// they went at last. Their touches are impulses of the tick like all others.
     void settle_touches(const Tick& tick, const ContinuousCollision& touches);
     /// After that: between two touches a body may be faster than at its ends, but not beyond what
-    /// all the energy that there was can make it. Where locks drove it farther, by a kinematic body
-    /// that wedges it, it stays where it began.
+    /// all the energy that there was can make it. Where it went farther in a tick in which a
+    /// kinematic body touched any, as one that wedges it along its locks drives it, it stays where
+    /// it began.
     void cut_ways(const Tick& tick, const ContinuousCollision& touches);
 
 private:
@@ -111,7 +113,7 @@ private:
                                                const Motion& motion, double share);
     [[nodiscard]] static double passed(const Tick& tick, const BodyTick& body,
                                        const Motion& motion);
-    [[nodiscard]] static DrivenEnergy squeezing(const Tick& tick, const DrivenEnergy& driven);
+    [[nodiscard]] static DrivenEnergy with_squeezing(const Tick& tick, const DrivenEnergy& driven);
     [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body,
                                             double share = 1.0);
     void join_islands(const Tick& tick, std::span<const Slot> slots);

@@ -19,7 +19,7 @@ bool is_at_rest(const BodyMotion& motion)
 }
 
 /// How far a change agrees with the mean of what changes: 1 where that is midway, 0 where the mean
-/// is so far off that it would have to become faster than at both ends.
+/// is so far off that it would have to become faster or slower than at both ends.
 double agreement(const glm::dvec3& start, const glm::dvec3& mean, const glm::dvec3& end)
 {
     const double gain = length(end - start);
@@ -39,7 +39,8 @@ double phase_at(double time, double period)
 BodyMotion KinematicTick::motion_at(double time, double tick) const
 {
     const double share = time / tick - 0.5;
-    return {mean.velocity + share * gain.velocity, mean.spin + share * gain.spin, glm::dvec3{0.0}};
+    return {mean.velocity + share * change.velocity, mean.spin + share * change.spin,
+            glm::dvec3{0.0}};
 }
 
 void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
@@ -81,11 +82,12 @@ void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
             is_placed = true;
             break;
         }
-        now.gain.velocity = now.end.velocity - now.start.velocity;
-        now.gain.spin = now.end.spin - now.start.spin;
+        now.change.velocity = now.end.velocity - now.start.velocity;
+        now.change.spin = now.end.spin - now.start.spin;
         if (is_placed) {
-            now.gain.velocity *= agreement(now.start.velocity, now.mean.velocity, now.end.velocity);
-            now.gain.spin *= agreement(now.start.spin, now.mean.spin, now.end.spin);
+            now.change.velocity *=
+                agreement(now.start.velocity, now.mean.velocity, now.end.velocity);
+            now.change.spin *= agreement(now.start.spin, now.mean.spin, now.end.spin);
         }
         now.moves = !is_at_rest(now.start) || !is_at_rest(now.mean) || !is_at_rest(now.end);
         const double across = length(bodies.properties[slot].half);
@@ -124,6 +126,7 @@ struct Arms {
 void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations)
 {
     const auto add = [&](SolverIndex body, SolverIndex by, const Arms& arms, const Wrench& push) {
+        if (is_nothing(push)) return; // its speed counts for nothing, too
         const BodyMotion& start = integrations[body].start;
         const BodyMotion& end = solver.end_motion(body);
         const double taken =

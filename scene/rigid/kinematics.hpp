@@ -16,12 +16,12 @@ struct KinematicTick {
     BodyMotion start;
     BodyMotion end;
     BodyMotion mean;
-    BodyMotion gain;           // from start to end, as far as that agrees with the mean
+    BodyMotion change;         // from start to end, as far as that agrees with the mean
     base::Position position{}; // at the end
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     bool moves = false;
 
-    /// In the tick: its mean, and about that what it gains.
+    /// In the tick: its mean, and about that what it changes by.
     [[nodiscard]] BodyMotion motion_at(double time, double tick) const;
 };
 

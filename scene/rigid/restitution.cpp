@@ -114,10 +114,12 @@ BodyMotion motion_at(double share, const BodyMotion& from, const BodyMotion& to)
             from.spin + share * (to.spin - from.spin), glm::dvec3{0.0}};
 }
 
-/// Adds what the motion of a kinematic body does while it throws one that has not bounced yet.
+/// Adds what the motion of a kinematic body does by a bounce: before add(), while the body's motion
+/// still lacks it.
 void add_driven(const BounceTarget& target, const BounceSurface& surface, const Wrench& push,
                 double share)
 {
+    if (is_nothing(push)) return;
     BodyIntegration& integration = target.integration;
     BodyMotion motion = motion_at(share, integration.start_after_bounces, integration.predicted);
     double taken = 0.5 * work_of(push, target.arm, motion);

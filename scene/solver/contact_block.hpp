@@ -52,6 +52,11 @@ struct Wrench {
     glm::dvec3 angular{0.0};
 };
 
+[[nodiscard]] inline bool is_nothing(const Wrench& push)
+{
+    return push.impulse == glm::dvec3{0.0} && push.angular == glm::dvec3{0.0};
+}
+
 /// Factors of a block that may be needed again: valid as long as its matrix is.
 struct BlockFactors {
     Ldl<6> whole{}; // of the matrix: three or four points, and friction

@@ -15,6 +15,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double block_ns = 20'000.0; // long beside the clock's 30 ns, short beside a time slice
 constexpr std::size_t block_steps_max = 256; // as long for who is fast as for who is slow
+constexpr double turn_ns = 200'000.0;        // rare paths, too, are warm in most of its blocks
 constexpr std::size_t blocks_min = 9;
 constexpr std::size_t blocks_max = 400;
 
@@ -49,7 +50,13 @@ public:
     [[nodiscard]] double used_s() const { return used_ns_ * 1e-9; }
     [[nodiscard]] std::size_t blocks() const { return samples_.size(); }
 
-    void sample() { samples_.push_back(block(block_steps_)); }
+    void take_turn()
+    {
+        const double end_s = used_s() + turn_ns * 1e-9;
+        do {
+            samples_.push_back(block(block_steps_));
+        } while (used_s() < end_s);
+    }
 
     [[nodiscard]] double median() const
     {
@@ -140,7 +147,7 @@ std::vector<double> race(const Course& course, std::span<const Contender> conten
                 runner.blocks() >= blocks_min &&
                 (runner.used_s() >= seconds_each || runner.blocks() >= blocks_max);
             if (!runner.can_run() || has_enough) continue;
-            runner.sample();
+            runner.take_turn();
             is_going = true;
         }
     }

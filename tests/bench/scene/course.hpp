@@ -27,9 +27,9 @@ struct Contender {
     EngineOptions options;
 };
 
-/// Nanoseconds per step, hands included: the median over blocks of steps of at least `block_s`
-/// each. The contenders take turns block by block in one thread, so that a busy machine hits all
-/// alike; a course that ends begins again. Not a number for who cannot run it.
+/// Nanoseconds per step, hands included: the median over blocks of about 20 us, one
+/// step at least. The contenders take turns of some blocks in one thread, so that a busy machine
+/// hits all alike; a course that ends begins again. Not a number for who cannot run it.
 [[nodiscard]] std::vector<double> race(const Course& course, std::span<const Contender> contenders,
                                        double seconds_each);
 

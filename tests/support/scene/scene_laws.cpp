@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/scene/scene_laws.hpp"
 
+#include "proto/base/math.hpp"
 #include "proto/base/random.hpp"
 #include "scene/fields.hpp"
 #include "scene/maths/rotation.hpp"
@@ -333,8 +334,8 @@ double SceneLaws::turning_slack(const BodyDescription& form, const Moment& was, 
 }
 
 /// The work of a torque that is held for the tick: over the mean of the spins, with the inertia as
-/// it is before it or as it becomes, or over the angle that the body really turned; and, as with
-/// forces, what it adds to the spin twice.
+/// it is before it or as it becomes, or over the angle that the body really turned, where that is
+/// less than half a turn; and, as with forces, what it adds to the spin twice.
 void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const Moment& was,
                            const Moment& now, const glm::dvec3& torque) const
 {
@@ -352,7 +353,10 @@ void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const 
         0.5 * glm::dot(twist, was.state.angular_velocity + now.state.angular_velocity);
     const double over_turn =
         glm::dot(torque, scene::turn_between(was.state.orientation, now.state.orientation));
-    balance.work += std::max({held, went, over_turn});
+    const double fastest =
+        std::max(length(was.state.angular_velocity), length(now.state.angular_velocity));
+    const bool is_followed = tick * fastest < 0.5 * base::two_pi;
+    balance.work += std::max({held, went, is_followed ? over_turn : held});
     constexpr double miss = 2.0;
     balance.slack += miss * miss * glm::dot(twist, spin_of(twist));
     balance.angular += length(twist);

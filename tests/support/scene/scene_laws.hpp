@@ -34,7 +34,7 @@ struct LawFigures {
 ///   pass each other in a tick times the impulses).
 /// A body moves at the mean of its velocities before and after the tick, but where it bounces, so
 /// that the work of a steady force and of every impulse is known: with the inertia as it is before
-/// the tick.
+/// the tick, or, of torques, as it becomes, or by the angle that the body turned.
 class SceneLaws {
 public:
     explicit SceneLaws(const RandomPlay& play);

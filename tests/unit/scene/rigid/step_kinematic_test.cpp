@@ -4,6 +4,7 @@
 // Bodies that move by themselves: what they carry, push and turn, against formulas.
 #include "proto/base/math.hpp"
 #include "scene/query.hpp"
+#include "scene/rigid/driven_energy.hpp"
 #include "scene/text/text.hpp"
 #include "tests/unit/scene/rigid/scenes.hpp"
 
@@ -31,6 +32,20 @@ Description plate_with_cube()
     plate.material.friction = friction;
     scene.bodies.push_back(plate);
     return scene;
+}
+
+TEST(DrivenEnergy, IsAtMostWhatTheOtherTakesAndWhatItsMomentumExplains)
+{
+    EXPECT_NEAR(driven_energy(5.0, 2.0), 2.0, 1e-11);
+    EXPECT_DOUBLE_EQ(driven_energy(1.0, 2.0), 1.0);
+    EXPECT_DOUBLE_EQ(driven_energy(-1.0, 2.0), -1.0);
+    EXPECT_DOUBLE_EQ((DrivenEnergy{3.0, 2.0}.within(1.0)), 2.0);
+    EXPECT_DOUBLE_EQ((DrivenEnergy{1.0, 2.0}.within(1.0)), 1.0);
+    EXPECT_DOUBLE_EQ((DrivenEnergy{-3.0, 2.0}.within(0.0)), -3.0); // what a surface takes, it takes
+    DrivenEnergy sum{3.0, 2.0};
+    sum.add({-1.0, 5.0});
+    EXPECT_DOUBLE_EQ(sum.energy, 2.0);
+    EXPECT_DOUBLE_EQ(sum.speed, 5.0);
 }
 
 TEST(Kinematic, ACubeOnAPlateThatStartsAtOnceSlidesUntilItGoesAlong)
@@ -106,10 +121,10 @@ TEST(Kinematic, AWallThatComesTakesACubeAlongOrThrowsItTwiceAsFast)
 }
 
 /// A smooth ball between two smooth plates, one of which closes: where they meet it by the angle a,
-/// it goes out by the speed over tan(a).
-TEST(Kinematic, TwoThatCloseLikeScissorsSqueezeABallOutFasterThanTheyAre)
+/// it goes out along the one that stays, by the speed over sin(a).
+World scissors(double angle, double speed)
 {
-    constexpr double angle = 0.3, speed = 0.02, radius = 0.02;
+    constexpr double radius = 0.02;
     Description scene;
     scene.gravity = glm::dvec3{0.0};
     scene.hands.count = 0;
@@ -129,11 +144,59 @@ TEST(Kinematic, TwoThatCloseLikeScissorsSqueezeABallOutFasterThanTheyAre)
         if (closes) plate.velocity = {-speed * up};
         scene.bodies.push_back(plate);
     }
-    World world = world_of(scene);
-    for (int i = 0; i < 100; ++i) world.tick();
+    return world_of(scene);
+}
+
+TEST(Kinematic, TwoThatCloseLikeScissorsSqueezeABallOutFasterThanTheyAre)
+{
+    constexpr double angle = 0.3, speed = 0.02;
+    World world = scissors(angle, speed);
+    run(world, 100);
     EXPECT_EQ(world.state().interventions.guards(), 0U);
     // Along the middle, by the half of the closing over the sine of the half angle.
     EXPECT_NEAR(std::abs(world.velocity(0).x()), 0.5 * speed / std::sin(0.5 * angle), 1e-3 * speed);
+}
+
+TEST(Kinematic, ScissorsThatAreNearlyParallelThrowNothingAtMoreThanTenTimesTheirSpeed)
+{
+    constexpr double speed = 0.02;
+    World world = scissors(0.02, speed); // 50 times, if nothing stopped it
+    for (int i = 0; i < 100; ++i) {
+        world.tick();
+        ASSERT_LE(length(world.velocity(0).value), 10.5 * speed) << i;
+    }
+    const Interventions& counted = world.state().interventions;
+    EXPECT_GT(counted.islands_limited + counted.impulses_trimmed, 0U);
+}
+
+/// A hand that gives way as fast as a wall drives the cube onto it takes what the wall gives.
+TEST(Kinematic, ACubeThatAWallPushesAlongAHandThatGivesWayIsFeltWhole)
+{
+    constexpr double speed = 0.7, depth = 1e-4, stiffness = 500.0, radius = 0.005;
+    Description scene;
+    scene.gravity = glm::dvec3{0.0};
+    scene.hands.count = 1;
+    scene.hands.radius_m = radius;
+    scene.hands.stiffness_n_per_m = stiffness;
+    scene.hands.damping_ns_per_m = 0.0;
+    scene.bodies.push_back(cube_at({0.0, 0.0, 0.0}));
+    scene.bodies[0].velocity = {{speed, 0.0, 0.0}};
+    BodyDescription wall{.name = "wall", .movable = false, .kinematic = true};
+    wall.half = {0.01, 0.1, 0.1};
+    wall.position = {{-half - 0.01, 0.0, 0.0}};
+    wall.velocity = {{speed, 0.0, 0.0}};
+    scene.bodies.push_back(wall);
+    World world = world_of(scene);
+    for (int i = 0; i < 50; ++i) {
+        const double place = half + radius - depth + speed * tick_s * i;
+        ASSERT_FALSE(world.set_hand(0, {{{place, 0.0, 0.0}}, {{speed, 0.0, 0.0}}}));
+        world.tick();
+        ASSERT_NEAR(length(world.touch(0).on_hand.value), stiffness * depth,
+                    1e-3 * stiffness * depth)
+            << i;
+    }
+    EXPECT_EQ(world.state().interventions.guards(), 0U);
+    EXPECT_NEAR(world.velocity(0).x(), speed, 1e-9);
 }
 
 TEST(Kinematic, ALiftCarriesWhatItAcceleratesAndAContactTellsTheLoad)
