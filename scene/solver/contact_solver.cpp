@@ -17,9 +17,11 @@ constexpr std::size_t numbers_per_block = 7;
 // Islands larger than this are swept without mixing: what they may cost is used up before it helps.
 constexpr std::size_t mixed_max = 1024;
 
-void read(const ContactBlock& block, double* to)
+// What a HeldIsland takes, in sweeps.
+constexpr std::uint32_t held_sweeps = 6;
+
+void read(const ContactBlock& block, const ContactImpulse& impulse, double* to)
 {
-    const ContactImpulse& impulse = block.impulse;
     for (std::size_t i = 0; i < manifold_points_max; ++i) to[i] = impulse.normal[i];
     to[4] = impulse.tangent_1;
     to[5] = impulse.tangent_2;
@@ -77,6 +79,7 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks, JointSolver
       good_{numbers_per_block * std::min(blocks, mixed_max)},
       saved_{bodies + 1},
       anderson_{numbers_per_block * std::min(blocks, mixed_max)},
+      held_{bodies, blocks},
       joints_{std::move(joints)},
       changes_of_joints_{joints_.groups().size()}
 {}
@@ -292,6 +295,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
     double shortest2 = std::numeric_limits<double>::infinity();
     double first2 = -1.0;
     bool has_jumped = false;
+    bool has_tried_to_hold = false;
     while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
         outcome.change = sweep(task, whole);
         outcome.sweeps += 2;
@@ -310,6 +314,17 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
         }
         shortest2 = std::min(shortest2, step2);
         if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
+        // It is checked by the next sweep, as a mixture is.
+        if (!has_tried_to_hold && outcome.sweeps + held_sweeps + 2 <= task.limits.sweeps_max &&
+            may_hold(task, whole)) {
+            has_tried_to_hold = true;
+            outcome.sweeps += held_sweeps;
+            if (held_.solve(held_task(task, island))) {
+                take_held(task, whole);
+                has_jumped = true;
+                continue;
+            }
+        }
         has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
         // Where bodies are wedged, impulses that do nothing could grow without end.
         constexpr double too_far = 1e4;
@@ -342,7 +357,28 @@ double ContactSolver::sweep(const Task& task, Island whole)
 void ContactSolver::read_impulses(Island island, std::span<double> impulses) const
 {
     for (std::size_t i = 0; i < island.size(); ++i)
-        read(blocks_[island[i]], &impulses[numbers_per_block * i]);
+        read(blocks_[island[i]], blocks_[island[i]].impulse, &impulses[numbers_per_block * i]);
+}
+
+HeldIsland::Task ContactSolver::held_task(const Task& task, Island island)
+{
+    return {blocks_.all(), island, responses_.all(), task.motions};
+}
+
+/// Whether an island stands as far as its contacts know: without joints, which they do not know.
+bool ContactSolver::may_hold(const Task& task, Island whole)
+{
+    const Island island = contacts_of(whole);
+    return task.mode == Mode::contacts && island.size() == whole.size() &&
+           held_.begin(held_task(task, island));
+}
+
+/// From after_ to what HeldIsland found.
+void ContactSolver::take_held(const Task& task, Island island)
+{
+    for (std::size_t i = 0; i < island.size(); ++i)
+        read(blocks_[island[i]], held_.impulses()[i], &before_[numbers_per_block * i]);
+    take_mixture(task, island);
 }
 
 /// From after_ to before_; the way back is kept.

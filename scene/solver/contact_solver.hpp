@@ -5,6 +5,7 @@
 #include "scene/bounded.hpp"
 #include "scene/solver/anderson.hpp"
 #include "scene/solver/block_solver.hpp"
+#include "scene/solver/held_island.hpp"
 #include "scene/solver/islands.hpp"
 #include "scene/solver/joint_solver.hpp"
 
@@ -126,6 +127,9 @@ private:
         return blocks_.size() > 0 && blocks_.size() + awake_groups_ > 1;
     }
     void read_impulses(Island island, std::span<double> impulses) const;
+    [[nodiscard]] HeldIsland::Task held_task(const Task& task, Island island);
+    [[nodiscard]] bool may_hold(const Task& task, Island whole);
+    void take_held(const Task& task, Island island);
     void take_mixture(const Task& task, Island island);
     void undo_mixture(const Task& task, Island island);
     double solve_block(ContactBlock& block, const Task& task, Effort depth);
@@ -152,6 +156,7 @@ private:
     Scratch<double> before_, after_, good_; // impulses of an island
     Scratch<BodyMotion> saved_;             // of its bodies
     Anderson anderson_;
+    HeldIsland held_;
 
     JointSolver joints_;
     std::size_t awake_groups_ = 0;      // of joints

@@ -16,10 +16,6 @@ namespace {
 // Which limits push is found by trying: so often at most. Each try leaves no limit that pulls.
 constexpr std::uint32_t joint_rounds_max = 8;
 
-// A pivot this small beside its diagonal is rounding: the row depends on those before it, as in a
-// closed loop. See Ldl.
-constexpr double dependent_row = 1e-9;
-
 // A velocity is known to so much of what it is a sum of.
 constexpr double velocity_rounding = 1e-14;
 
@@ -72,12 +68,8 @@ JointSolver::JointSolver(std::vector<Group> groups, std::vector<std::uint32_t> f
 {
     const std::size_t rows = joints_in_largest(groups_) * JointBlock::rows_max;
     rows_ = Scratch<RowRef>{rows};
-    first_row_ = Scratch<std::uint32_t>{rows};
-    row_begins_ = Scratch<std::uint32_t>{rows};
     rows_before_ = Scratch<std::uint32_t>{joints_in_largest(groups_)};
-    factors_ = Scratch<double>{envelope_of(first_)};
-    inverse_ = Scratch<double>{rows};
-    scaled_ = Scratch<double>{rows};
+    factors_ = EnvelopeLdl{rows, envelope_of(first_)};
     answer_ = Scratch<double>{rows};
     saved_impulses_ = Scratch<double>{joints_.size() * JointBlock::rows_max};
     saved_motions_ = Scratch<BodyMotion>{2 * joints_.size()};
@@ -108,18 +100,11 @@ void JointSolver::list_rows(const Group& group, Mode mode)
         }
     }
     const std::size_t count = rows_.size();
-    first_row_.resize(count);
-    row_begins_.resize(count);
-    inverse_.resize(count);
-    scaled_.resize(count);
     answer_.resize(count);
-    std::uint32_t end = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        first_row_[i] = rows_before_[first_[rows_[i].joint] - group.begin];
-        row_begins_[i] = end;
-        end += i - first_row_[i];
-    }
-    factors_.resize(end);
+    factors_.clear();
+    for (std::uint32_t i = 0; i < count; ++i)
+        factors_.add_row(rows_before_[first_[rows_[i].joint] - group.begin]);
+    factors_.begin();
 }
 
 /// How far each row misses its target, into answer_. Returns whether other limits push than
@@ -151,7 +136,7 @@ bool JointSolver::choose_active(const Task& task, bool is_factored, double& miss
         its.is_active = active;
         answer_[i] = active ? left : 0.0;
         const double missed = std::abs(answer_[i]) * its.arm;
-        const bool is_left_out = is_factored && active && inverse_[i] == 0.0;
+        const bool is_left_out = is_factored && active && factors_.is_left_out(i);
         if (missed > tolerance && !is_left_out) miss = std::max(miss, missed);
     }
     return has_changed;
@@ -167,7 +152,7 @@ double JointSolver::solve(const Group& group, const Task& task)
         if (miss == 0.0) break;
         first_miss = std::max(first_miss, miss);
         if (has_changed || round == 0) factor(task);
-        solve_factored();
+        factors_.solve(answer_.all());
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             JointRow& its = row(rows_[i]);
             double& sum = task.mode == Mode::ways ? its.way_impulse : its.impulse;
@@ -221,42 +206,15 @@ void JointSolver::factor(const Task& task)
     };
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
         const JointRow& its = row(rows_[i]);
-        double* const lower = &factors_[0] + row_begins_[i];
-        const std::uint32_t first = first_row_[i];
         if (!its.is_active) {
-            std::fill(lower, lower + (i - first), 0.0);
-            inverse_[i] = 0.0;
+            factors_.leave_out(i);
             continue;
         }
-        const double diagonal = entry(i, i) + (task.mode == Mode::ways ? 0.0 : its.compliance);
-        double pivot = diagonal;
-        for (std::uint32_t j = first; j < i; ++j) {
-            double sum = inverse_[j] == 0.0 ? 0.0 : entry(i, j);
-            const double* const other = &factors_[0] + row_begins_[j];
-            for (std::uint32_t k = std::max(first, first_row_[j]); k < j; ++k)
-                sum -= other[k - first_row_[j]] * scaled_[k];
-            scaled_[j] = inverse_[j] == 0.0 ? 0.0 : sum;
-            lower[j - first] = scaled_[j] * inverse_[j];
-            pivot -= lower[j - first] * scaled_[j];
-        }
-        inverse_[i] = pivot > dependent_row * diagonal ? 1.0 / pivot : 0.0;
-    }
-}
-
-/// answer_ from what the rows miss to the impulses that they need.
-void JointSolver::solve_factored()
-{
-    const auto count = static_cast<std::uint32_t>(rows_.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double* const lower = factors_.all().data() + row_begins_[i];
-        for (std::uint32_t j = first_row_[i]; j < i; ++j)
-            answer_[i] -= lower[j - first_row_[i]] * answer_[j];
-    }
-    for (std::uint32_t i = 0; i < count; ++i) answer_[i] *= inverse_[i];
-    for (std::uint32_t i = count; i-- > 0;) {
-        const double* const lower = factors_.all().data() + row_begins_[i];
-        for (std::uint32_t j = first_row_[i]; j < i; ++j)
-            answer_[j] -= lower[j - first_row_[i]] * answer_[i];
+        double* const lower = factors_.row(i);
+        const std::uint32_t first = factors_.first(i);
+        for (std::uint32_t j = first; j < i; ++j)
+            lower[j - first] = factors_.is_left_out(j) ? 0.0 : entry(i, j);
+        factors_.factor(i, entry(i, i) + (task.mode == Mode::ways ? 0.0 : its.compliance));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "scene/bounded.hpp"
 #include "scene/solver/contact_block.hpp"
+#include "scene/solver/envelope_ldl.hpp"
 #include "scene/solver/islands.hpp"
 
 #include <array>
@@ -97,7 +98,6 @@ private:
     void list_rows(const Group& group, Mode mode);
     [[nodiscard]] bool choose_active(const Task& task, bool is_factored, double& miss);
     void factor(const Task& task);
-    void solve_factored();
     [[nodiscard]] JointRow& row(const RowRef& ref) { return joints_[ref.joint].rows[ref.row]; }
     void apply(const RowRef& ref, double impulse, const Task& task) const;
 
@@ -107,12 +107,8 @@ private:
 
     // Of the group at work.
     Scratch<RowRef> rows_;
-    Scratch<std::uint32_t> first_row_;   // of each row: where its envelope begins
-    Scratch<std::uint32_t> row_begins_;  // where its factors lie, as if they began at column 0
     Scratch<std::uint32_t> rows_before_; // of each joint of the group: its first row
-    Scratch<double> factors_;            // within the envelope
-    Scratch<double> inverse_;            // of D; 0 for a row that is left out
-    Scratch<double> scaled_;             // a row of L D
+    EnvelopeLdl factors_;
     Scratch<double> answer_;
 
     Scratch<double> saved_impulses_;

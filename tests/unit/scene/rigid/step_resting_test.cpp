@@ -28,6 +28,26 @@ TEST(RigidRest, AStackOfTenDriftsLessThanAMicrometreInTwoSeconds)
     EXPECT_LT(drift(world, scene), 1e-6);
 }
 
+/// Of cubes beside the middle, so that it tilts until its contacts have found its weight.
+TEST(RigidRest, AStackOfFifteenIsAtRestAfterAFewTicks)
+{
+    Description scene = stack_of(15);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        glm::dvec3& place = scene.bodies[i].position.value;
+        place.x = i % 2 == 0 ? -1e-4 : 1e-4;
+        place.z = i % 3 == 0 ? -1e-4 : 5e-5;
+    }
+    World world = world_of(scene);
+    run(world, 10);
+    for (int i = 0; i < 1000; ++i) {
+        world.tick();
+        ASSERT_EQ(world.tick_cost().visits, scene.bodies.size()) << i; // a look at each contact
+    }
+    for (BodyId id = 0; id < scene.bodies.size(); ++id)
+        EXPECT_LT(length(world.body(id).velocity.value), 1e-10) << id;
+    EXPECT_LT(drift(world, scene), 1e-9);
+}
+
 TEST(RigidRest, TheStackStandsWithTicksFromAQuarterToFourMilliseconds)
 {
     const Description scene = stack_of(10);

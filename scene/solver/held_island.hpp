@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bounded.hpp"
+#include "scene/solver/contact_block.hpp"
+#include "scene/solver/envelope_ldl.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hapnet::scene {
+
+/// The impulses with which an island stands, all at once: if the points that push go on to push and
+/// no contact slips, they are the answer of linear equations. What sweeps need longest for is a
+/// tall stack that tilts as a whole: its modes converge with the fourth power of its height.
+class HeldIsland {
+public:
+    /// Of a scene with so many.
+    HeldIsland(std::size_t bodies, std::size_t blocks);
+
+    /// What to solve: an island's blocks, with what moves their bodies.
+    struct Task {
+        std::span<ContactBlock> blocks; // of the whole scene
+        std::span<const std::uint32_t> island;
+        std::span<const BodyResponse> responses;
+        std::span<const BodyMotion> motions;
+    };
+    /// Whether these are such equations: not where a contact slips, pushes with less than three
+    /// points or the island is too large.
+    [[nodiscard]] bool begin(const Task& task);
+    /// After that: whether there is an answer, in which nothing pulls and friction is within its
+    /// limit.
+    [[nodiscard]] bool solve(const Task& task);
+    /// The impulses of the island's blocks, in its order.
+    [[nodiscard]] std::span<const ContactImpulse> impulses() const { return impulses_.all(); }
+
+private:
+    void factor(const Task& task);
+    void miss(const Task& task);
+    [[nodiscard]] bool take(const Task& task);
+
+    /// A block that pushes.
+    struct Holding {
+        std::uint32_t block = 0;
+        std::uint32_t row = 0; // its first
+        PlaneFit fit{};        // through the points that push
+    };
+
+    Scratch<Holding> holding_;
+    Scratch<std::uint32_t> first_of_body_; // the first of holding_ that is on it
+    EnvelopeLdl factors_;
+    Scratch<double> answer_;
+    Scratch<ContactImpulse> impulses_;
+};
+
+} // namespace hapnet::scene
