@@ -328,7 +328,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
         has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
         // Where bodies are wedged, impulses that do nothing could grow without end.
         constexpr double too_far = 1e4;
-        if (size2(before_.all()) > too_far * too_far * first2) {
+        if (!(size2(before_.all()) <= too_far * too_far * first2)) {
             std::copy(after_.all().begin(), after_.all().end(), before_.all().begin());
             anderson_.begin(numbers_per_block * island.size());
             has_jumped = false;

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "scene/solver/envelope_ldl.hpp"
 
+#include "scene/solver/ldl.hpp"
+
 namespace hapnet::scene {
 
 void EnvelopeLdl::factor(std::size_t i, double diagonal)
 {
-    // A pivot this small beside its diagonal is rounding: the row depends on those before it. See
-    // Ldl.
-    constexpr double dependent = 1e-9;
     double* const lower = row(i);
     const std::uint32_t first = first_[i];
     double pivot = diagonal;
@@ -21,7 +20,7 @@ void EnvelopeLdl::factor(std::size_t i, double diagonal)
         lower[j - first] = scaled_[j] * inverse_[j];
         pivot -= lower[j - first] * scaled_[j];
     }
-    inverse_[i] = pivot > dependent * diagonal ? 1.0 / pivot : 0.0;
+    inverse_[i] = inverse_of_pivot(pivot, diagonal);
 }
 
 void EnvelopeLdl::solve(std::span<double> x) const

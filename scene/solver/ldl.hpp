@@ -4,11 +4,23 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace hapnet::scene {
 
 template <std::size_t rows>
 using Square = std::array<std::array<double, rows>, rows>;
+
+/// One over a pivot of L D L'; 0 where the row depends on those before it. A pivot this small
+/// beside its diagonal is rounding: that of the rows before it is multiplied by what their own
+/// pivots lost, so a dependent row was seen to leave 1e-11. What is kept has seven digits at least.
+/// Nor is one kept whose inverse is no number.
+[[nodiscard]] inline double inverse_of_pivot(double pivot, double diagonal)
+{
+    constexpr double dependent = 1e-9;
+    constexpr double least = std::numeric_limits<double>::min();
+    return pivot > dependent * diagonal && pivot >= least ? 1.0 / pivot : 0.0;
+}
 
 /// The factors L D L' of a symmetric matrix without negative eigenvalues. A row that depends on
 /// those before it (an axis that is locked, a point too many) is left out: its unknown is zero.
@@ -29,7 +41,7 @@ public:
                 lower_[at(i, j)] = sum * inverse_[j];
                 pivot -= lower_[at(i, j)] * sum;
             }
-            inverse_[i] = pivot > dependent * matrix[i][i] ? 1.0 / pivot : 0.0;
+            inverse_[i] = inverse_of_pivot(pivot, matrix[i][i]);
         }
     }
 
@@ -50,11 +62,6 @@ public:
     }
 
 private:
-    /// A pivot this small beside its diagonal is rounding: that of the rows before it is multiplied
-    /// by what their own pivots lost, so a dependent row was seen to leave 1e-11. What is kept has
-    /// seven digits at least.
-    static constexpr double dependent = 1e-9;
-
     static constexpr std::size_t at(std::size_t row, std::size_t column)
     {
         return row * (row - 1) / 2 + column;

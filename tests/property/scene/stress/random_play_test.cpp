@@ -187,7 +187,8 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{21000031384, "PushedAboutAnAxisAcrossTheOnlyOneItTurnsAbout"},
         Scar{51000251007, "SpinningOnTheFloorToWhichItIsPressed"},
         Scar{51000502515, "SwungByAGripWithMegajoules"},
-        Scar{500065121, "SlowedWithAGripThatGivesLessThen"}),
+        Scar{500065121, "SlowedWithAGripThatGivesLessThen"},
+        Scar{420000741081, "MixedOfStepsThatAreNearlyTheSame"}),
     [](const auto& each) { return each.param.name; });
 
 /// Islands that lost motion because last tick's forces drove them: where drag took a part of

@@ -29,6 +29,19 @@ TEST(Anderson, FindsTheFixedPointOfALinearIterationInAsManyStepsAsItHasModes)
     }
 }
 
+/// Two steps that differ by so little that its square is less than the smallest number.
+TEST(Anderson, StaysFiniteWhereTwoStepsAreNearlyTheSame)
+{
+    for (const double little : {1e-150, 1e-155, 1e-158, 1e-160, 1e-300}) {
+        Anderson anderson{1};
+        anderson.begin(1);
+        std::array<double, 1> next{};
+        std::ignore = anderson.mix(std::array{0.0}, std::array{little}, next);
+        std::ignore = anderson.mix(std::array{0.0}, std::array{2.0 * little}, next);
+        EXPECT_TRUE(std::isfinite(next[0])) << little;
+    }
+}
+
 TEST(ContactSolver, CarriesAThousandfoldMassInAFewSweeps)
 {
     ContactSolver solver{2, 2};
