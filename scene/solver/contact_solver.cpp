@@ -275,18 +275,22 @@ ContactSolver::Island ContactSolver::contacts_of(Island island) const
     return island.first(static_cast<std::size_t>(end - island.begin()));
 }
 
+SolverOutcome ContactSolver::run_unmixed(const Task& task, Island whole)
+{
+    SolverOutcome outcome{.sweeps = 1};
+    while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
+        outcome.change = sweep(task, whole);
+        outcome.sweeps += 2;
+        if (outcome.change <= task.limits.converged) break;
+    }
+    return outcome;
+}
+
 SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
 {
     SolverOutcome outcome{.sweeps = 1};
     const Island island = contacts_of(whole);
-    if (island.size() > mixed_max || island.empty()) {
-        while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
-            outcome.change = sweep(task, whole);
-            outcome.sweeps += 2;
-            if (outcome.change <= task.limits.converged) break;
-        }
-        return outcome;
-    }
+    if (island.size() > mixed_max || island.empty()) return run_unmixed(task, whole);
     before_.resize(numbers_per_block * island.size());
     after_.resize(numbers_per_block * island.size());
     good_.resize(numbers_per_block * island.size());

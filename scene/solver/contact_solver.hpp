@@ -114,6 +114,7 @@ private:
     void for_moving_islands(const Task& task, Do&& act);
     SolverOutcome run_islands(const Task& task);
     SolverOutcome run_island(const Task& task, Island island);
+    SolverOutcome run_unmixed(const Task& task, Island whole);
     void save(const Task& task, Island island);
     void restore(const Task& task, Island island);
     double sweep(const Task& task, Island island);

@@ -8,6 +8,7 @@
 #include "scene/maths/rotation.hpp"
 #include "scene/query.hpp"
 #include "tests/support/scene/dice.hpp"
+#include "tests/support/scene/spinning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,35 +85,6 @@ glm::dvec3 free_part(const BodyDescription& form, glm::dvec3 v)
     return v;
 }
 
-/// About the world's axes, of a body that turns about one of them alone.
-glm::dvec3 inertia_about_axes(const BodyDescription& form)
-{
-    const glm::dvec3 own = scene::inertia_of(form);
-    if (form.parts.empty()) return own; // the same axes, or as many alike
-    const glm::dmat3 axes = glm::mat3_cast(scene::frame_of_mass(form).orientation);
-    glm::dvec3 about{0.0};
-    for (const int axis : {0, 1, 2}) about += axes[axis] * axes[axis] * own[axis];
-    return about;
-}
-
-/// Of turning with an angular momentum, with the inertia of an orientation.
-double spinning_energy(const BodyDescription& form, const glm::dquat& orientation,
-                       const glm::dvec3& momentum)
-{
-    const glm::dvec3 inertia = scene::inertia_of(form);
-    switch (form.turning) {
-    case Turning::locked: return 0.0;
-    case Turning::free: {
-        const glm::dvec3 own = glm::conjugate(orientation) * momentum;
-        return 0.5 * glm::dot(own, own / inertia);
-    }
-    default: break;
-    }
-    // About one axis of the world, which is the same axis of the body's: see BodyProperties.
-    const int axis = static_cast<int>(form.turning) - static_cast<int>(Turning::about_x);
-    return 0.5 * momentum[axis] * momentum[axis] / inertia_about_axes(form)[axis];
-}
-
 /// The energy that a grip can have given to the body that it holds: what its force can do.
 double most_from_grip(const World& world, std::uint32_t hand, double fastest)
 {
@@ -140,16 +112,6 @@ double most_from_push(const World& world, std::uint32_t hand, double contacts)
     const double along = world.state().slips.empty() ? 0.0 : world.state().slips[hand].stored_j;
     return contacts * std::max(stored, 0.0) + along +
            impulse * base::norm(world.state().hands[hand].velocity);
-}
-
-/// By how much the energy of turning with one angular momentum can differ with the orientation.
-double spinning_range(const BodyDescription& form, const glm::dvec3& momentum)
-{
-    if (form.turning != Turning::free) return 0.0;
-    const glm::dvec3 inertia = scene::inertia_of(form);
-    const double least = std::min({inertia.x, inertia.y, inertia.z});
-    const double most = std::max({inertia.x, inertia.y, inertia.z});
-    return 0.5 * glm::dot(momentum, momentum) * (1.0 / least - 1.0 / most);
 }
 
 /// From its centre of mass to its farthest corner, at most.
