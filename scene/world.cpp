@@ -158,8 +158,12 @@ std::optional<Refusal> World::refuse(Refusal refusal)
 std::optional<Refusal> World::set_hand(std::uint32_t index, const HandInput& input)
 {
     if (index >= config_.hands.count) return refuse(Refusal::no_such_hand);
-    if (const auto why = objection(input.position.value, reach_max_m)) return refuse(*why);
-    if (const auto why = objection(input.velocity.value, speed_max_m_per_s)) return refuse(*why);
+    const glm::dvec3& position = input.position.value;
+    const glm::dvec3& velocity = input.velocity.value;
+    if (!is_within(position, reach_max_m) || !is_within(velocity, speed_max_m_per_s)) {
+        const auto why = objection(position, reach_max_m);
+        return refuse(why ? *why : *objection(velocity, speed_max_m_per_s));
+    }
     state_.hands[index] = input;
     return std::nullopt;
 }
