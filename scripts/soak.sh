@@ -22,8 +22,8 @@ emulator:
 scene:
   6. 1 000 000 random scenes under the laws of energy, momentum and force, from SEED on
      (default 0), on two processes: about ten minutes; and how often guards acted in them. From
-     1000000000 on some bodies are round, from 1000000000000 on scenes have every element, and
-     some of those break a law (docs/results/limitations.md),
+     1000000000 on some bodies are round, from 1000000000000 on scenes have every element, in
+     which guards act more often (docs/results/limitations.md),
   7. the ticks that cost most among 20 000 of them with at most 8 bodies;
 session:
   8. 1000 sessions from SEED on, half of them with keys, and more until 100 000 000 datagrams have
