@@ -318,8 +318,8 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
         }
         shortest2 = std::min(shortest2, step2);
         if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
-        // It is checked by the next sweep, as a mixture is.
-        if (!has_tried_to_hold && outcome.sweeps + held_sweeps + 2 <= task.limits.sweeps_max &&
+        // It is checked by the next pair of sweeps, as a mixture is; and one more if it is astray.
+        if (!has_tried_to_hold && outcome.sweeps + held_sweeps + 4 <= task.limits.sweeps_max &&
             may_hold(task, whole)) {
             has_tried_to_hold = true;
             outcome.sweeps += held_sweeps;

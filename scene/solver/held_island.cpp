@@ -3,6 +3,7 @@
 #include "scene/solver/held_island.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hapnet::scene {
 
@@ -10,10 +11,20 @@ namespace {
 
 constexpr std::size_t rows_per_block = 6;
 
-// What one answer may take: so many blocks, and so many entries beside the diagonal, each of which
-// takes about as many steps as a row is long. A stack of thirty has 4900.
+// What one answer may take: so many blocks, and for each so many steps of its factors, which are
+// the squares of how long its rows are. A stack takes 450, a body under four others 1800. More
+// would not be worth six sweeps.
 constexpr std::size_t blocks_held_max = 32;
-constexpr std::size_t entries_max = 6000;
+constexpr std::size_t work_per_block_max = 2000;
+
+/// So many entries can rows have whose squares are within the work (Cauchy, Schwarz); or all of
+/// them.
+std::size_t entries_max(std::size_t blocks)
+{
+    const std::size_t rows = rows_per_block * blocks;
+    const auto work = static_cast<double>(work_per_block_max * blocks * rows);
+    return std::min(rows * (rows - 1) / 2, static_cast<std::size_t>(std::sqrt(work)) + 1);
+}
 
 PointSet pushing(const ContactBlock& block)
 {
@@ -28,16 +39,22 @@ double scaled_torsion(const ContactBlock& block, double torsion)
     return block.torsion_arm > 0.0 ? torsion / block.torsion_arm : 0.0;
 }
 
-/// Whether friction is so far from its limit that it holds.
-bool sticks(const ContactBlock& block, const ContactImpulse& impulse)
+/// Whether friction is within a share of its limit.
+bool sticks(const ContactBlock& block, const ContactImpulse& impulse, double share)
 {
     const double sum =
         impulse.normal[0] + impulse.normal[1] + impulse.normal[2] + impulse.normal[3];
     const double torsion = scaled_torsion(block, impulse.torsion);
-    const double limit = block.friction * sum;
+    const double limit = share * block.friction * sum;
     return impulse.tangent_1 * impulse.tangent_1 + impulse.tangent_2 * impulse.tangent_2 +
                torsion * torsion <
            limit * limit;
+}
+
+/// Whether no impulse moves a body: a kinematic one.
+bool is_unmoved(const BodyResponse& response)
+{
+    return response.inverse_mass == glm::dvec3{0.0} && response.inverse_inertia == glm::dmat3{0.0};
 }
 
 /// What an impulse of one block does to the velocity of another, through the bodies of both.
@@ -60,7 +77,8 @@ ContactVector response_of(const ContactBlock& to, const ContactBlock& from, cons
 HeldIsland::HeldIsland(std::size_t bodies, std::size_t blocks)
     : holding_{std::min(blocks, blocks_held_max)},
       first_of_body_{bodies + 1},
-      factors_{rows_per_block * std::min(blocks, blocks_held_max), entries_max},
+      factors_{rows_per_block * std::min(blocks, blocks_held_max),
+               entries_max(std::min(blocks, blocks_held_max))},
       answer_{rows_per_block * std::min(blocks, blocks_held_max)},
       impulses_{std::min(blocks, blocks_held_max)}
 {}
@@ -68,6 +86,8 @@ HeldIsland::HeldIsland(std::size_t bodies, std::size_t blocks)
 bool HeldIsland::begin(const Task& task)
 {
     constexpr std::uint32_t none = ~0U;
+    constexpr double surely = 1.0 - 1e-9; // what slips is at its limit, but for rounding
+    std::size_t work = 0;
     if (task.island.size() > blocks_held_max) return false;
     holding_.clear();
     factors_.clear();
@@ -79,21 +99,23 @@ bool HeldIsland::begin(const Task& task)
         const ContactBlock& block = task.blocks[i];
         const PointSet& set = pushing(block);
         if (set.count == 0) continue;
-        if (set.count < 3 || !sticks(block, block.impulse)) return false;
+        if (set.count < 3 || !sticks(block, block.impulse, surely)) return false;
         const auto row = static_cast<std::uint32_t>(factors_.rows());
         Holding& holding = holding_.add();
         holding = {i, row, PlaneFit{block.along_1, block.along_2, set}};
         if (holding.fit.is_flat()) return false;
         std::uint32_t first = row;
         for (const SolverIndex body : {block.a, block.b}) {
-            if (body == 0) continue;
+            if (body == 0 || is_unmoved(task.responses[body])) continue;
             first_of_body_[body] = std::min(first_of_body_[body], row);
             first = std::min(first, first_of_body_[body]);
         }
-        for (std::size_t k = 0; k < rows_per_block; ++k) factors_.add_row(first);
-        if (factors_.entries() > entries_max) return false;
+        for (std::size_t k = 0; k < rows_per_block; ++k) {
+            factors_.add_row(first);
+            work += (row + k - first) * (row + k - first);
+        }
     }
-    return factors_.rows() > 0;
+    return !holding_.all().empty() && work <= work_per_block_max * holding_.size();
 }
 
 bool HeldIsland::solve(const Task& task)
@@ -168,7 +190,7 @@ bool HeldIsland::take(const Task& task)
         for (const std::uint8_t point : its->fit.set().at) {
             if (impulse.normal[point] < 0.0) return false;
         }
-        if (!sticks(block, impulse)) return false;
+        if (!sticks(block, impulse, 1.0)) return false;
         ++its;
     }
     return true;

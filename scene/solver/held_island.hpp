@@ -27,8 +27,9 @@ public:
         std::span<const BodyResponse> responses;
         std::span<const BodyMotion> motions;
     };
-    /// Whether these are such equations: not where a contact slips, pushes with less than three
-    /// points or the island is too large.
+    /// Whether these are such equations: not where a contact slips, as all do without friction, or
+    /// pushes with less than three points or with points on a line, nor where the island is too
+    /// large or too much of it meets in one body.
     [[nodiscard]] bool begin(const Task& task);
     /// After that: whether there is an answer, in which nothing pulls and friction is within its
     /// limit.
