@@ -31,7 +31,7 @@ constexpr std::uint32_t sweeps_min = 3, sweeps_max = 31, visits_max = 600;
 constexpr double overlap_tolerance = 1e-9;
 constexpr double overlap_converged = 1e-6;
 constexpr double correction_max = 0.1;
-constexpr std::uint32_t overlap_sweeps_min = 5, overlap_visits_max = 200;
+constexpr std::uint32_t overlap_sweeps_min = 7, overlap_visits_max = 200;
 // This share of an overlap is removed per tick: not all, so that contacts that contradict each
 // other come to rest.
 constexpr double correction_share = 0.3;
