@@ -49,8 +49,6 @@ public:
     }
 
     [[nodiscard]] std::size_t rows() const { return first_.size(); }
-    /// How many entries the rows have before their diagonals.
-    [[nodiscard]] std::size_t entries() const { return size_; }
     [[nodiscard]] std::uint32_t first(std::size_t row) const { return first_[row]; }
     /// From the row's first column to its diagonal: to be set before factor().
     [[nodiscard]] double* row(std::size_t i) { return entries_.all().data() + begins_[i]; }
