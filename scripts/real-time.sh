@@ -163,7 +163,7 @@ start=$(date -u +%FT%TZ)
 started=$SECONDS
 if [[ -n $experiment ]]; then
     # Also when it is interrupted.
-    trap 'stop_all; [[ -z $(compgen -G "$out/cells/*/*/result.json") ]] || conclude' EXIT
+    trap 'stop_children; [[ -z $(compgen -G "$out/cells/*/*/result.json") ]] || conclude' EXIT
     play_experiment
     exit
 fi

@@ -35,7 +35,7 @@ base::Result<bool> conclude_circle(const DemoReportCommand& command, const std::
     const results::CircleDemo demo{task, *std::move(files)};
     write_manifest(command, circle_demo_manifest(demo, circumstances));
     fmt::print("{}", circle_demo_verdict(demo));
-    return true;
+    return circle_demo_is_valid(demo);
 }
 
 } // namespace
@@ -63,7 +63,7 @@ base::Result<bool> conclude_demo(const DemoReportCommand& command)
     const auto page = write_report({command.folder, {}});
     if (!page) return tl::unexpected{page.error()};
     fmt::print("{}", demo_table(run));
-    return demo_is_met(run);
+    return demo_is_met(run) && demo_is_valid(run);
 }
 
 } // namespace hapnet::lab

@@ -58,7 +58,7 @@ constexpr const char* exit_codes_without_run = R"(  0  done
   3  the system refused (no permission, disk full))";
 
 constexpr const char* demo_exit_codes = R"(  0  done
-  1  the session is outside the bands
+  1  a row is missed, or the run is not valid
   2  bad usage or input
   3  the system refused (no permission, disk full))";
 
@@ -141,9 +141,8 @@ void add_circumstances(cli::Command& command, auto& run)
 void add_demo_report(cli::Command& command, DemoReportCommand& demo)
 {
     command.describe("The last step of scripts/demo.sh: reads the records in a folder, prints them "
-                     "beside the paper's Table 1, and writes manifest.json. Exit code 1: outside "
-                     "the bands. Of T7 or T8 it writes manifest.json and says whether the run is "
-                     "valid.");
+                     "beside the paper's Table 1, and writes manifest.json and report.html. For T7 "
+                     "and T8 it writes manifest.json and says whether the run is valid.");
     command.positional("DIR", "The folder of scripts/demo.sh", cli::into(demo.folder))
         .required("results/demo");
     command.add_exit_codes(demo_exit_codes);

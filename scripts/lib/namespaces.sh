@@ -17,7 +17,7 @@ use_namespaces() {
         echo "$program: network namespaces need the command ip, of the package iproute2" >&2
         return 1
     fi
-    trap 'stop_all; remove_namespaces' EXIT
+    trap 'stop_children; remove_namespaces' EXIT
     namespace=hapnet-$$
     make_namespaces && return
     remove_namespaces

@@ -7,7 +7,6 @@
 # ends the script, its sessions end too.
 
 children=()
-builder=
 
 # Where the programs run: in the network namespaces $namespace-1, -emulator and -2, which
 # scripts/lib/namespaces.sh makes; empty: on loopback.
@@ -39,44 +38,27 @@ stop_children() {
     children=()
 }
 
-stop_all() {
-    stop_children
-    [[ -z $builder ]] || kill -TERM "$builder" 2>/dev/null || true
-    [[ -z $builder ]] || wait "$builder" || true
-}
-
-# fail WHY [LOG...]: says why and what the logs end with, and ends the script.
-fail() {
+# complain WHY [LOG...]: says why and what the logs end with.
+complain() {
     printf '\n%s: %s\n' "${program:?}" "$1" >&2
     shift
     (($# == 0)) || tail -n 20 "$@" >&2 || true
+}
+
+# fail WHY [LOG...]: the same, and ends the script.
+fail() {
+    complain "$@"
     exit 1
 }
 
-trap stop_all EXIT
+trap stop_children EXIT
 trap 'echo "$program: interrupted" >&2; exit 130' INT TERM
 
 # build_programs PROGRAM...: installs what is missing and builds these.
 build_programs() {
     scripts/setup.sh
     [[ -e build/release/build.ninja ]] || cmake --preset release -DHAPNET_TESTS=OFF
-    cmake --build --preset release --target "$@"
-}
-
-# build_beside LOG PROGRAM...: builds these while sessions play, which wait for most of their time.
-# The kernel's idle class takes only what they leave, and gives way to them at once.
-build_beside() {
-    build_log=$1
-    chrt --idle 0 ninja -C build/release "${@:2}" >"$build_log" 2>&1 &
-    builder=$!
-}
-
-# finish_build: waits for what build_beside() began.
-finish_build() {
-    local failed=
-    wait "$builder" || failed=yes
-    builder=
-    [[ -z $failed ]] || fail "building failed:" "$build_log"
+    cmake --build --preset release --parallel "$(nproc)" --target "$@"
 }
 
 # await_ready FOLDER: sets ready to the first line of the emulator that was started; empty if it ended.
@@ -123,29 +105,33 @@ peer() {
         --listen "$(socket_of "$1")" --remote "$2" "${@:5}" >"$4/peer-$1.out"
 }
 
-# wait_for_one FOLDER EMULATOR PEER...: sets ended to the first of them that ends. That has to be a
-# peer, and all has to be well with it.
-wait_for_one() {
-    if ! wait -n -p ended "${@:2}" || [[ $ended == "$2" ]]; then
-        fail "a program failed; its records and logs are in $1" "$1"/*.log
-    fi
+# wait_for_peers FOLDER EMULATOR PEER...: until all of them have ended, and ends the emulator then.
+# Fails when one fails, or the emulator ends before.
+wait_for_peers() {
+    local folder=$1 emulator=$2 awaited=("${@:3}") ended left one
+    children=("${@:2}")
+    while ((${#awaited[@]} > 0)); do
+        if ! wait -n -p ended "$emulator" "${awaited[@]}" || [[ $ended == "$emulator" ]]; then
+            stop_children
+            complain "a program failed; its records and logs are in $folder" "$folder"/*.log
+            return 1
+        fi
+        left=()
+        for one in "${awaited[@]}"; do [[ $one == "$ended" ]] || left+=("$one"); done
+        awaited=("${left[@]}")
+    done
+    children=("$emulator")
+    stop_children
 }
 
 # play_session FOLDER SECONDS PEER-OPTION...: a session through the started emulator, which then
-# ends too. What peer 1 says is shown.
+# ends too. What peer 1 says is shown. Fails when a program fails.
 play_session() {
     local folder=$1 seconds=$2
     peer 2 "$address_b" "$seconds" "$folder" "${@:3}" 2>"$folder/peer-2.log" &
     local peer_2=$!
     peer 1 "$address_a" "$seconds" "$folder" "${@:3}" &
-    local peer_1=$!
-    children=("$emulator" "$peer_1" "$peer_2")
-    local left=$peer_2
-    wait_for_one "$folder" "$emulator" "$peer_1" "$peer_2"
-    [[ $ended != "$peer_2" ]] || left=$peer_1
-    wait_for_one "$folder" "$emulator" "$left"
-    children=("$emulator")
-    stop_children
+    wait_for_peers "$folder" "$emulator" "$!" "$peer_2"
 }
 
 # start_links FOLDER PEERS OPTION...: an emulator with a link for every two of PEERS peers. Sets
@@ -172,7 +158,7 @@ start_links() {
 }
 
 # play_circle FOLDER SECONDS PEERS PEER-OPTION...: a session of PEERS through the started links,
-# which then end too. What peer 1 says is shown.
+# which then end too. What peer 1 says is shown. Fails when a program fails.
 play_circle() {
     local folder=$1 seconds=$2 peers=$3 i j own others running=()
     for ((i = peers; i >= 1; i--)); do
@@ -190,17 +176,7 @@ play_circle() {
         fi
         running+=("$!")
     done
-    children=("$emulator" "${running[@]}")
-    while ((${#running[@]} > 0)); do
-        wait_for_one "$folder" "$emulator" "${running[@]}"
-        local left=() one
-        for one in "${running[@]}"; do
-            [[ $one == "$ended" ]] || left+=("$one")
-        done
-        running=("${left[@]}")
-    done
-    children=("$emulator")
-    stop_children
+    wait_for_peers "$folder" "$emulator" "${running[@]}"
 }
 
 # analyse FOLDER: metrics of the records in it.

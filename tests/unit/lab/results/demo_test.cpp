@@ -74,6 +74,18 @@ TEST(DemoReport, SaysWhatWasMissed)
     EXPECT_NE(table.find("160 +- 1: MISSED"), std::string::npos);
 }
 
+TEST(DemoReport, IsNotMetWhenOneRowOfOneTaskIsMissed)
+{
+    for (const char* way : {"a_to_b", "b_to_a"}) {
+        DemoRun late = run(13.79);
+        late.t3.analysis[way]["delay_ms"]["p50"] = 161.01;
+        EXPECT_FALSE(demo_is_met(late)) << way;
+        DemoRun slow = run(13.79);
+        slow.p1.analysis[way]["packets_per_s"] = 994.9;
+        EXPECT_FALSE(demo_is_met(slow)) << way;
+    }
+}
+
 TEST(DemoReport, AnInvalidTaskMakesTheWholeInvalidAndSaysWhy)
 {
     DemoRun invalid = run(13.79);
@@ -81,6 +93,8 @@ TEST(DemoReport, AnInvalidTaskMakesTheWholeInvalidAndSaysWhy)
     invalid.p1.emulator["valid"] = false;
     const auto table = demo_table(invalid);
     EXPECT_NE(table.find("NOT VALID"), std::string::npos);
+    EXPECT_FALSE(demo_is_valid(invalid));
+    EXPECT_TRUE(demo_is_valid(run(13.79)));
     EXPECT_NE(table.find("T3: b missed 2 % of its ticks"), std::string::npos);
     const Json manifest = demo_manifest(invalid, {});
     EXPECT_EQ(manifest["kind"], "demo");
@@ -130,6 +144,7 @@ TEST(DemoReport, OfManyHandsSaysWhoPlayedAndWhetherItCounts)
     EXPECT_EQ(manifest["valid"], false);
     EXPECT_EQ(manifest["invalid_because"].size(), 1U);
     EXPECT_NE(circle_demo_verdict(demo).find("NOT VALID"), std::string::npos);
+    EXPECT_FALSE(circle_demo_is_valid(demo));
 }
 
 } // namespace
