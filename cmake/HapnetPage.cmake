@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: MIT
 #
 # The files of web/page and their modules, compiled into the programs that show them: hapnet-web
-# serves them, hapnet-lab writes them into its reports. Without modules pages draw flat; that is no
-# error.
+# serves them, hapnet-lab writes them into its reports. Without npm the worlds are drawn by Debian's
+# three.js, and without that flat; neither is an error.
 set(HAPNET_PAGE_MODULES "" CACHE PATH
     "A node_modules folder with three and uplot; empty: npm ci fetches them into the build folder")
 set(hapnet_page_folder ${PROJECT_SOURCE_DIR}/web/page)
+set(hapnet_debian_three /usr/share/javascript/three/three.min.js)
 
 # hapnet_page_modules(OUT): the folder of the modules; empty when they cannot be had.
 function(hapnet_page_modules out)
@@ -27,8 +28,9 @@ function(hapnet_page_modules out)
     endif()
     set_property(GLOBAL PROPERTY hapnet_page_modules_tried TRUE)
     find_program(HAPNET_NPM npm)
-    set(result "npm is missing: scripts/setup.sh --web installs it")
-    if(HAPNET_NPM)
+    if(NOT HAPNET_NPM)
+        set(result "npm is missing")
+    else()
         file(MAKE_DIRECTORY ${folder})
         file(COPY ${lock} ${hapnet_page_folder}/package.json DESTINATION ${folder})
         execute_process(COMMAND ${HAPNET_NPM} ci --omit=dev --ignore-scripts --no-audit --no-fund
@@ -38,36 +40,56 @@ function(hapnet_page_modules out)
     if(result STREQUAL "0")
         file(TOUCH ${folder}/${hash})
         set(${out} ${folder}/node_modules PARENT_SCOPE)
+    elseif(EXISTS ${hapnet_debian_three})
+        message(STATUS "Pages draw with Debian's three.js and their own charts (${result})")
     else()
-        message(WARNING "the pages will draw flat, without their modules (${result})")
+        message(WARNING "Pages will draw flat: ${result}, and so is Debian's package libjs-three")
     endif()
 endfunction()
 
-# hapnet_page_libraries(OUT): what pages take of the modules, as name=file. uPlot's minified build
-# is a classic script: with an export at its end it is a module, too.
+# hapnet_page_module(OUT NAME SCRIPT CODE): a classic script as a module, by a line of code at its end.
+function(hapnet_page_module out name script code)
+    set(module ${PROJECT_BINARY_DIR}/${name})
+    file(READ ${script} text)
+    file(CONFIGURE OUTPUT ${module} CONTENT "${text}\n${code}\n" @ONLY)
+    set(${out} "${name}=${module}" PARENT_SCOPE)
+endfunction()
+
+# hapnet_page_libraries(OUT): what pages take of the modules, as name=file. Without npm three.js is
+# Debian's, an older one, of which the module has what the pages name; charts are then our own.
 function(hapnet_page_libraries out)
-    set(${out} PARENT_SCOPE)
-    hapnet_page_modules(modules)
-    if(NOT modules)
-        return()
-    endif()
     set(entries)
-    foreach(pair three.module.min.js=three/build/three.module.min.js
-                 three.core.min.js=three/build/three.core.min.js
-                 three-LICENSE.txt=three/LICENSE
-                 uPlot.min.css=uplot/dist/uPlot.min.css
-                 uplot-LICENSE.txt=uplot/LICENSE)
-        string(REGEX MATCH "^([^=]+)=(.+)$" matched ${pair})
-        if(EXISTS ${modules}/${CMAKE_MATCH_2})
-            list(APPEND entries "${CMAKE_MATCH_1}=${modules}/${CMAKE_MATCH_2}")
+    hapnet_page_modules(modules)
+    if(modules)
+        foreach(pair three.module.min.js=three/build/three.module.min.js
+                     three.core.min.js=three/build/three.core.min.js
+                     three-LICENSE.txt=three/LICENSE
+                     uPlot.min.css=uplot/dist/uPlot.min.css
+                     uplot-LICENSE.txt=uplot/LICENSE)
+            string(REGEX MATCH "^([^=]+)=(.+)$" matched ${pair})
+            if(EXISTS ${modules}/${CMAKE_MATCH_2})
+                list(APPEND entries "${CMAKE_MATCH_1}=${modules}/${CMAKE_MATCH_2}")
+            endif()
+        endforeach()
+        set(classic ${modules}/uplot/dist/uPlot.iife.min.js)
+        if(EXISTS ${classic})
+            hapnet_page_module(module uPlot.module.min.js ${classic} "export default uPlot;")
+            list(APPEND entries ${module})
         endif()
-    endforeach()
-    set(classic ${modules}/uplot/dist/uPlot.iife.min.js)
-    if(EXISTS ${classic})
-        set(module ${PROJECT_BINARY_DIR}/uPlot.module.min.js)
-        file(READ ${classic} script)
-        file(CONFIGURE OUTPUT ${module} CONTENT "${script}\nexport default uPlot;\n" @ONLY)
-        list(APPEND entries "uPlot.module.min.js=${module}")
+    elseif(EXISTS ${hapnet_debian_three})
+        set(names REVISION)
+        file(GLOB painters CONFIGURE_DEPENDS ${hapnet_page_folder}/paint/*.js)
+        foreach(painter IN LISTS painters)
+            file(READ ${painter} text)
+            string(REGEX MATCHALL "three[.][A-Z][A-Za-z0-9]+" found "${text}")
+            list(TRANSFORM found REPLACE "three[.]" "")
+            list(APPEND names ${found})
+        endforeach()
+        list(REMOVE_DUPLICATES names)
+        list(JOIN names ", " names)
+        hapnet_page_module(module three.module.min.js ${hapnet_debian_three}
+            "export const { ${names} } = globalThis.THREE;")
+        list(APPEND entries ${module} three-LICENSE.txt=/usr/share/doc/libjs-three/copyright)
     endif()
     set(${out} ${entries} PARENT_SCOPE)
 endfunction()

@@ -13,7 +13,7 @@ scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does noth
 missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
-    libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
+    libhidapi-dev libjs-three librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
     libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping libbenchmark-dev
     libbullet-dev libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14

@@ -22,11 +22,21 @@ const roundedBox = (three, half, radius) => {
   return geometry;
 };
 
-/** three's capsule stands along y; ours lies along its longest edge. */
+/** Turned about y, and then laid along its longest edge. */
 const capsule = (three, half) => {
   const axis = half.indexOf(Math.max(...half));
   const radius = Math.min(...half);
-  const geometry = new three.CapsuleGeometry(radius, 2 * (half[axis] - radius), 8, 24);
+  const reach = half[axis] - radius;
+  const steps = 8; // of each cap
+  const outline = [];
+  for (const end of [-1, 1]) {
+    for (let step = 0; step <= steps; step += 1) {
+      const angle = (Math.PI / 2) * (end < 0 ? step / steps - 1 : step / steps);
+      outline.push(new three.Vector2(
+        radius * Math.cos(angle), end * reach + radius * Math.sin(angle)));
+    }
+  }
+  const geometry = new three.LatheGeometry(outline, 24);
   if (axis === 0) geometry.rotateZ(Math.PI / 2);
   if (axis === 2) geometry.rotateX(Math.PI / 2);
   return geometry;
