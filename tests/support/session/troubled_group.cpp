@@ -56,8 +56,9 @@ GroupSetting drawn_group(base::Seed seed, std::size_t peers, Draws& draw, Seal s
     setting.length = group_length;
     setting.energy_limit = true;
     const auto loss = base::Probability::from_fraction(0.3 * draw.share()).value();
-    emulator::Conditions both{.loss = {emulator::RandomLoss{loss}},
-                              .delay = emulator::constant(40ms)};
+    emulator::Conditions both;
+    both.loss = {emulator::RandomLoss{loss}};
+    both.delay = emulator::constant(40ms);
     both.jitter = emulator::uniform(draw.up_to(10ms));
     both.order = emulator::Order::free;
     setting.profile.path = {both, both};

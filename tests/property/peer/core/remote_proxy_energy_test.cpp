@@ -49,7 +49,8 @@ TEST_P(RemoteProxyEnergy, OfAllHandsTogetherStaysAboveItsBound)
     RecordProperty("bound_mj", std::to_string(-1e3 * bound_j(one, played)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, RemoteProxyEnergy, testing::Range(std::uint64_t{0}, seeds(48)));
+INSTANTIATE_TEST_SUITE_P(Seed, RemoteProxyEnergy, testing::Range(std::uint64_t{0}, seeds(16)));
+INSTANTIATE_TEST_SUITE_P(All, RemoteProxyEnergy, testing::Range(seeds(16), std::uint64_t{48}));
 
 /// Those networks and hands, with a cube that turns: each of two copies or more can keep as much
 /// more as the cube stands on a corner.
@@ -71,7 +72,8 @@ TEST_P(TurningCubeEnergy, OfAllHandsTogetherStaysAboveItsBound)
     RecordProperty("bound_mj", std::to_string(-1e3 * bound_j(one, played)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, TurningCubeEnergy, testing::Range(std::uint64_t{0}, seeds(24)));
+INSTANTIATE_TEST_SUITE_P(Seed, TurningCubeEnergy, testing::Range(std::uint64_t{0}, seeds(12)));
+INSTANTIATE_TEST_SUITE_P(All, TurningCubeEnergy, testing::Range(seeds(12), std::uint64_t{24}));
 
 TEST(TurningCubeEnergy, IsTheSameToTheBitWhenMessagesComeTwiceAndLate)
 {

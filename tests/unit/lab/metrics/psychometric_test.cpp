@@ -63,41 +63,45 @@ TEST(Psychometric, LiesHalfWayWhereAllSeedsChangeBetweenTwoLevels)
     EXPECT_GE(threshold.high.value_or(0.0), 140.0);
 }
 
-/// In how many of 40 runs the interval holds the true p50.
-int times_held(const Psychometric& truth, const std::vector<double>& levels, std::uint32_t seeds)
-{
-    const double p50 = truth.level_of(0.5);
-    int held = 0;
-    for (std::uint64_t run = 0; run < 40; ++run) {
-        const auto threshold = threshold_of(drawn(truth, levels, seeds, 100 + run), 320.0);
-        held += threshold.low <= p50 && threshold.high.value_or(beyond) >= p50 ? 1 : 0;
+/// In a number of runs.
+class ThresholdInterval : public testing::TestWithParam<std::uint64_t> {
+protected:
+    static void expect_to_hold(const Psychometric& truth, const std::vector<double>& levels)
+    {
+        constexpr std::uint32_t seeds = 40;
+        const double p50 = truth.level_of(0.5);
+        int held = 0;
+        for (std::uint64_t run = 0; run < GetParam(); ++run) {
+            const auto threshold = threshold_of(drawn(truth, levels, seeds, 100 + run), 320.0);
+            held += threshold.low <= p50 && threshold.high.value_or(beyond) >= p50 ? 1 : 0;
+        }
+        // At 95 % there are fewer in one of 300 cases.
+        EXPECT_GE(held, GetParam() == 40 ? 34 : 16);
     }
-    return held;
-}
+};
 
-// Of 40 runs at 95 %: less than 34 in one of 300 cases.
-
-TEST(Threshold, ItsIntervalHoldsTheTruthInAboutNineteenOfTwentyRuns)
+TEST_P(ThresholdInterval, HoldsTheTruthInAboutNineteenOfTwentyRuns)
 {
-    EXPECT_GE(times_held({.location = 134.0, .scale = 6.0}, eight, 40), 34);
+    expect_to_hold({.location = 134.0, .scale = 6.0}, eight);
 }
 
-TEST(Threshold, ItsIntervalHoldsTheTruthOfASkewedCurve)
+TEST_P(ThresholdInterval, HoldsTheTruthOfASkewedCurve)
 {
     // As dead reckoning's delay: a slow rise, then a steep end. The fit of a logistic alone is too
     // low here.
-    const Psychometric truth{.location = 129.0, .scale = 7.0, .core = Core::gumbel};
-    EXPECT_GE(times_held(truth, eight, 40), 34);
+    expect_to_hold({.location = 129.0, .scale = 7.0, .core = Core::gumbel}, eight);
 }
 
-TEST(Threshold, ItsIntervalHoldsTheTruthWhereLevelsAreTooFarApartToShowTheCurve)
+TEST_P(ThresholdInterval, HoldsTheTruthWhereLevelsAreTooFarApartToShowTheCurve)
 {
     // Nearly all seeds change between two levels, as dead reckoning's did with jitter on levels
-    // 0.25 ms apart. The replicates of the fit alone hold the truth in 20 of the 40 runs.
-    const Psychometric truth{.location = 4.05, .scale = 0.0125};
-    const std::vector<double> coarse{3.25, 3.5, 3.75, 4.0, 4.25, 4.5, 4.75, 5.0};
-    EXPECT_GE(times_held(truth, coarse, 40), 34);
+    // 0.25 ms apart. The replicates of the fit alone hold the truth in 20 of 40 runs.
+    expect_to_hold({.location = 4.05, .scale = 0.0125},
+                   {3.25, 3.5, 3.75, 4.0, 4.25, 4.5, 4.75, 5.0});
 }
+
+INSTANTIATE_TEST_SUITE_P(Runs, ThresholdInterval, testing::Values(20U));
+INSTANTIATE_TEST_SUITE_P(All, ThresholdInterval, testing::Values(40U));
 
 TEST(Interval, OfFewSeedsIsWiderThanThePercentilesOfTheReplicates)
 {
