@@ -3,10 +3,10 @@
 #
 # hapnet_discover(PROGRAM KIND PREFIX TIMEOUT [ALL] [FILTER ...] [LIST ...] [PROPERTIES ...]): makes
 # each test of a GoogleTest program a test of ctest, PREFIX followed by the name, with the label
-# KIND. Instantiations with the prefix All also get the label "all", and so do all tests of a program
-# that is marked ALL: the default run leaves that label out. FILTER takes a part of the tests, whose
+# KIND. Instantiations with the prefix All also get the label "all", which the default run leaves
+# out, and so do all tests of a program that is marked ALL. FILTER takes a part of the tests, whose
 # names ctest then knows as LIST. The target default_tests builds every program that has tests in
-# the default run.
+# the default run, without those end to end.
 include(GoogleTest)
 add_custom_target(default_tests)
 function(hapnet_discover program kind prefix timeout)
@@ -18,7 +18,7 @@ function(hapnet_discover program kind prefix timeout)
     gtest_discover_tests(${program} TEST_PREFIX ${prefix} DISCOVERY_MODE PRE_TEST
         TEST_FILTER "${arg_FILTER}" TEST_LIST ${list}
         PROPERTIES LABELS ${kind} TIMEOUT ${timeout} ${arg_PROPERTIES})
-    set(only_all "/All/")
+    set(only_all "^${prefix}All/")
     if(arg_ALL)
         set(only_all ".")
     elseif(NOT kind STREQUAL "e2e") # the target end_to_end builds those
