@@ -63,14 +63,7 @@ base::Result<int> run(const BetweenOptions& options)
                                                   .fix_checksums = options.frames.fix_checksums}});
     if (const auto fine = session->ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session->announce();
-    b.go(); // it goes on while A waits for it
-    const int code = CommandRun{a,
-                                {.process = b,
-                                 .name = "command B",
-                                 .is_ready = [&b] { return net::has_listener(b.pid()); }},
-                                *session,
-                                stop}
-                         .run();
+    const int code = CommandRun{a, {.process = b, .name = "command B"}, *session, stop}.run();
     const bool is_complete = session->finish();
     return code == 0 && !is_complete ? net::exit_failed : code;
 }

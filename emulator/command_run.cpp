@@ -2,16 +2,28 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/command_run.hpp"
 
-#include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
 namespace hapnet::emulator {
 
+namespace {
+
 using namespace std::chrono_literals;
+
+std::optional<net::CommandStart::Before> start_before_a(const CommandRun::Other& other)
+{
+    if (other.runs_already) return std::nullopt;
+    return net::CommandStart::Before{
+        .command = other.process,
+        .is_ready = [pid = other.process.pid()] { return net::has_listener(pid); }};
+}
+
+} // namespace
 
 CommandRun::CommandRun(net::ChildCommand& a, Other other, FrameSession& session,
                        const net::StopSignal& stop)
@@ -21,8 +33,7 @@ CommandRun::CommandRun(net::ChildCommand& a, Other other, FrameSession& session,
       stop_{stop},
       end_of_a_{a_},
       end_of_other_{other_.process},
-      began_{net::monotonic_now()},
-      next_look_{began_}
+      start_{a_, start_before_a(other_)}
 {}
 
 int CommandRun::run()
@@ -44,6 +55,7 @@ std::vector<int> CommandRun::descriptors()
 {
     std::vector<int> all;
     if (!is_ending_) all.push_back(stop_.descriptor());
+    if (!has_a_started_) all.push_back(start_.descriptor());
     if (has_a_started_ && !a_.exit_code()) all.push_back(a_.descriptor());
     if (!other_.process.exit_code()) all.push_back(other_.process.descriptor());
     return all;
@@ -51,8 +63,7 @@ std::vector<int> CommandRun::descriptors()
 
 void CommandRun::look_after(base::TimePoint now)
 {
-    start_a(now);
-    if (!has_a_started_) return;
+    if (!has_a_started()) return;
     const auto code = other_.process.exit_code();
     if (!a_.exit_code() && code && !is_ending_ && !std::exchange(has_told_of_other_, true)) {
         net::say("hapnet-emulator",
@@ -63,16 +74,14 @@ void CommandRun::look_after(base::TimePoint now)
     if (is_ending_) end_both(now);
 }
 
-void CommandRun::start_a(base::TimePoint now)
+bool CommandRun::has_a_started()
 {
-    constexpr base::Duration pause = 10ms;
-    if (has_a_started_) return;
-    next_look_ = now + pause;
-    const bool is_ready = other_.process.exit_code() || other_.is_ready();
-    if (!is_ready && now - began_ < other_.patience && !is_told()) return;
+    if (has_a_started_) return true;
+    if (is_told()) start_.hurry();
+    if (!start_.is_done()) return false;
     has_a_started_ = true;
     next_look_ = session_.end();
-    a_.go();
+    return true;
 }
 
 /// A first: it may still have something to say to the other one.

@@ -4,28 +4,26 @@
 
 #include "emulator/frame_session.hpp"
 #include "proto/base/time.hpp"
+#include "proto/net/command_start.hpp"
 #include "proto/net/own_network.hpp"
 #include "proto/net/stop_signal.hpp"
 
-#include <chrono>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hapnet::emulator {
 
-/// Command A beside the rounds of a session, and what it talks to: from the start of A to the end
-/// of both.
+/// Command A beside the rounds of a session, and what it talks to: from the start of both to their
+/// end.
 class CommandRun {
 public:
-    /// What stands at the other end of the wire. It runs already.
+    /// What stands at the other end of the wire.
     struct Other {
         net::ChildCommand& process;
         std::string name; // "command B"
-        /// Whether A can start; it does so after `patience` in any case.
-        std::function<bool()> is_ready;
-        base::Duration patience = std::chrono::seconds{1};
+        /// False: it has to be started, and A waits until it listens on a port, 1 s at most.
+        bool runs_already = false;
     };
 
     CommandRun(net::ChildCommand& a, Other other, FrameSession& session,
@@ -53,7 +51,7 @@ private:
     [[nodiscard]] bool is_told() const;
     [[nodiscard]] std::vector<int> descriptors();
     void look_after(base::TimePoint now);
-    void start_a(base::TimePoint now);
+    [[nodiscard]] bool has_a_started();
     void end_both(base::TimePoint now);
 
     net::ChildCommand& a_;
@@ -62,7 +60,7 @@ private:
     const net::StopSignal& stop_;
     Ending end_of_a_;
     Ending end_of_other_;
-    base::TimePoint began_{};
+    net::CommandStart start_;
     std::optional<base::TimePoint> next_look_;
     bool has_a_started_ = false;
     bool is_ending_ = false;

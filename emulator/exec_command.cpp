@@ -56,13 +56,13 @@ base::Result<int> run(const ExecOptions& options)
                                             "machine is {} there",
                                             world.name(), World::router));
     session->announce();
-    const int code = CommandRun{a,
-                                {.process = world.process(),
-                                 .name = std::string{world.name()},
-                                 .is_ready = [] { return true; }},
-                                *session,
-                                stop}
-                         .run();
+    const int code =
+        CommandRun{
+            a,
+            {.process = world.process(), .name = std::string{world.name()}, .runs_already = true},
+            *session,
+            stop}
+            .run();
     const bool is_complete = session->finish();
     return code == 0 && !is_complete ? net::exit_failed : code;
 }

@@ -54,7 +54,14 @@ void Server::serve(const Subject& subject, base::TimePoint now,
     const bool is_in_the_way = base::is_due(next_departure, now + answer_takes);
     if (since < (is_in_the_way ? put_off_max : turn_min)) return;
     last_served_ = now;
-    for (const net::Ready& ready : wait_set_.ready()) attend(ready);
+    bool is_somebody_new = false;
+    for (const net::Ready& ready : wait_set_.ready()) {
+        if (ready.key == listener_key) {
+            is_somebody_new = true;
+        } else {
+            attend(ready);
+        }
+    }
     has_more_ = true;
     for (int i = 0; i < limits_.answers && has_more_; ++i) answer_one(subject, now);
     for (std::size_t place = 0; place < clients_max; ++place) {
@@ -70,18 +77,17 @@ void Server::serve(const Subject& subject, base::TimePoint now,
             want(*client, place);
         }
     }
+    if (is_somebody_new) admit(); // last: whoever has hung up has left a place by now
 }
 
 void Server::attend(const net::Ready& ready)
 {
-    if (ready.key == listener_key) return admit();
     auto& client = clients_[ready.key];
     if (!client) return;
-    if (ready.is_readable && client->conversation.room() > 0) {
-        take(*client);
-    } else if (ready.is_gone) {
-        client->conversation.on_gone();
-    }
+    const bool can_be_read = ready.is_readable && client->conversation.room() > 0;
+    // One that has gone may have left requests behind: these are read first.
+    if (can_be_read && take(*client) != net::Transfer::State::ended) return;
+    if (ready.is_gone) client->conversation.on_gone();
 }
 
 void Server::admit()
@@ -102,11 +108,10 @@ void Server::admit()
     }
 }
 
-void Server::take(Client& client)
+net::Transfer::State Server::take(Client& client)
 {
     std::array<char, read_bytes_max> buffer; // NOLINT(*-member-init): only what is read is used
     const auto room = std::min(buffer.size(), client.conversation.room());
-    if (room == 0) return;
     const auto taken = client.stream.read(std::span{buffer}.first(room));
     switch (taken.state) {
     case net::Transfer::State::moved:
@@ -116,6 +121,7 @@ void Server::take(Client& client)
     case net::Transfer::State::ended: client.conversation.on_end(); break;
     case net::Transfer::State::gone: client.conversation.on_gone(); break;
     }
+    return taken.state;
 }
 
 void Server::answer_one(const Subject& subject, base::TimePoint now)

@@ -55,7 +55,8 @@ private:
 
     void attend(const net::Ready& ready);
     void admit();
-    static void take(Client& client);
+    /// Reads what it has sent, as far as there is room for it.
+    static net::Transfer::State take(Client& client);
     void answer_one(const Subject& subject, base::TimePoint now);
     static void send(Client& client, base::TimePoint now);
     void want(Client& client, std::size_t place);

@@ -4,6 +4,7 @@
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/process.hpp"
 #include "tests/e2e/udp.hpp"
+#include "tests/support/ipv6.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -140,6 +141,7 @@ TEST(EmulatorProbe, DoesNotAnswerWhatIsNoQuestion)
 
 TEST(EmulatorProbe, MeasuresOverIpv6)
 {
+    if (!test::has_ipv6()) GTEST_SKIP() << "no IPv6 here";
     AnsweringProbe answering{"[::1]:0"};
     const auto outcome =
         run("hapnet-emulator", {"probe", answering.where(), "--count", "2", "--size", "1200"});

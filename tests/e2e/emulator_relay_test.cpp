@@ -4,6 +4,7 @@
 #include "proto/base/random.hpp"
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/udp.hpp"
+#include "tests/support/ipv6.hpp"
 
 #include <algorithm>
 #include <array>
@@ -225,6 +226,7 @@ TEST(Emulator, TakesNothingThatIsForgedToComeFromItself)
 
 TEST(Emulator, RelaysOverIpv6)
 {
+    if (!test::has_ipv6()) GTEST_SKIP() << "no IPv6 here";
     Host a{"[::1]:0"};
     Host b{"[::1]:0"};
     Emulator emulator{{"--delay", "5ms"}, "[::1]:0"};

@@ -117,6 +117,8 @@ if ! wanted remote; then
     :
 elif [[ ! -x /usr/sbin/sshd ]] || ! have ssh-keygen rsync parallel; then
     left_out "ssh: openssh-server, rsync or parallel is missing"
+elif ((EUID != 0)); then
+    left_out "ssh: its daemon needs root"
 else
     ssh=$work/ssh
     mkdir -p "$ssh" /run/sshd

@@ -16,7 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Without the privileges of root while it lives: root may open everything.
+/// Without the privileges of root while it lives: root may open everything. Others may not open a
+/// file of mode 0, not even their own.
 class Unprivileged {
 public:
     Unprivileged()
@@ -120,7 +121,7 @@ TEST_F(OverTheBus, IsFoundAgainOnceItIsPluggedIn)
 TEST_F(OverTheBus, IsListedWithTheCureWhereThereIsNoPermission)
 {
     chmod(testbed.real_path("").c_str(), 0755);
-    chmod(testbed.real_path("/dev/fw1").c_str(), 0600);
+    chmod(testbed.real_path("/dev/fw1").c_str(), 0);
     chmod(testbed.real_path("/ioctl/dev/fw1").c_str(), 0777); // umockdev's own
     const Unprivileged unprivileged;
     const auto found = find_omnis();

@@ -19,9 +19,11 @@ if [[ -z ${HAPNET_BRIDGE_TEST-} ]]; then
     unshare "${own[@]}" true || { echo "skipped: no network of one's own here" && exit 77; }
     HAPNET_BRIDGE_TEST=yes exec unshare "${own[@]}" "$0" "$@"
 fi
+ip address add fd09::9/64 dev lo nodad || { echo "skipped: no IPv6 here" && exit 77; }
+ip address delete fd09::9/64 dev lo
 
 folder=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null; wait; rm -rf "$folder"' EXIT
+trap 'kill $(jobs -p) 2>/dev/null || true; wait; rm -rf "$folder"' EXIT
 fail() {
     echo "FAILED: $1" >&2
     tail -n 20 "$folder"/* >&2

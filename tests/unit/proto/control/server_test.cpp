@@ -75,6 +75,37 @@ TEST_F(ControlServer, GivesThePlaceOfAClientThatHasHungUpToTheNextOneAtOnce)
     EXPECT_EQ(all_of(next), std::string(5000, 'x') + "\n");
 }
 
+TEST_F(ControlServer, FreesThePlacesOfThoseWhoHaveHungUpBeforeItAdmitsAnyone)
+{
+    std::vector<net::UnixStream> clients;
+    for (std::size_t i = 0; i < Server::clients_max; ++i) {
+        clients.push_back(net::UnixStream::connect(path));
+        serve(1);
+    }
+    clients.clear();
+    auto next = net::UnixStream::connect(path);
+    EXPECT_EQ(next.write("stats\n").bytes, 6U);
+    serve(2); // one to admit it, one to answer it
+    EXPECT_EQ(all_of(next), std::string(5000, 'x') + "\n");
+}
+
+TEST_F(ControlServer, FreesThePlaceOfAClientThatHangsUpWhileItWaits)
+{
+    talker.subject.answer = [](std::string_view, base::TimePoint) -> Answer {
+        return WatchRequest{.every = 1h};
+    };
+    std::vector<net::UnixStream> clients;
+    for (std::size_t i = 0; i < Server::clients_max; ++i) {
+        clients.push_back(net::UnixStream::connect(path));
+        EXPECT_EQ(clients.back().write("watch\n").bytes, 6U);
+        serve(3);
+    }
+    clients.clear();
+    auto next = net::UnixStream::connect(path);
+    serve(1);
+    EXPECT_EQ(all_of(next), "");
+}
+
 TEST_F(ControlServer, DoesWhatAClientAskedBeforeItHungUp)
 {
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/clock.hpp"
 #include "proto/net/udp_socket.hpp"
+#include "tests/support/ipv6.hpp"
 #include "tests/unit/proto/net/datagrams.hpp"
 
 #include <gtest/gtest.h>
@@ -22,11 +23,7 @@ class UdpSocketOn : public testing::TestWithParam<const char*> {
 protected:
     void SetUp() override
     {
-        try {
-            const UdpSocket probe{endpoint(GetParam())};
-        } catch (const std::system_error& error) {
-            GTEST_SKIP() << "this machine has no such loopback: " << error.what();
-        }
+        if (GetParam()[0] == '[' && !test::has_ipv6()) GTEST_SKIP() << "no IPv6 here";
     }
 };
 

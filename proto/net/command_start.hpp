@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+#include "proto/net/own_network.hpp"
+#include "proto/net/wake_event.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <thread>
+
+namespace hapnet::net {
+
+/// Starts one or two commands on a thread of its own. Starting a program and looking for its
+/// listener take milliseconds, in which the thread that relays their frames would be late.
+class CommandStart {
+public:
+    /// A command that starts first.
+    struct Before {
+        ChildCommand& command;
+        /// True once the last command may start. Called every 10 ms, on the thread of the start.
+        std::function<bool()> is_ready;
+        /// The last command starts after this time in any case.
+        base::Duration patience = std::chrono::seconds{1};
+    };
+
+    /// Starts `before`, if there is one, and `last` once `before` is ready or has ended. Until
+    /// is_done(), only the exit codes of both commands may be asked for elsewhere.
+    CommandStart(ChildCommand& last, std::optional<Before> before);
+    /// Ends the thread. Does not start what has not started yet.
+    ~CommandStart();
+    CommandStart(const CommandStart&) = delete;
+    CommandStart& operator=(const CommandStart&) = delete;
+
+    /// Starts the last command without waiting any longer.
+    void hurry();
+
+    /// Readable once is_done() is worth asking.
+    [[nodiscard]] int descriptor() const { return done_.descriptor(); }
+    /// True once all commands have started. Throws std::system_error when one cannot be started.
+    [[nodiscard]] bool is_done() const;
+
+private:
+    void run() noexcept;
+    [[nodiscard]] bool awaits_last();
+
+    ChildCommand& last_;
+    std::optional<Before> before_;
+    WakeEvent told_; // to hurry, or that it is over
+    WakeEvent done_;
+    std::atomic<bool> is_hurried_{false};
+    std::atomic<bool> is_over_{false};
+    std::atomic<bool> is_done_{false};
+    std::exception_ptr failure_; // written before is_done_
+    std::thread thread_;         // last: it uses the others
+};
+
+} // namespace hapnet::net
