@@ -2,16 +2,17 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Makes packages for Debian 12.
+# Makes packages for Debian 12, a tarball, a wheel for Python, and their sums.
 set -euo pipefail
 
 usage="usage: scripts/package.sh --out DIR [--only emulator]
 Installs what is missing, builds the programs, and leaves in DIR the packages hapnet-emulator (with
 hapnet-ctl and no library of devices) and hapnet (hapnet-peer, hapnet-lab), each with manual pages,
 completions for bash, zsh and fish, and a unit of systemd; hapnet-web, whose page draws with
-modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; and a tarball of the
-programs that runs from any folder and needs no package.
---only emulator makes the first alone, and a tarball with its programs.
+modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; a tarball of the
+programs that runs from any folder and needs no package; a wheel of the module for Python; and
+SHA256SUMS of all of them.
+--only emulator makes the first package alone, a tarball with its programs, and SHA256SUMS.
 Install them with: apt-get install ./DIR/hapnet-emulator_*.deb
 Exits 0 when they are there, 1 when something failed, 2 for an unknown argument, 3 when something
 that it needs cannot be installed."
@@ -57,7 +58,7 @@ make -DHAPNET_STATIC=OFF
 rm -rf "$build/packages"
 cpack --config "$build/CPackConfig.cmake" -B "$build/packages"
 rm -f "$out"/{hapnet,hapnet-emulator,hapnet-web,hapnet-dev,python3-hapnet}_*.deb \
-    "$out"/hapnet-*.tar.gz
+    "$out"/hapnet-*.tar.gz "$out"/hapnet-*.whl "$out/SHA256SUMS"
 cp "$build"/packages/*.deb "$out"
 
 # The same objects, linked with archives.
@@ -91,4 +92,15 @@ cp -L /usr/share/common-licenses/{Apache-2.0,GPL-3,LGPL-2.1} "$notices"
 } >"$notices/README"
 tar -C "$build/tarball" --sort=name --owner=0 --group=0 --numeric-owner -czf "$out/$name.tar.gz" \
     "$name"
-printf 'package: %s\n' "$out"/*.deb "$out/$name.tar.gz"
+made=("$name.tar.gz")
+
+if [[ -z $only ]]; then
+    # shellcheck source=scripts/lib/wheel.sh
+    . scripts/lib/wheel.sh
+    make_wheel . "$build/wheel"
+    cp "$build"/wheel/hapnet-*.whl "$out"
+    made+=("$(basename "$build"/wheel/hapnet-*.whl)")
+fi
+for package in "$build"/packages/*.deb; do made+=("${package##*/}"); done
+(cd "$out" && sha256sum "${made[@]}" >SHA256SUMS)
+printf 'package: %s\n' "${made[@]/#/$out/}" "$out/SHA256SUMS"

@@ -31,7 +31,8 @@ command -v node >/dev/null && command -v npm >/dev/null || web_packages+=(nodejs
 # What runs the shards of a plan, and a cluster of one node.
 fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-wlm)
 
-package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian scdoc systemd)
+package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian python3-pip
+    python3-setuptools python3-wheel scdoc systemd)
 
 # What makes images of the Dockerfiles and plays the compose file, and the shells whose completions
 # are tried.
