@@ -43,7 +43,7 @@ mkdir -p "$out"
 out=$(realpath "$out")
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/setup.sh --package
+scripts/setup.sh ${only:+--only "$only"} --package
 build=build/package${only:+-$only}
 libdir=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 # make OPTION...: configures and builds.

@@ -6,15 +6,18 @@
 set -euo pipefail
 
 usage="usage: scripts/setup.sh [--test] [--programs] [--web] [--package] [--ship] [--fleet]
-Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
+       scripts/setup.sh --only emulator [--package]
+Installs the Debian 12 packages that building Hapnet needs and that are missing, or with --only
+emulator those that building the emulator alone needs; with --test
 also those that scripts/test.sh needs, with --programs, --web (nodejs and npm only where there is no
 node), --ship and --fleet those that its kinds of these names need, with --package those that
 scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does nothing when nothing is
 missing."
 
-packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
-    libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
-    libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
+emulator_packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev
+    librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev)
+packages=("${emulator_packages[@]}" libglm-dev libhidapi-dev libsodium-dev libusb-1.0-0-dev
+    pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping libbenchmark-dev
     libbullet-dev libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
     parallel passt python3-dissononce python3-jsonschema python3-numpy python3-pandas python3-pytest
@@ -38,6 +41,16 @@ package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian python3
 # are tried.
 ship_packages=(buildah fish iproute2 jq mmdebstrap python3-yaml zsh)
 
+if [[ ${1-} == --only ]]; then
+    case ${*:2} in
+    emulator) packages=("${emulator_packages[@]}") ;;
+    'emulator --package')
+        packages=("${emulator_packages[@]}" binutils dpkg-dev file gzip scdoc)
+        ;;
+    *) echo "setup: --only: 'emulator', and then '--package' or nothing"$'\n'"$usage" >&2 && exit 2 ;;
+    esac
+    set --
+fi
 for argument in "$@"; do
     case $argument in
     --test) packages+=("${test_packages[@]}") ;;

@@ -3,28 +3,30 @@
 # SPDX-License-Identifier: MIT
 #
 # Pastes the ```sh blocks of a Markdown page into an interactive bash that has a background job of
-# its own, on loopback. A block fails when one of its commands fails, when the job is no longer there
-# afterwards, or when a job of the block still is. Blocks after a line
+# its own, on loopback. A block fails when one of its commands fails, when that job does not outlive
+# it, or when it leaves a job of its own behind. Blocks after a line
 # "<!-- not run by readme_test: why -->" are left out. A ```python, ```toml or ```cmake block that
 # begins with the comment "# NAME" is saved as the file NAME first, as the page tells its reader.
 # Every ```python block has to be such a file, and a command of the page has to name it.
 # Usage: readme_test.sh PAGE FOLDER-WITH-THE-PROGRAMS [FEWEST-BLOCKS-TO-RUN [TRIAL...]]
 # TRIAL is a command of hapnet-emulator; when it exits with 3, the system refuses what the page is
 # about, and nothing is run.
+# HAPNET_PAGE_FOLDER: the blocks run in this folder, and what they make stays there.
+# HAPNET_PAGE_SECONDS: the time that one block may take, instead of a minute.
 set -euo pipefail
 
 page=$(realpath "$1")
 programs=$(realpath "$2")
 blocks_min=${3:-1}
 trial=("${@:4}")
-seconds_max=60 # for one block
+seconds_max=${HAPNET_PAGE_SECONDS:-60} # for one block
 
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+folder=${HAPNET_PAGE_FOLDER:-$(mktemp -d)}
+[[ -n ${HAPNET_PAGE_FOLDER-} ]] || trap 'rm -rf "$folder"' EXIT
 command -v script >/dev/null || { echo "skipped: script is missing (Debian: bsdutils)" && exit 77; }
 # A clone, as far as the pages use one.
 repository=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
-mkdir "$folder/build"
+mkdir -p "$folder/build"
 ln -s "$(dirname "$programs")" "$folder/build/release"
 ln -s "$repository/examples" "$repository/python" "$folder"
 cd "$folder"
@@ -60,6 +62,7 @@ if ((${#blocks[@]} < blocks_min)); then
     exit 1
 fi
 
+export PATH=$programs:$PATH # for pages that are read beside installed programs
 cat >"$folder/shell.rc" <<'shell'
 PS1='$ ' PS2= HISTFILE=
 sleep 1000 &
@@ -68,10 +71,15 @@ set -o errtrace
 trap 'echo "exit code $?: $BASH_COMMAND" >>.failures' ERR
 shell
 
+# The jobs that are left, once those that were told to end had a second for it.
+# shellcheck disable=SC2016 # the pasted shell expands these
+last_words='for _ in {1..10}; do (($(jobs -pr | wc -l) > 1)) || break; sleep 0.1; done
+jobs -pr >.left; exit 0'
+
 # paste BLOCK: types it, line by line, into a terminal of its own; shows what the terminal shows.
 paste() {
     rm -f .failures .left
-    { cat "$1" && printf '\n%s\n' 'jobs -pr >.left; exit 0'; } |
+    { cat "$1" && printf '\n%s\n' "$last_words"; } |
         TERM=dumb timeout --kill-after 5 "$seconds_max" script --quiet --return --command \
             'bash --noediting --noprofile --rcfile shell.rc -i' /dev/null
 }
@@ -94,7 +102,8 @@ judge() {
 
 if [[ -e files-to-run ]]; then
     while read -r file; do
-        grep -qF " $file" "${blocks[@]}" || { echo "no command of $page names $file" >&2 && exit 1; }
+        grep -qF " $file" "${blocks[@]}" ||
+            { echo "no command of $page names $file" >&2 && exit 1; }
     done <files-to-run
 fi
 
