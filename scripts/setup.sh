@@ -47,7 +47,7 @@ if [[ ${1-} == --only ]]; then
     'emulator --package')
         packages=("${emulator_packages[@]}" binutils dpkg-dev file gzip scdoc)
         ;;
-    *) echo "setup: --only: 'emulator', and then '--package' or nothing"$'\n'"$usage" >&2 && exit 2 ;;
+    *) echo "setup: --only takes 'emulator', then perhaps '--package'"$'\n'"$usage" >&2 && exit 2 ;;
     esac
     set --
 fi
