@@ -28,6 +28,7 @@ foreach(library IN LISTS hapnet_archives ITEMS hapnet_proto hapnet_requirements)
 endforeach()
 set_target_properties(${hapnet_archives} PROPERTIES EXCLUDE_FROM_ALL OFF)
 set_target_properties(hapnet_lab_core PROPERTIES EXPORT_NAME lab)
+add_custom_target(hapnet_libraries DEPENDS ${hapnet_archives})
 
 set(hapnet_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hapnet)
 install(TARGETS ${hapnet_archives} hapnet_proto hapnet_requirements EXPORT hapnetTargets

@@ -2,13 +2,25 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Fuzzes every parser with libFuzzer (Clang): scripts/fuzz.sh [SECONDS PER TARGET, default 60].
-# Needs clang-14 and libclang-rt-14-dev. A crash leaves its input in build/fuzz/; add it to
-# tests/fuzz/corpus/<target>/ with the fix.
+# Fuzzes every parser with libFuzzer.
 set -euo pipefail
+
+usage="usage: scripts/fuzz.sh [SECONDS]
+Builds the preset fuzz with Clang and fuzzes each parser for so many seconds (default 60). Needs
+clang-14 and libclang-rt-14-dev. A crash leaves its input in build/fuzz/; add it to
+tests/fuzz/corpus/TARGET/ with the fix. Exits 0 without a crash, 1 after one, 2 for a wrong
+argument."
+
+case ${1-} in
+-h | --help) echo "$usage" && exit 0 ;;
+esac
+seconds=${1:-60}
+if (($# > 1)) || [[ ! $seconds =~ ^[1-9][0-9]*$ ]]; then
+    echo "fuzz: SECONDS is a whole number, 1 or more"$'\n'"$usage" >&2
+    exit 2
+fi
 cd "$(dirname "$0")/.."
 
-seconds=${1:-60}
 cmake --preset fuzz
 cmake --build --preset fuzz
 

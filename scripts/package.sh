@@ -2,16 +2,17 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Makes packages for Debian 12.
+# Makes packages for Debian 12, a tarball, a wheel for Python, and their sums.
 set -euo pipefail
 
 usage="usage: scripts/package.sh --out DIR [--only emulator]
 Installs what is missing, builds the programs, and leaves in DIR the packages hapnet-emulator (with
 hapnet-ctl and no library of devices) and hapnet (hapnet-peer, hapnet-lab), each with manual pages,
 completions for bash, zsh and fish, and a unit of systemd; hapnet-web, whose page draws with
-modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; and a tarball of the
-programs that runs from any folder and needs no package.
---only emulator makes the first alone, and a tarball with its programs.
+modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; a tarball of the
+programs that runs from any folder and needs no package; a wheel of the module for Python; and
+SHA256SUMS of all of them.
+--only emulator makes the first package alone, a tarball with its programs, and SHA256SUMS.
 Install them with: apt-get install ./DIR/hapnet-emulator_*.deb
 Exits 0 when they are there, 1 when something failed, 2 for an unknown argument, 3 when something
 that it needs cannot be installed."
@@ -42,7 +43,7 @@ mkdir -p "$out"
 out=$(realpath "$out")
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/setup.sh --package
+scripts/setup.sh ${only:+--only "$only"} --package
 build=build/package${only:+-$only}
 libdir=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 # make OPTION...: configures and builds.
@@ -57,7 +58,7 @@ make -DHAPNET_STATIC=OFF
 rm -rf "$build/packages"
 cpack --config "$build/CPackConfig.cmake" -B "$build/packages"
 rm -f "$out"/{hapnet,hapnet-emulator,hapnet-web,hapnet-dev,python3-hapnet}_*.deb \
-    "$out"/hapnet-*.tar.gz
+    "$out"/hapnet-*.tar.gz "$out"/hapnet-*.whl "$out/SHA256SUMS"
 cp "$build"/packages/*.deb "$out"
 
 # The same objects, linked with archives.
@@ -72,10 +73,9 @@ for component in "${components[@]}"; do
 done
 cp README.md LICENSE CHANGELOG.md "$build/tarball/$name"
 # The programs of the tarball hold others' libraries: their notices, as Debian states them.
-linked=(libboost1.74-dev libcli11-dev libexpected-dev libfmt-dev libgcc-12-dev libglm-dev
-    librandom123-dev libreaderwriterqueue-dev libspdlog-dev libstdc++-12-dev libtomlplusplus-dev
-    nlohmann-json3-dev)
-[[ -n $only ]] || linked+=(libhidapi-dev libsodium-dev libusb-1.0-0-dev)
+linked=(libboost1.74-dev libcli11-dev libexpected-dev libfmt-dev libgcc-12-dev librandom123-dev
+    libreaderwriterqueue-dev libspdlog-dev libstdc++-12-dev libtomlplusplus-dev nlohmann-json3-dev)
+[[ -n $only ]] || linked+=(libglm-dev libhidapi-dev libsodium-dev libusb-1.0-0-dev)
 notices=$build/tarball/$name/share/doc/hapnet/linked
 mkdir -p "$notices"
 for package in "${linked[@]}"; do
@@ -91,4 +91,15 @@ cp -L /usr/share/common-licenses/{Apache-2.0,GPL-3,LGPL-2.1} "$notices"
 } >"$notices/README"
 tar -C "$build/tarball" --sort=name --owner=0 --group=0 --numeric-owner -czf "$out/$name.tar.gz" \
     "$name"
-printf 'package: %s\n' "$out"/*.deb "$out/$name.tar.gz"
+made=("$name.tar.gz")
+
+if [[ -z $only ]]; then
+    # shellcheck source=scripts/lib/wheel.sh
+    . scripts/lib/wheel.sh
+    make_wheel . "$build/wheel"
+    cp "$build"/wheel/hapnet-*.whl "$out"
+    made+=("$(basename "$build"/wheel/hapnet-*.whl)")
+fi
+for package in "$build"/packages/*.deb; do made+=("${package##*/}"); done
+(cd "$out" && sha256sum "${made[@]}" >SHA256SUMS)
+printf 'package: %s\n' "${made[@]/#/$out/}" "$out/SHA256SUMS"

@@ -6,15 +6,18 @@
 set -euo pipefail
 
 usage="usage: scripts/setup.sh [--test] [--programs] [--web] [--package] [--ship] [--fleet]
-Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
+       scripts/setup.sh --only emulator [--package]
+Installs the Debian 12 packages that building Hapnet needs and that are missing, or with --only
+emulator those that building the emulator alone needs; with --test
 also those that scripts/test.sh needs, with --programs, --web (nodejs and npm only where there is no
 node), --ship and --fleet those that its kinds of these names need, with --package those that
 scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does nothing when nothing is
 missing."
 
-packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
-    libhidapi-dev libjs-three librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
-    libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
+emulator_packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev
+    librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev)
+packages=("${emulator_packages[@]}" libglm-dev libhidapi-dev libjs-three libsodium-dev
+    libusb-1.0-0-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 curl iperf3 iputils-ping libbenchmark-dev
     libbullet-dev libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
     parallel passt python3-dissononce python3-jsonschema python3-numpy python3-pandas python3-pytest
@@ -31,12 +34,23 @@ command -v node >/dev/null && command -v npm >/dev/null || web_packages+=(nodejs
 # What runs the shards of a plan, and a cluster of one node.
 fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-wlm)
 
-package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian scdoc systemd)
+package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian python3-pip
+    python3-setuptools python3-wheel scdoc systemd)
 
 # What makes images of the Dockerfiles and plays the compose file, and the shells whose completions
 # are tried.
 ship_packages=(buildah fish iproute2 jq mmdebstrap python3-yaml zsh)
 
+if [[ ${1-} == --only ]]; then
+    case ${*:2} in
+    emulator) packages=("${emulator_packages[@]}") ;;
+    'emulator --package')
+        packages=("${emulator_packages[@]}" binutils dpkg-dev file gzip scdoc)
+        ;;
+    *) echo "setup: --only takes 'emulator', then perhaps '--package'"$'\n'"$usage" >&2 && exit 2 ;;
+    esac
+    set --
+fi
 for argument in "$@"; do
     case $argument in
     --test) packages+=("${test_packages[@]}") ;;

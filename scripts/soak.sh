@@ -7,9 +7,9 @@
 # sessions under attack, daemons that are killed in turn, and how soon a stop ends a force.
 set -euo pipefail
 
-usage="usage: scripts/soak.sh [emulator|scene|session|daemons|stop] [--quick] [--minutes N]
+usage="usage: scripts/soak.sh all|emulator|scene|session|daemons|stop [--quick] [--minutes N]
                        [--first SEED] [--peers N] [--task T7|T8] [--out DIR] [--programs DIR]
-Installs what is missing, builds the release preset, and runs, without a subject all of
+Installs what is missing, builds the release preset, and runs one subject, or all of them:
 emulator:
   1. every law of delay and loss over 10 000 000 virtual datagrams,
   2. an emulator with everything switched on at 20 000 datagrams/s for N minutes (default 10):
@@ -50,12 +50,13 @@ stop:
      about 6 minutes,
  11. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its
      force is zero 300 ms after the last message, about 10 minutes.
-About 4 N + 45 minutes. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000 scenes,
-200 sessions, a round of 11 s, 10 signals of each kind, about 7 minutes. Run emulator, daemons and
-stop as root, or where SCHED_FIFO is allowed, on a machine that does nothing else: 2 to 5 and 9 to
-11 measure time. A round whose programs did not keep their time says so under 'valid'.
-What is written in full is in build/soak/. Exits 0 when all passed, 1 when something failed, 2 for
-an unknown argument."
+All of them take about 4 N + 45 minutes. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000
+scenes, 200 sessions, a round of 11 s, 10 signals of each kind, about 7 minutes for all. Run
+emulator, daemons and stop as root, or where SCHED_FIFO is allowed, on a machine that does nothing
+else: 2 to 5 and 9 to 11 measure time. A round whose programs did not keep their time says so under
+'valid'.
+What is written in full is in build/soak/. Exits 0 when all passed, 1 when something failed, 2
+without a subject or for an unknown argument."
 
 refuse() {
     echo "soak: $1"$'\n'"$usage" >&2
@@ -76,11 +77,11 @@ peers=
 task=T7
 out=
 programs=
-subject=all
+subject=
 while (($# > 0)); do
     case $1 in
-    emulator | scene | session | daemons | stop)
-        [[ $subject == all ]] || refuse "one subject, or none for all"
+    all | emulator | scene | session | daemons | stop)
+        [[ -z $subject ]] || refuse "one subject, not '$subject' and '$1': 'all' runs each of them"
         subject=$1 && shift
         ;;
     --quick) quick=true && shift ;;
@@ -109,6 +110,7 @@ while (($# > 0)); do
     *) refuse "unknown argument '$1'" ;;
     esac
 done
+[[ -n $subject ]] || refuse "name a subject, or 'all'"
 if $quick; then
     packets=1000000
     scenes=20000

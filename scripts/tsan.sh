@@ -2,8 +2,15 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Builds with ThreadSanitizer and runs every test under it: scripts/tsan.sh [CTEST OPTIONS].
+# Runs every test under ThreadSanitizer.
 set -euo pipefail
+
+usage="usage: scripts/tsan.sh [CTEST_OPTION ...]
+Builds the preset tsan and runs its tests. Exits 0 when all passed."
+
+case ${1-} in
+-h | --help) echo "$usage" && exit 0 ;;
+esac
 cd "$(dirname "$0")/.."
 
 cmake --preset tsan

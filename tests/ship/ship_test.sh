@@ -39,6 +39,13 @@ for program in "$folder"/bin/*; do
         fail "$program needs GLIBC_$version: $(objdump -T "$program" | grep "GLIBC_$version")"
 done
 "$folder/bin/hapnet-emulator" --version
+# The sums name every file, and the wheel drives the tarball's emulator.
+(cd "$work/packages" && sha256sum --quiet --check SHA256SUMS) || fail "SHA256SUMS is wrong"
+files=$(find "$work/packages" -type f -not -name SHA256SUMS | wc -l)
+(($(wc -l <"$work/packages/SHA256SUMS") == files)) || fail "SHA256SUMS does not name $files files"
+# shellcheck source=tests/ship/wheel.sh
+. "$repository/tests/ship/wheel.sh"
+try_wheel "$work"/packages/hapnet-*.whl "$folder/bin" "$work/venv"
 # What is linked into it is others', and under licences that ask for their texts.
 for notice in libusb-1.0-0-dev libhidapi-dev libsodium-dev LGPL-2.1 README; do
     [[ -s $folder/share/doc/hapnet/linked/$notice ]] || fail "the tarball has no notice $notice"

@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The package hapnet-emulator, made of what is built already, looked at and unpacked: in seconds
-# what ship_test.sh does with all packages in a bare root.
+# The package hapnet-emulator, made of what is built already, looked at and unpacked, and the wheel,
+# which drives the unpacked emulator: in seconds what ship_test.sh does with all packages in a bare
+# root.
 #   smoke_test.sh REPOSITORY BUILD_DIR WORK_DIR
 set -euo pipefail
 repository=$(realpath "$1")
@@ -41,3 +42,14 @@ done
 needs=$(dpkg-deb -f "$work"/packages/hapnet-emulator_*.deb Depends)
 [[ $needs != *libusb* && $needs != *libhidapi* ]] || fail "it needs libraries of devices: $needs"
 echo "smoke_test: $(basename "$work"/packages/hapnet-emulator_*.deb) needs $needs"
+
+if /usr/bin/python3 -c 'import pip, setuptools, wheel' 2>/dev/null; then
+    # shellcheck source=scripts/lib/wheel.sh
+    . "$repository/scripts/lib/wheel.sh"
+    make_wheel "$repository" "$work/wheel"
+    # shellcheck source=tests/ship/wheel.sh
+    . "$repository/tests/ship/wheel.sh"
+    try_wheel "$work"/wheel/hapnet-*.whl "$work/root/usr/bin" "$work/venv"
+else
+    echo "smoke_test: no wheel: pip, setuptools or wheel is missing (scripts/setup.sh --package)"
+fi

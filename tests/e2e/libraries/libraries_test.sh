@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The libraries as a stranger gets them: installed into an empty folder, found there by CMake and by
-# pkg-config, and used by the programs of examples/, which do what they say.
+# The libraries as a stranger gets them: installed and used as docs/use/libraries.md says, found by
+# CMake and by pkg-config where they were moved to, and used by the programs of examples/, which do
+# what they say.
 #   libraries_test.sh REPOSITORY BUILD CXX
 set -euo pipefail
 repository=$1 build=$2 cxx=$3
@@ -20,9 +21,14 @@ fail() {
     exit 1
 }
 
-cmake --install "$build" --component hapnet-dev --prefix "$work/first" >/dev/null
-mv "$work/first" "$work/prefix" # an installed tree may be moved
+# The page's own commands, with its warnings as errors. What runs beside keeps real time.
+export HAPNET_PAGE_FOLDER=$work/page HAPNET_PAGE_SECONDS=400
+CXX=$cxx CXXFLAGS="-Wall -Wextra -Werror" chrt --idle 0 "$repository/tests/e2e/readme_test.sh" \
+    "$repository/docs/use/libraries.md" "$build/bin" 5
+mv "$work/page/build/prefix" "$work/prefix" # an installed tree may be moved
 prefix=$work/prefix
+cmake -S "$repository/examples" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_CXX_COMPILER="$cxx" >"$work/configure.log" 2>&1 || fail "$(cat "$work/configure.log")"
 
 # Each header finds what it includes, and each folder is there for somebody.
 cd "$prefix/include/hapnet"
@@ -33,13 +39,8 @@ while IFS=: read -r header line; do
 done < <(grep -rE '^#include "' .)
 cd - >/dev/null
 
-cmake -S "$repository/examples" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
-    -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" \
-    >"$work/configure.log" 2>&1 || fail "$(cat "$work/configure.log")"
-# What runs beside keeps real time.
-chrt --idle 0 cmake --build "$work/build" --parallel 2 >"$work/build.log" 2>&1 ||
-    fail "$(cat "$work/build.log")"
-run() { "$work/build/example_$1" "${@:2}"; }
+examples=$work/page/build/examples
+run() { "$examples/example_$1" "${@:2}"; }
 
 scene=$(run scene)
 grep -q "^1000 ms  cube at  *[0-9]" <<<"$scene" || fail "scene: $scene"
@@ -54,7 +55,7 @@ session=$(run session)
 grep -q "^base: [0-9]* ticks" <<<"$session" || fail "session: $session"
 
 # The peer of the examples plays with the daemon. Ports of its own: tests have one loopback each.
-timeout 40 "$work/build/example_peer" 127.0.0.1:7101 127.0.0.1:7102 >"$work/peer.log" 2>&1 &
+timeout 40 "$examples/example_peer" 127.0.0.1:7101 127.0.0.1:7102 >"$work/peer.log" 2>&1 &
 peers+=($!)
 "$build/bin/hapnet-peer" --id 2 --listen 127.0.0.1:7102 --remote 127.0.0.1:7101 --task T1 \
     --duration 4s --stats "$work/stats.json" >"$work/daemon.log" 2>&1 ||
