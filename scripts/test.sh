@@ -6,20 +6,26 @@
 set -euo pipefail
 
 usage="usage: scripts/test.sh [--all | KIND]
-Installs what is missing, builds the release preset with GCC and runs every test of it: unit,
-property, simulation, conformance, bits, cost, benches' self tests, the house's own rules, programs
-end to end; and checks the format of the sources and the scripts.
---all also tries each KIND below for some seconds, runs the tests and replays the fuzz corpora with
-Clang under AddressSanitizer and UndefinedBehaviorSanitizer (but for the programs themselves and
-emulated devices: those are the workflow asan-e2e), and reads the sources with clang-tidy.
-KIND runs instead what needs more than a compiler: programs (other people's, which it installs:
-curl, dig, iperf, iperf3, mosh, ping, QUIC), ship (packages, made, installed in a bare root and
-removed, and images of them; as root), web (the live page in Chromium; left out, with the reason,
-where node, npm or chromium is missing), fleet (a plan in shards by GNU parallel, over ssh to this
-machine and as an array on a Slurm cluster of one node, which it starts and ends, as root; and a
-million sessions).
-What each step said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for
-an unknown argument, 3 when something that it needs cannot be installed."
+Installs what is missing, builds what the tests need with GCC (preset release) and runs them: unit,
+property, simulation, conformance, bits, the rules of the house, programs end to end; and checks the
+format of the sources and the scripts. About 12 minutes on two cores.
+--all also runs the kinds long and sanitizers. About 30 minutes on two cores.
+KIND runs one kind instead:
+  long        the release tests that take longer (whole matrices, costs, benches, Python, libraries,
+              the live page, every page with commands), and some seconds of each kind below
+  sanitizers  the tests and the fuzz corpora with Clang under AddressSanitizer and
+              UndefinedBehaviorSanitizer, and clang-tidy over the sources. The programs themselves
+              and emulated devices are the workflow asan-e2e instead
+  clock       the tests that meet a real clock and those about permissions, of what is built
+  programs    other people's programs through the emulator: curl, dig, iperf, iperf3, mosh, ping, QUIC
+  ship        packages, made, installed in a bare root and removed, and images of them; as root
+  web         the live page in Chromium; left out, with the reason, where node, npm or chromium is
+              missing
+  fleet       a plan in shards by GNU parallel, over ssh to this machine and as an array on a Slurm
+              cluster of one node, which it starts and ends, as root; and a million sessions
+A test that cannot run here is skipped, and the last lines count skips by reason. What each step said
+is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for an unknown argument, 3
+when something that it needs cannot be installed."
 
 refuse() {
     echo "test: $1"$'\n'"$usage" >&2
@@ -31,25 +37,34 @@ all=
 kind=
 (($# <= 1)) || refuse "one argument at most, not $#"
 case ${1-} in
-'') ;;
---all) all=yes ;;
+'') kind=default ;;
+--all) kind=default all=yes ;;
 -h | --help) echo "$usage" && exit 0 ;;
-programs | ship | web | fleet) kind=$1 ;;
+long | sanitizers | clock | programs | ship | web | fleet) kind=$1 ;;
 -*) refuse "unknown argument '$1'" ;;
-*) refuse "unknown kind '$1': use web, programs, ship or fleet" ;;
+*) refuse "unknown kind '$1': use long, sanitizers, clock, programs, ship, web or fleet" ;;
 esac
 
 case $kind in
+default) scripts/setup.sh --test ${all:+--package --web} ;;
+long) scripts/setup.sh --test --package --web ;;
+sanitizers) scripts/setup.sh --test ;;
+clock) ;; # what is built was built with what it needs
 programs) scripts/setup.sh --test --programs ;;
 web) scripts/setup.sh --web ;;
 ship) scripts/setup.sh --package --ship ;;
 fleet) scripts/setup.sh --test --fleet ;;
-*) scripts/setup.sh --test ${all:+--package --web} ;;
 esac
+release=build/release
+# By default the tests with the label all are left out, and what only they need is not built.
+left_out=all programs=end_to_end rest=default_tests
+[[ -z $all ]] || left_out=none programs=end_to_end_all rest=all
 logs=build/test-logs
+[[ $kind == default ]] || logs=$logs/$kind
 rm -rf "$logs"
 mkdir -p "$logs"
 summary=()
+runs=() # the steps in which tests ran
 failed=0
 
 # step NAME COMMAND...: runs the command, shows and keeps what it says, and notes how it went.
@@ -63,56 +78,19 @@ step() {
     [[ $verdict == ok ]]
 }
 
-check_format() {
-    find proto scene emulator ctl device peer lab web examples tests -name '*.[ch]pp' -print0 |
-        xargs -0 clang-format-14 --dry-run --Werror
-}
-
-check_scripts() {
-    find scripts .ci tests -type f \( -name '*.sh' -o -path '.ci/*' \) -print0 | xargs -0 shellcheck
-}
-
-# Whether the scripts of our pages parse, where there is a node to say so.
-check_pages() {
-    ! command -v node >/dev/null || find lab web/page tests/web -name node_modules -prune -o \
-        -name '*.*js' -type f -print0 | xargs -0 -n 1 node --check
-}
-
-# Reads all but the tests, and compiles nothing: cmake/HapnetTidy.cmake says how.
-check_tidy() {
-    cmake --preset tidy && cmake --build --preset tidy --parallel "$(nproc)"
-}
-
-# With a list of all tests: two that run at a time must not both write it.
-build_release() {
-    cmake --build --preset release --parallel "$(nproc)" && ctest --preset release --show-only
-}
-
-# All that does not wait: see test_release().
-run_release_tests() {
-    ctest --preset release --parallel "$(nproc)" --label-exclude '^(e2e|conformance)$'
-}
-
-build_asan() {
-    cmake --preset asan && cmake --build --preset asan --parallel "$(nproc)"
-}
-
-# begin NAME FUNCTION: runs it beside what follows, at the lowest priority there is: tests wait for
-# much of their time.
+# begin "COMMAND..." NAME FUNCTION: runs the function by that command beside what follows.
 declare -A running=()
 begin() {
-    begin_with "chrt --idle 0" "$@"
-}
-
-# begin_with "COMMAND..." NAME FUNCTION: runs it by that command beside what follows.
-begin_with() {
     local command
     read -ra command <<<"$1"
     echo "$2: begins beside what follows"
-    export -f "${3?}"
+    export -f "${3?}" run_tests
+    export logs release left_out rest
     "${command[@]}" bash -euo pipefail -c "$3" >"$logs/$2.begun.log" 2>&1 &
     running[$2]=$!
 }
+# The lowest priority there is: tests wait for much of their time.
+idle="chrt --idle 0"
 
 # finish NAME: waits for what begin() began, and is the step of it.
 finish() {
@@ -127,51 +105,93 @@ show_begun() {
     [[ $begun_exit == 0 ]]
 }
 
+# run_tests NAME FOLDER OPTION...: the tests of that folder. Keeps what each of them said.
+run_tests() {
+    local code=0
+    ctest --test-dir "$2" --output-on-failure --no-tests=error "${@:3}" || code=$?
+    cp "$2/Testing/Temporary/LastTest.log" "$logs/$1.said"
+    return "$code"
+}
+# test_step NAME FOLDER OPTION...: the step of them.
+test_step() {
+    runs+=("$1")
+    step "$1" run_tests "$@"
+}
+
+check_format() {
+    find proto scene emulator ctl device peer lab web examples tests -name '*.[ch]pp' -print0 |
+        xargs -0 -P "$(nproc)" -n 64 clang-format-14 --dry-run --Werror
+}
+
+check_scripts() {
+    find scripts .ci tests -type f \( -name '*.sh' -o -path '.ci/*' \) -print0 |
+        xargs -0 -P "$(nproc)" -n 8 shellcheck
+}
+
+# Whether the scripts of our pages parse, where there is a node to say so.
+check_pages() {
+    ! command -v node >/dev/null || find lab web/page tests/web -name node_modules -prune -o \
+        -name '*.*js' -type f -print0 | xargs -0 -P "$(nproc)" -n 1 node --check
+}
+
+build() {
+    cmake --preset "$1" && cmake --build --preset "$1" --parallel "$(nproc)" --target "${@:2}"
+}
+# With a list of all tests: two runs at a time must not both write it.
+build_release() {
+    ninja -C "$release" "$rest" && ctest --test-dir "$release" --show-only
+}
+build_asan() { cmake --preset asan && cmake --build --preset asan --parallel "$(nproc)"; }
+# Reads all but the tests, and compiles nothing: cmake/HapnetTidy.cmake says how.
+check_tidy() { cmake --preset tidy && cmake --build --preset tidy --parallel "$(nproc)"; }
+
+# All that does not wait.
+run_release_tests() {
+    run_tests release-tests "$release" --parallel "$(nproc)" \
+        --label-exclude "^(e2e|conformance|$left_out)\$"
+}
+
 # The tests end to end wait for most of their time, so all but the programs that they start is built
 # beside them. ctest reads their folder alone: in the others there may be half a program then. The
 # other tests wait for nothing but those of the devices, and run beside them.
 test_release() {
-    step "release configure" cmake --preset release &&
-        step "release programs" cmake --build --preset release --parallel "$(nproc)" \
-            --target end_to_end || return
-    begin release-build build_release
-    step "release e2e" ctest --test-dir build/release/tests/e2e --parallel $((2 * $(nproc))) \
-        --output-on-failure || true
+    step "release-programs" build release "$programs" || return
+    begin "$idle" release-build build_release
+    test_step release-e2e "$release/tests/e2e" --parallel $((2 * $(nproc))) \
+        --label-exclude "^$left_out\$" || true
     finish release-build || return
-    [[ -z $all ]] || begin asan-build build_asan
-    begin_with "nice -n 19" release-tests run_release_tests
-    # The emulated devices keep real time, and wait for most of it. One that a busy machine kept
-    # waiting may try once more.
-    step "release conformance" ctest --test-dir build/release/tests/conformance \
-        --parallel $((2 * $(nproc))) --repeat until-pass:2 --output-on-failure || true
+    [[ -z $all ]] || begin "$idle" asan-build build_asan
+    begin "nice -n 19" release-tests run_release_tests
+    # The emulated devices keep real time, and wait for most of it.
+    test_step release-conformance "$release/tests/conformance" --parallel $((2 * $(nproc))) || true
+    runs+=(release-tests)
     finish release-tests || true
 }
 
+# The tests of the release build that only --all runs.
+test_long() {
+    step "long-build" build release all || return
+    test_step long-tests "$release" --parallel "$(nproc)" --label-regex '^all$' || true
+    test_kinds || true
+}
+
 # Clang's build: so the tests also see whether another compiler gives other bits.
-test_asan() {
-    [[ -n ${running[asan-build]-} ]] || begin asan-build build_asan
+test_sanitizers() {
+    [[ -n ${running[asan-build]-} ]] || begin "nice" asan-build build_asan
     finish asan-build || return
-    begin tidy check_tidy
-    step "asan tests" ctest --preset asan --parallel "$(nproc)" || true
+    begin "$idle" tidy check_tidy
+    test_step asan-tests build/asan --parallel "$(nproc)" || true
     finish tidy
 }
 
-# Says why a test was left out, where one was.
+test_clock() {
+    test_step clock-tests "$release" --parallel "$(nproc)" --label-regex '^(clock|permissions)$'
+}
+
+# test_programs [LABEL]
 test_programs() {
-    local tests=build/release/tests/e2e/programs
-    ctest --test-dir "$tests" -C programs --label-regex "^${1:-programs}\$" \
-        --parallel "$(nproc)" --output-on-failure --no-tests=error
-    sed -n 's/^skipped: /left out: /p' "$tests/Testing/Temporary/LastTest.log"
-}
-
-build_programs() {
-    cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
-        --target hapnet-emulator hapnet-ctl own_loopback
-}
-
-build_web() {
-    cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
-        --target hapnet-web hapnet-peer hapnet-emulator hapnet-lab
+    run_tests "${1:+programs-}${1:-programs}" "$release/tests/e2e/programs" -C programs \
+        --label-regex "^${1:-programs}\$" --parallel "$(nproc)"
 }
 
 # test_web [OPTION... FILE]: all tests in a browser, or those of a file that node's options choose.
@@ -188,21 +208,17 @@ test_web() {
         "$@"
 }
 
-build_fleet() {
-    cmake --preset release && cmake --build --preset release --parallel "$(nproc)" \
-        --target hapnet-lab made_sessions
-}
-
 # Each kind, as far as it can be tried in seconds with what is built.
 test_kinds() {
-    step "programs smoke" test_programs smoke || true
-    step "web smoke" test_web --test-name-pattern="^loads in space" \
+    runs+=(programs-smoke)
+    step "programs-smoke" test_programs smoke || true
+    step "web-smoke" test_web --test-name-pattern="^loads in space" \
         tests/web/page.test.mjs || true
-    step "ship smoke" try_package || true
-    step "fleet smoke" tests/fleet/fleet_test.sh . build/release/bin build/fleet-smoke 1 local
+    step "ship-smoke" try_package || true
+    step "fleet-smoke" tests/fleet/fleet_test.sh . "$release/bin" build/fleet-smoke 1 local
 }
 try_package() {
-    tests/ship/smoke_test.sh . build/release build/ship-smoke || (($? == 77))
+    tests/ship/smoke_test.sh . "$release" build/ship-smoke || (($? == 77))
 }
 
 # tally LOG...: how many tests passed, failed and were left out in all of them: 4 passed, 1 failed.
@@ -215,13 +231,31 @@ tally() {
         /% tests passed, .* tests? failed out of/ { failed += $4; all += $NF }
         /^[ \t]*[0-9]+ - .*\(Skipped\)$/ { skipped++ }
         END {
-            printf "%d passed", all - failed - skipped
-            if (failed) printf ", %d failed", failed
+            printf "%d passed, %d failed", all - failed - skipped, failed
             if (skipped) printf ", %d skipped", skipped
         }'
 }
 
-# closing LOG...: how the tests of each ended, and which failed.
+# skips RUN...: how many tests were skipped for each reason, the most frequent first. The reason
+# stands in what a test said: after "skipped: ", or in the line after GoogleTest's ": Skipped".
+skips() {
+    local run said=()
+    for run in "$@"; do
+        [[ ! -f $logs/$run.said ]] || said+=("$logs/$run.said")
+    done
+    cat "${said[@]}" </dev/null | awk '
+        /^Output:$/ { reason = "no reason given" }
+        is_next { reason = $0; is_next = 0 }
+        /: Skipped$/ { is_next = 1 }
+        /^skipped: / { reason = substr($0, 10) }
+        /^Test Skipped\.$/ {
+            sub(/(: traits\(\).*| \(.*)/, "", reason)
+            count[reason]++
+        }
+        END { for (reason in count) printf "%4d  %s\n", count[reason], reason }' | sort -rn
+}
+
+# closing RUN...: how the tests of each ended, and which failed.
 closing() {
     local run
     for run in "$@"; do
@@ -232,44 +266,50 @@ closing() {
             printf '%s: not run to the end\n' "${run/-/ }"
         fi
     done
+    skips "$@" >"$logs/skipped.txt"
+    [[ ! -s $logs/skipped.txt ]] || { echo "skipped tests, by reason:" && cat "$logs/skipped.txt"; }
 }
 
-if [[ $kind == ship ]]; then
-    step "ship" tests/ship/ship_test.sh "$PWD" "$PWD/build/ship" || true
-    runs=()
-elif [[ $kind == fleet ]]; then
-    bin=$PWD/build/release/bin
-    if step "build" build_fleet; then
-        step "fleet" tests/fleet/fleet_test.sh "$PWD" "$bin" "$PWD/build/fleet" || true
-        step "million" tests/fleet/million_test.sh "$bin" \
-            "$bin/made_sessions" "$PWD/build/fleet-million" 1000000 || true
-    fi
-    runs=()
-elif [[ $kind == web ]]; then
-    { step "build" build_web && step "web" test_web; } || true
-    runs=()
-elif [[ -n $kind ]]; then
-    { step "build" build_programs && step "programs" test_programs; } || true
-    runs=(programs)
-else
+case $kind in
+default)
     step "format" check_format || true
     step "scripts" check_scripts || true
     step "pages" check_pages || true
     test_release || true
     [[ -z $all ]] || test_kinds || true
-    [[ -z $all ]] || test_asan || true
-    runs=(release-e2e release-tests release-conformance ${all:+programs-smoke} ${all:+asan-tests})
-fi
+    [[ -z $all ]] || test_sanitizers || true
+    ;;
+long) test_long || true ;;
+sanitizers) test_sanitizers || true ;;
+clock) test_clock || true ;;
+programs)
+    runs=(programs)
+    { step "build" build release hapnet-emulator hapnet-ctl own_loopback &&
+        step "programs" test_programs; } || true
+    ;;
+web)
+    { step "build" build release hapnet-web hapnet-peer hapnet-emulator hapnet-lab &&
+        step "web" test_web; } || true
+    ;;
+ship) step "ship" tests/ship/ship_test.sh "$PWD" "$PWD/build/ship" || true ;;
+fleet)
+    bin=$PWD/$release/bin
+    if step "build" build release hapnet-lab made_sessions; then
+        step "fleet" tests/fleet/fleet_test.sh "$PWD" "$bin" "$PWD/build/fleet" || true
+        step "million" tests/fleet/million_test.sh "$bin" \
+            "$bin/made_sessions" "$PWD/build/fleet-million" 1000000 || true
+    fi
+    ;;
+esac
 
 printf '\n== what the tests say\n'
 closing "${runs[@]}"
 printf '\n== summary\n'
 printf '%s\n' "${summary[@]}"
+verdict="all ${#summary[@]} steps passed in $SECONDS s"
 if ((failed > 0)); then
-    printf 'test: %d of %d steps FAILED after %d s; see %s\n' \
-        "$failed" "${#summary[@]}" "$SECONDS" "$PWD/$logs"
-    ((${#runs[@]} == 0)) || printf '%s in %d s\n' "$(tally "${runs[@]}")" "$SECONDS"
-    exit 1
+    verdict="$failed of ${#summary[@]} steps FAILED after $SECONDS s; see $PWD/$logs"
 fi
-printf 'test: all %d steps passed in %d s\n' "${#summary[@]}" "$SECONDS"
+echo "test: $verdict"
 ((${#runs[@]} == 0)) || printf '%s in %d s\n' "$(tally "${runs[@]}")" "$SECONDS"
+((failed == 0))
