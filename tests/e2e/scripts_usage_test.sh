@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Scripts that miss a subject or a value, or get a wrong one, say so, with exit code 2, before they do
-# anything.
+# Scripts that miss a subject or a value, or get a wrong one, say so, with exit code 2, before they
+# do anything.
 # Usage: scripts_usage_test.sh REPOSITORY
 set -euo pipefail
 scripts=$1/scripts
