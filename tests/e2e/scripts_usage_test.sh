@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Scripts that miss a subject or the value of an option say so, with exit code 2, before they do
-# anything.
+# Scripts that miss a subject or a value, or get a wrong one, say so, with exit code 2, before they
+# do anything.
 # Usage: scripts_usage_test.sh REPOSITORY
 set -euo pipefail
 scripts=$1/scripts
@@ -29,3 +29,6 @@ refuses experiment fig7 --out
 says "name a subject*usage: scripts/soak.sh all|*" soak
 says "name a subject*" soak --quick
 says "one subject, not 'scene' and 'all'*" soak scene all
+says "SECONDS is a whole number*" fuzz --all
+says "--only takes 'emulator'*" setup --only peer
+says "--only takes 'emulator'*" setup --only emulator --test

@@ -43,7 +43,7 @@ needs=$(dpkg-deb -f "$work"/packages/hapnet-emulator_*.deb Depends)
 [[ $needs != *libusb* && $needs != *libhidapi* ]] || fail "it needs libraries of devices: $needs"
 echo "smoke_test: $(basename "$work"/packages/hapnet-emulator_*.deb) needs $needs"
 
-if /usr/bin/python3 -c 'import pip, setuptools, wheel' 2>/dev/null; then
+if dpkg-query -W python3-pip python3-setuptools python3-wheel >"$work/python.log" 2>&1; then
     # shellcheck source=scripts/lib/wheel.sh
     . "$repository/scripts/lib/wheel.sh"
     make_wheel "$repository" "$work/wheel"
@@ -51,5 +51,5 @@ if /usr/bin/python3 -c 'import pip, setuptools, wheel' 2>/dev/null; then
     . "$repository/tests/ship/wheel.sh"
     try_wheel "$work"/wheel/hapnet-*.whl "$work/root/usr/bin" "$work/venv"
 else
-    echo "smoke_test: no wheel: pip, setuptools or wheel is missing (scripts/setup.sh --package)"
+    echo "smoke_test: no wheel: $(head -1 "$work/python.log") (scripts/setup.sh --package)"
 fi
