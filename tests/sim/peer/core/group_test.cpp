@@ -197,7 +197,8 @@ TEST_P(Groups, OfAnySizeAgreeInTheEndWhateverHappened)
     for (const auto& peer : group.peers) EXPECT_TRUE(peer->finished()) << size;
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, Groups, testing::Range(std::uint64_t{0}, test::seeds(50)));
+INSTANTIATE_TEST_SUITE_P(Seed, Groups, testing::Range(std::uint64_t{0}, test::seeds(20)));
+INSTANTIATE_TEST_SUITE_P(All, Groups, testing::Range(test::seeds(20), std::uint64_t{50}));
 
 /// Beyond 20 ms and four times half of a round trip, of at most 70 ms each way, starts are two.
 constexpr base::Duration one_start_within = 20ms + 4 * 70ms;
@@ -293,7 +294,8 @@ TEST_P(Partitions, ThatBeganBeforeTheStartEndAsOneSession)
     for (const auto& peer : group.peers) EXPECT_TRUE(peer->finished());
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, Partitions, testing::Range(std::uint64_t{0}, test::seeds(25)));
+INSTANTIATE_TEST_SUITE_P(Seed, Partitions, testing::Range(std::uint64_t{0}, test::seeds(10)));
+INSTANTIATE_TEST_SUITE_P(All, Partitions, testing::Range(test::seeds(10), std::uint64_t{25}));
 
 } // namespace
 } // namespace hapnet::peer
