@@ -49,7 +49,9 @@ GovernedForce Governor::govern(const ForceRequest& request, const Sample& sample
     if (gap != step_.gap) step_ = step_of(gap);
     fade(request.permitted && usable && limits_.axes_out > 0);
     last_ = shape(request.force, sample);
-    return strength_ > 0.0 ? GovernedForce{last_} : GovernedForce{};
+    const GovernedForce given = strength_ > 0.0 ? GovernedForce{last_} : GovernedForce{};
+    held_ = given.force();
+    return given;
 }
 
 void Governor::latch(const Latched& cause)
@@ -90,7 +92,7 @@ base::Duration Governor::pass(base::TimePoint now)
 {
     const base::Duration gap = last_time_ ? now - *last_time_ : base::Duration{0};
     last_time_ = now;
-    heat_.pass(last_, gap);
+    heat_.pass(held_, gap);
     if (gap <= limits_.stall_max) return gap;
     ++counters_.stalled;
     if (gap > limits_.fault_after) latch({Fault::timeout, Trip::loop});
@@ -189,13 +191,14 @@ base::Force Governor::within_energy(const base::Force& wanted, const Sample& sam
     return force;
 }
 
-/// Before anything else in a tick: the last force was held until now.
+/// Before anything else in a tick: the last force was held until now. A latch in the meantime makes
+/// no difference: a record does not tell whether a watchdog saw a stall before the governor did.
 void Governor::observe(const Sample& sample, base::Duration gap)
 {
     const bool has_place = sample.calibrated && base::is_finite(sample.hip) &&
                            (sample.fault == Fault::none || sample.fault == Fault::timeout);
     if (has_place) {
-        energy_->pass(last_, sample.hip, gap);
+        energy_->pass(held_, sample.hip, gap);
     } else {
         energy_->lose_place();
     }

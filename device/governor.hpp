@@ -134,9 +134,10 @@ private:
     FaultLatch latch_;
     Finding finding_ = Finding::unheard; // of the last sample
     Step step_;                          // of the last gap: in a steady loop it stays the same
-    base::Force last_;
-    double strength_ = 0.0; // 0: nothing passes, 1: all does
-    bool from_zero_ = true; // it has not been at full strength since it was at zero
+    base::Force last_;                   // what the next force may differ from by one step only
+    base::Force held_;                   // what the device was given last
+    double strength_ = 0.0;              // 0: nothing passes, 1: all does
+    bool from_zero_ = true;              // it has not been at full strength since it was at zero
     std::optional<base::TimePoint> last_time_;
 };
 

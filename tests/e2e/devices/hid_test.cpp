@@ -30,12 +30,13 @@ public:
             while (!over_) {
                 std::this_thread::sleep_for(1ms);
                 const base::TimePoint now = net::monotonic_now();
-                // A hand that the machine kept waiting goes on from where it was.
-                const double step_m =
-                    speed_m_per_s * base::to_seconds(std::min<base::Duration>(now - last, 2ms));
+                // A hand and a joystick that the machine kept waiting go on from where they were:
+                // all that they would have done meanwhile, at once, is faster than any hand.
+                const base::Duration passed = std::min<base::Duration>(now - last, 2ms);
+                const double step_m = speed_m_per_s * base::to_seconds(passed);
                 aim_m_ += std::clamp(wanted_m_ - aim_m_, -step_m, step_m);
                 pid_.with([&](hid_double::FakePid& pid) { pid.want(aim_m_); });
-                pid_.pass(now - last);
+                pid_.pass(passed);
                 last = now;
             }
         }};
@@ -92,6 +93,11 @@ protected:
         ASSERT_TRUE(a_.says("session started"));
         expect_to_hear(socket_, 200);
         joystick_.want(-0.015);
+        feel_each_other();
+    }
+
+    void feel_each_other()
+    {
         const std::size_t before = joystick_.pushes().size();
         const auto is_felt = [&] {
             return joystick_.push_n() <= -0.2 && joystick_.pushes().size() > before + 50;
@@ -124,6 +130,23 @@ TEST_F(JoystickSession, EndsAtZeroAndItsForcesCanBeLivedThroughAgain)
     ASSERT_GE(pushes.size(), 3U);
     EXPECT_TRUE(std::all_of(pushes.end() - 3, pushes.end(),
                             [](const hid_double::Push& push) { return push.is_zero(); }));
+    expect_the_same_forces_again(a_.record());
+    expect_the_same_forces_again(b_.record());
+}
+
+/// As a machine that has no time for them: for longer than the governor tolerates.
+TEST_F(JoystickSession, ThatStandsStillUnderForceCanBeLivedThroughAgain)
+{
+    ASSERT_NO_FATAL_FAILURE(press_together());
+    for (const int number : {SIGSTOP, SIGCONT}) {
+        a_.process().signal(number);
+        b_.process().signal(number);
+        if (number == SIGSTOP) std::this_thread::sleep_for(150ms);
+    }
+    EXPECT_TRUE(comes_true([&] { return fault_at(socket_) == "timeout"; }));
+    ASSERT_NO_FATAL_FAILURE(feel_each_other());
+    a_.stop_on_a_busy_machine();
+    b_.stop_on_a_busy_machine();
     expect_the_same_forces_again(a_.record());
     expect_the_same_forces_again(b_.record());
 }

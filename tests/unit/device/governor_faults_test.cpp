@@ -7,6 +7,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 #include <limits>
+#include <vector>
 
 namespace hapnet::device {
 namespace {
@@ -225,6 +226,26 @@ TEST(GovernorLatches, ATimeoutWhenTheLoopStoodStillForMoreThanAHundredMillisecon
     EXPECT_EQ(governed.governor.fault(), (Latched{Fault::timeout, Trip::loop}));
     EXPECT_EQ(governed.governor.counters().loop_faults, 1U);
     EXPECT_EQ(governed.governor.counters().stalled, 2U);
+}
+
+TEST(GovernorLatches, TheSameAfterAStallWhetherOrNotAWatchdogSawItFirst)
+{
+    std::vector<Governance> both;
+    for (const bool is_watchdog_first : {true, false}) {
+        Governance& governed = both.emplace_back(Governance::ramped_in(
+            {.force_continuous_n = 0.5, .speed_max_m_per_s = 1.0, .energy = EnergyLimits{}}));
+        governed.play(10, along_x(1.0));
+        if (is_watchdog_first) governed.governor.latch({Fault::timeout, Trip::loop});
+        governed.sample.hip.value.x += 0.003;
+        EXPECT_EQ(governed.after(150ms, along_x(1.0)), base::Force{});
+        EXPECT_EQ(governed.governor.fault(), (Latched{Fault::timeout, Trip::loop}));
+        EXPECT_GE(governed.governor.energy()->net_j, 0.003);
+    }
+    const Governor& a = both[0].governor;
+    const Governor& b = both[1].governor;
+    EXPECT_EQ(a.heat(), b.heat());
+    EXPECT_EQ(a.energy()->net_j, b.energy()->net_j);
+    EXPECT_EQ(a.energy()->work_5s_max_j, b.energy()->work_5s_max_j);
 }
 
 TEST(GovernorLatches, WhatAWatchdogSaysAndKeepsTheFirstCause)

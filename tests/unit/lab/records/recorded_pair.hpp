@@ -83,12 +83,19 @@ public:
         players_[0].rig = device::Rig{std::make_unique<device::ScriptedHand>(), all};
         record_.config["governor_toml"] = device::print_limits(all);
     }
+    /// The machine stands still for so long before this tick. Before play().
+    void stand_still(int tick, base::Duration duration)
+    {
+        stall_tick_ = tick;
+        stall_ = duration;
+    }
     [[nodiscard]] const device::Governor& governor() const { return players_[0].rig.governor(); }
 
     record::Record play(int ticks)
     {
         for (int i = 0; i < ticks; ++i) {
             now_ += std::chrono::milliseconds{1};
+            if (i == stall_tick_) now_ += stall_;
             place_hands(i);
             const auto number = static_cast<std::uint64_t>(i);
             deliver(number);
@@ -154,6 +161,8 @@ private:
     }
 
     Fate fate_;
+    int stall_tick_ = -1;
+    base::Duration stall_{};
     base::TimePoint now_{std::chrono::hours{1}};
     std::array<Player, 2> players_{Player{0}, Player{1}};
     record::Record record_;

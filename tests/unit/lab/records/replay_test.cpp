@@ -260,6 +260,28 @@ TEST(ReplayOfATroubledSession, GivesTheForcesAfterAnOperatorHasEndedAFault)
     }
 }
 
+TEST(ReplayOfATroubledSession, GivesTheForcesAfterAStallWhetherOrNotAWatchdogSawItFirst)
+{
+    for (const bool is_watchdog_first : {true, false}) {
+        RecordedPair pair{[=](int tick, device::Sample& sample, device::Governor& governor) {
+            if (tick == 2300 && is_watchdog_first) {
+                governor.latch({Fault::timeout, device::Trip::loop});
+            }
+            sample.buttons = tick >= 3400 ? 1 : 0;
+        }};
+        pair.limit_energy({.power_max_w = 0.01, .work_max_j = 0.002});
+        pair.stand_still(2300, std::chrono::milliseconds{150});
+        const record::Record record = pair.play(6000);
+        EXPECT_GT(base::norm(record.ticks[2299].device), 0.01);
+        EXPECT_TRUE(was_ever(record, GovernorState::fault));
+        EXPECT_GT(base::norm(record.ticks[5999].device), 0.0);
+        const auto replayed = replay(record, std::nullopt);
+        ASSERT_TRUE(replayed.has_value());
+        EXPECT_EQ(replayed->contact_difference_max_n, 0.0);
+        EXPECT_EQ(replayed->device_difference_max_n, 0.0);
+    }
+}
+
 TEST(ReplayOfADamagedRecord, RefusesARecordWithoutTicksWithTicksMissingOrOutOfOrder)
 {
     const record::Record whole = RecordedPair{}.play(100);
