@@ -149,6 +149,12 @@ World::World(const Description& description, const FreezeOptions& options, Stepp
       stepper_{make_stepper(kind, description, config_, state_)}
 {}
 
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::World(const World&) = default;
+World& World::operator=(const World&) = default;
+
 std::optional<Refusal> World::refuse(Refusal refusal)
 {
     ++refused_[static_cast<std::size_t>(refusal)];

@@ -54,6 +54,13 @@ public:
     [[nodiscard]] static base::Result<World> freeze(const Description& description,
                                                     const FreezeOptions& options = {});
 
+    // Copying all steppers takes a second to compile: not in each file that has a World.
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+    World(const World&);
+    World& operator=(const World&);
+
     /// Says where a hand is, from the next tick on.
     std::optional<Refusal> set_hand(std::uint32_t index, const HandInput& input);
     /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.

@@ -68,6 +68,12 @@ bool ends_within(std::optional<base::TimePoint> until, std::optional<base::TimeP
 
 } // namespace
 
+Director::~Director() = default;
+Director::Director(Director&&) noexcept = default;
+Director& Director::operator=(Director&&) noexcept = default;
+Director::Director(const Director&) = default;
+Director& Director::operator=(const Director&) = default;
+
 Director::Director(Profile profile, base::TimePoint start)
     : started_with_{std::move(profile)},
       start_{start},

@@ -60,6 +60,13 @@ public:
     /// The profile's timeline counts from `start`. Its seed is that of the run, and stays.
     Director(Profile profile, base::TimePoint start);
 
+    // Not compiled in each file that has a Director.
+    ~Director();
+    Director(Director&&) noexcept;
+    Director& operator=(Director&&) noexcept;
+    Director(const Director&);
+    Director& operator=(const Director&);
+
     /// The conditions that hold at the time of the last call.
     [[nodiscard]] const Path& path() const { return path_; }
 

@@ -36,6 +36,10 @@ std::uint32_t flow_in(const Datagram& datagram)
 
 } // namespace
 
+Link::~Link() = default;
+Link::Link(Link&&) noexcept = default;
+Link& Link::operator=(Link&&) noexcept = default;
+
 Link::Link(const Conditions& conditions, const Setup& setup)
     : conditions_{conditions},
       setup_{setup},

@@ -55,11 +55,11 @@ public:
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
-    Link(Link&&) = default;
-    Link& operator=(Link&&) = default;
+    Link(Link&&) noexcept;
+    Link& operator=(Link&&) noexcept;
     Link(const Link&) = delete; // two would use each other's slots
     Link& operator=(const Link&) = delete;
-    ~Link() = default;
+    ~Link();
 
     /// Takes the next datagram of this direction, which arrived at `arrival`, and says what is to
     /// become of it. A queue or Order::keep may make it leave later than its fate says.

@@ -8,6 +8,10 @@
 
 namespace hapnet::lab::virtual_time {
 
+VirtualWorld::~VirtualWorld() = default;
+VirtualWorld::VirtualWorld(VirtualWorld&&) noexcept = default;
+VirtualWorld& VirtualWorld::operator=(VirtualWorld&&) noexcept = default;
+
 VirtualWorld::VirtualWorld(const Setting& setting, emulator::QueueLimits limits)
     : VirtualWorld{std::span{&setting, 1}, limits}
 {}

@@ -38,6 +38,10 @@ public:
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
     /// One group for each setting.
     explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
+    // Not compiled in each file that has a VirtualWorld.
+    ~VirtualWorld();
+    VirtualWorld(VirtualWorld&&) noexcept;
+    VirtualWorld& operator=(VirtualWorld&&) noexcept;
 
     /// To the next deadline, and all that happens then.
     void step();

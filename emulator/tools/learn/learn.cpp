@@ -17,7 +17,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-constexpr double alpha = 1e-3;
+constexpr double significance = 1e-3;
 
 double milliseconds_of(base::Duration duration)
 {
@@ -50,7 +50,7 @@ public:
         if (!nearest.p_value) {
             say(fmt::format("delay: {} independent delays are too few to test a law",
                             fit.independent));
-        } else if (*nearest.p_value < alpha) {
+        } else if (*nearest.p_value < significance) {
             say(fmt::format("delay: no law passes; {} is the nearest. The measured values "
                             "themselves are jitter = {{ law = \"table\", file = ... }}",
                             nearest.name));
@@ -106,7 +106,7 @@ private:
         const auto add = [&](const char* of, const std::optional<double>& p_value) {
             if (!p_value) return;
             text += fmt::format(", runs of {} p = {:.3g} ({})", of, *p_value,
-                                *p_value < alpha ? "rejected" : "pass");
+                                *p_value < significance ? "rejected" : "pass");
         };
         add("losses", model.losses_p_value);
         add("arrivals", model.arrivals_p_value);
@@ -115,8 +115,8 @@ private:
 
     [[nodiscard]] static bool is_rejected(const LossModel& model)
     {
-        return model.losses_p_value.value_or(1.0) < alpha ||
-               model.arrivals_p_value.value_or(1.0) < alpha;
+        return model.losses_p_value.value_or(1.0) < significance ||
+               model.arrivals_p_value.value_or(1.0) < significance;
     }
 
     /// Which model was taken, and what speaks against it.
@@ -139,7 +139,7 @@ private:
         auto text = fmt::format("delay {}: {:.4f} apart", model.name, model.distance);
         if (!model.p_value) return text;
         return text + fmt::format(", p = {:.3g} (Kolmogorov-Smirnov, with fitted parameters): {}",
-                                  *model.p_value, *model.p_value < alpha ? "rejected" : "passes");
+                                  *model.p_value, *model.p_value < significance ? "rejected" : "passes");
     }
 
     void say(const std::string& remark) { lesson_.remarks.push_back(name_ + ": " + remark); }
