@@ -1,29 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/commands.hpp"
+#include "emulator/program.hpp"
 #include "proto/net/standard_streams.hpp"
 
 #include <cstddef>
-#include <span>
-#include <variant>
-
-namespace hapnet::emulator {
-
-namespace {
-
-base::Result<int> execute(const AnyOptions& chosen)
-{
-    return std::visit([](const auto& options) { return run(options); }, chosen);
-}
-
-} // namespace
-
-int main_program(std::span<char*> words)
-{
-    return net::run_program("hapnet-emulator", parse_command_line(words), execute);
-}
-
-} // namespace hapnet::emulator
 
 int main(int argc, char** argv)
 {
