@@ -16,7 +16,10 @@ set(hapnet_clock_tests "\
 ^e2e/(Peer[A-Za-z]*|TwoFalcons|JoystickSession|DeadMan[A-Za-z]*|Service)[.]|\
 ^unit/emulator/Workers[.]|^unit/peer/(Watchdog|WatchedRig|PlotStream)[.]|\
 ^unit/proto/(Clock|UdpSocket)[.]")
-set(hapnet_permission_tests "Permission|Unprivileged|MayRead")
+set(hapnet_permission_tests "\
+WithTheCureWhereThereIsNoPermission|WithoutPermissionIsListed|ThatMayNotBeOpened|\
+/(KeyFiles|KeeperFolder|PeerKeys|Keygen)[.]|Controlled(Peers)?[.]Own|UnixListener[.]IsForItsOwner|\
+NamesTheCureWhereUserNamespaces")
 
 # hapnet_discover(PROGRAM KIND PREFIX TIMEOUT [ALL] [FILTER ...] [LIST ...] [PROPERTIES ...]): makes
 # each test of a GoogleTest program a test of ctest, PREFIX followed by the name, with the label
@@ -77,13 +80,13 @@ endfunction()
 function(hapnet_script name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "LOOPBACK" "TIMEOUT;COST" "COMMAND;LABELS;ENVIRONMENT")
     if(arg_LOOPBACK)
-        list(PREPEND arg_COMMAND own_loopback)
+        list(PREPEND arg_COMMAND $<TARGET_FILE:own_loopback>)
     endif()
     if(NOT arg_TIMEOUT)
         set(arg_TIMEOUT 120)
     endif()
     if(clock IN_LIST arg_LABELS)
-        list(PREPEND arg_COMMAND when_quiet)
+        list(PREPEND arg_COMMAND $<TARGET_FILE:when_quiet>)
         list(APPEND arg_ENVIRONMENT HAPNET_CLOCK=1)
     endif()
     add_test(NAME ${name} COMMAND ${arg_COMMAND})

@@ -125,13 +125,15 @@ public:
         auto now = start_;
         while (!stop.requested() && !is_stopped_ && !workers.has_failed() &&
                !base::is_due(end_, now)) {
+            // requested() may have read a hangup, which then wakes nobody: it is looked for between
+            // that and the wait.
+            if (stop.reload_requested()) reload(now, workers);
             pacer.wait(descriptors, base::earlier(next_deadline(), manager.next_deadline()));
             now = relay(0);
             manager.tell_alive(now);
             run_.elapsed = now - start_;
             if (control_) control_->serve(subject, now, paths_.front()->next_due());
             tell_of_kept();
-            if (stop.reload_requested()) reload(now, workers);
             status_.show(
                 [&] {
                     const Workers::Rest rest{workers};

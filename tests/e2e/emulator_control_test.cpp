@@ -161,6 +161,20 @@ TEST_F(Controlled, RestoresByItselfWhatWasChangedForATime)
     EXPECT_EQ(statistics["configuration_at_start"], statistics["configuration_at_end"]);
 }
 
+TEST_F(Controlled, HearsEachHangupWithoutTrafficThatWouldWakeIt)
+{
+    const std::string profile = folder.file("profile.toml");
+    std::ofstream{profile} << "[both]\ndelay = \"1ms\"\n";
+    Emulator emulator{{"--profile", profile}};
+    for (int times = 1; times <= 100; ++times) {
+        std::ofstream{profile} << "[both]\ndelay = \"" << times << "\"\n"; // without a unit
+        emulator.process().signal(SIGHUP);
+        const std::string why = "'" + std::to_string(times) + "' is not a duration";
+        ASSERT_TRUE(emulator.process().wait_for_err(why, 5s)) << "hangup " << times;
+    }
+    std::ignore = emulator.stop();
+}
+
 TEST_F(Controlled, ReadsItsProfileAgainOnAHangupAndKeepsTheOldOneWhenTheNewOneIsWrong)
 {
     const std::string profile = folder.file("profile.toml");
