@@ -18,15 +18,15 @@ set(hapnet_clock_tests "\
 ^unit/proto/(Clock|UdpSocket)[.]")
 set(hapnet_permission_tests "\
 WithTheCureWhereThereIsNoPermission|WithoutPermissionIsListed|ThatMayNotBeOpened|\
-/(KeyFiles|KeeperFolder|PeerKeys|Keygen)[.]|Controlled(Peers)?[.]Own|UnixListener[.]IsForItsOwner|\
-NamesTheCureWhereUserNamespaces")
+/(KeyFiles|KeeperFolder|PeerKeys|Keygen)[.]|Controlled(Peers)?[.]Own|\
+UnixListener[.]IsForItsOwner|NamesTheCureWhereUserNamespaces")
 
 # hapnet_discover(PROGRAM KIND PREFIX TIMEOUT [ALL] [FILTER ...] [LIST ...] [PROPERTIES ...]): makes
 # each test of a GoogleTest program a test of ctest, PREFIX followed by the name, with the label
-# KIND. Instantiations with the prefix All also get the label "all", and so do all tests of a program
-# that is marked ALL. FILTER takes a part of the tests, whose names ctest then knows as LIST. The
-# target default_tests builds every program that has tests in the default run, but for those end to
-# end, which the target end_to_end builds.
+# KIND. Instantiations with the prefix All also get the label "all", and so do all tests of a
+# program that is marked ALL. FILTER takes a part of the tests, whose names ctest then knows as
+# LIST. The target default_tests builds every program that has tests in the default run, but for
+# those end to end, which the target end_to_end builds.
 add_custom_target(default_tests)
 function(hapnet_discover program kind prefix timeout)
     cmake_parse_arguments(PARSE_ARGV 4 arg "ALL" "FILTER;LIST" "PROPERTIES")
@@ -49,7 +49,7 @@ function(hapnet_discover program kind prefix timeout)
     elseif(NOT kind STREQUAL "e2e") # the target end_to_end builds those
         add_dependencies(default_tests ${program})
     endif()
-    # Read by ctest after the list of tests. A program that is not built is one failing test there.
+    # Read by ctest after the list of tests. A program that is not built is one failing test.
     set(labels ${CMAKE_CURRENT_BINARY_DIR}/${list}_labels.cmake)
     file(GENERATE OUTPUT ${labels} CONTENT "\
 if(NOT EXISTS \"$<TARGET_FILE:${program}>\")
@@ -74,7 +74,7 @@ endforeach()
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels})
 endfunction()
 
-# hapnet_script(NAME COMMAND ... [TIMEOUT seconds] [LABELS ...] [COST cost] [ENVIRONMENT ...]
+# hapnet_script(NAME COMMAND ... [TIMEOUT ...] [LABELS ...] [COST ...] [ENVIRONMENT ...]
 # [LOOPBACK]): a script as a test end to end, which exits with 77 where it cannot run. With the label
 # clock when_quiet runs it. LOOPBACK gives it a loopback of its own.
 function(hapnet_script name)

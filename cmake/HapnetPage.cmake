@@ -47,7 +47,8 @@ function(hapnet_page_modules out)
     endif()
 endfunction()
 
-# hapnet_page_module(OUT NAME SCRIPT CODE): a classic script as a module, by a line of code at its end.
+# hapnet_page_module(OUT NAME SCRIPT CODE): a classic script as a module, by a line of code at its
+# end.
 function(hapnet_page_module out name script code)
     set(module ${PROJECT_BINARY_DIR}/${name})
     file(READ ${script} text)

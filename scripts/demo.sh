@@ -99,8 +99,8 @@ run_session() {
     "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
 }
 
-# play_quietly TASK SECONDS: plays a session and analyses it; once more when the machine was too busy
-# for it.
+# play_quietly TASK SECONDS: plays a session and analyses it; once more when the machine was too
+# busy for it.
 play_quietly() {
     local folder=$out/${1,,} try why
     mkdir -p "$folder"
@@ -213,5 +213,5 @@ step 3 "results"
 for folder in "$out"/{p1,t3}; do export_rows "$folder"; done
 conclude | tee "$out/table.txt" || verdict=$?
 show_results "$out/report.html" \
-    "both copies of the cube as they moved, forces and distances over time, and the paper's Table 1."
+    "both copies of the cube as they moved, forces and distances over time, and the paper's table."
 exit "$verdict"

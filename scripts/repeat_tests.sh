@@ -37,7 +37,8 @@ done
 [[ $runs =~ ^[1-9][0-9]*$ ]] || refuse "--runs: a whole number, 1 or more"
 [[ -z $user || $EUID == 0 ]] || refuse "--as needs root"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-[[ -e build/release/CTestTestfile.cmake ]] || refuse "build/release has no tests: run scripts/test.sh"
+[[ -e build/release/CTestTestfile.cmake ]] ||
+    refuse "build/release has no tests: run scripts/test.sh"
 as_user=()
 if [[ -n $user ]]; then
     as_user=(runuser -u "$user" --)

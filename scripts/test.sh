@@ -17,15 +17,16 @@ KIND runs one kind instead:
               UndefinedBehaviorSanitizer, and clang-tidy over the sources. The programs themselves
               and emulated devices are the workflow asan-e2e instead
   clock       the tests that meet a real clock and those about permissions, of what is built
-  programs    other people's programs through the emulator: curl, dig, iperf, iperf3, mosh, ping, QUIC
+  programs    other people's programs through the emulator: curl, dig, iperf, iperf3, mosh, ping and
+              QUIC
   ship        packages, made, installed in a bare root and removed, and images of them; as root
   web         the live page in Chromium; left out, with the reason, where node, npm or chromium is
               missing
   fleet       a plan in shards by GNU parallel, over ssh to this machine and as an array on a Slurm
               cluster of one node, which it starts and ends, as root; and a million sessions
-A test that cannot run here is skipped, and the last lines count skips by reason. What each step said
-is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for an unknown argument, 3
-when something that it needs cannot be installed."
+A test that cannot run here is skipped, and the last lines count skips by reason. What each step
+said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for an unknown
+argument, 3 when something that it needs cannot be installed."
 
 refuse() {
     echo "test: $1"$'\n'"$usage" >&2
@@ -236,23 +237,31 @@ tally() {
         }'
 }
 
-# skips RUN...: how many tests were skipped for each reason, the most frequent first. The reason
-# stands in what a test said: after "skipped: ", or in the line after GoogleTest's ": Skipped".
+# skips RUN...: how many tests were skipped for each reason, the most frequent first. ctest names
+# them; the reason stands in what they said: after "skipped: ", or in the line after GoogleTest's
+# ": Skipped".
 skips() {
-    local run said=()
+    local run
     for run in "$@"; do
-        [[ ! -f $logs/$run.said ]] || said+=("$logs/$run.said")
-    done
-    cat "${said[@]}" </dev/null | awk '
-        /^Output:$/ { reason = "no reason given" }
-        is_next { reason = $0; is_next = 0 }
-        /: Skipped$/ { is_next = 1 }
-        /^skipped: / { reason = substr($0, 10) }
-        /^Test Skipped\.$/ {
-            sub(/(: traits\(\).*| \(.*)/, "", reason)
-            count[reason]++
-        }
-        END { for (reason in count) printf "%4d  %s\n", count[reason], reason }' | sort -rn
+        [[ -f $logs/$run.said && -f $logs/$run.log ]] || continue
+        awk '
+            FNR == NR && /" start time: / {
+                name = $0
+                sub(/^"/, "", name)
+                sub(/" start time: .*/, "", name)
+            }
+            FNR == NR && is_next { reason[name] = $0; is_next = 0 }
+            FNR == NR && /: Skipped$/ { is_next = 1 }
+            FNR == NR && /^skipped: / { reason[name] = substr($0, 10) }
+            FNR < NR && /^[ \t]*[0-9]+ - .*\(Skipped\)$/ {
+                name = $0
+                sub(/^[ \t]*[0-9]+ - /, "", name)
+                sub(/ \(Skipped\)$/, "", name)
+                why = reason[name] == "" ? "no reason given" : reason[name]
+                sub(/: .*/, "", why)
+                print why
+            }' "$logs/$run.said" "$logs/$run.log"
+    done | sort | uniq -c | sort -rn
 }
 
 # closing RUN...: how the tests of each ended, and which failed.

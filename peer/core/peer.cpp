@@ -99,10 +99,6 @@ Member::Config member_of(const Settings& settings)
 
 } // namespace
 
-Peer::~Peer() = default;
-Peer::Peer(Peer&&) noexcept = default;
-Peer& Peer::operator=(Peer&&) noexcept = default;
-
 Peer::Peer(const Settings& settings)
     : settings_{settings},
       circle_{settings.roster, member_of(settings)},

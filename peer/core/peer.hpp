@@ -126,11 +126,6 @@ public:
     /// The scene must be one that shared_bodies() and World::freeze() accept.
     explicit Peer(const Settings& settings);
 
-    // Not compiled in each file that has a Peer.
-    ~Peer();
-    Peer(Peer&&) noexcept;
-    Peer& operator=(Peer&&) noexcept;
-
     /// `from`: which of the others sent it, in the order of the roster.
     void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived,
                      std::size_t from = 0);

@@ -139,7 +139,8 @@ private:
         auto text = fmt::format("delay {}: {:.4f} apart", model.name, model.distance);
         if (!model.p_value) return text;
         return text + fmt::format(", p = {:.3g} (Kolmogorov-Smirnov, with fitted parameters): {}",
-                                  *model.p_value, *model.p_value < significance ? "rejected" : "passes");
+                                  *model.p_value,
+                                  *model.p_value < significance ? "rejected" : "passes");
     }
 
     void say(const std::string& remark) { lesson_.remarks.push_back(name_ + ": " + remark); }

@@ -109,11 +109,11 @@ TEST(PageModules, AreThoseOfWhatThePageShows)
     for (const char* name : {"report/report.js", "charts.js", "strips.js", "paint/flat.js"})
         EXPECT_TRUE(figures["plain"].contains(name)) << name;
     EXPECT_FALSE(figures["plain"].contains("report/loader.js")) << "that is the page's script";
-    EXPECT_FALSE(figures["packed"].contains("three.core.min.js"));
+    EXPECT_FALSE(figures["packed"].contains("three.module.min.js"));
     const auto all = page_assets();
     const bool has_libraries = std::ranges::any_of(
-        all, [](const Asset& asset) { return asset.name == "three.core.min.js"; });
-    EXPECT_EQ(player["packed"].contains("three.core.min.js"), has_libraries);
+        all, [](const Asset& asset) { return asset.name == "three.module.min.js"; });
+    EXPECT_EQ(player["packed"].contains("three.module.min.js"), has_libraries);
     EXPECT_EQ(player["packed"].contains("three-LICENSE.txt"), has_libraries);
 }
 
