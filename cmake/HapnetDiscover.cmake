@@ -75,8 +75,8 @@ endforeach()
 endfunction()
 
 # hapnet_script(NAME COMMAND ... [TIMEOUT ...] [LABELS ...] [COST ...] [ENVIRONMENT ...]
-# [LOOPBACK]): a script as a test end to end, which exits with 77 where it cannot run. With the label
-# clock when_quiet runs it. LOOPBACK gives it a loopback of its own.
+# [LOOPBACK]): a script as a test end to end, which exits with 77 where it cannot run. With the
+# label clock when_quiet runs it. LOOPBACK gives it a loopback of its own.
 function(hapnet_script name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "LOOPBACK" "TIMEOUT;COST" "COMMAND;LABELS;ENVIRONMENT")
     if(arg_LOOPBACK)
