@@ -214,7 +214,7 @@ test_kinds() {
     runs+=(programs-smoke)
     step "programs-smoke" test_programs smoke || true
     step "web-smoke" test_web --test-name-pattern="^loads in space" \
-        tests/web/page.test.mjs || true
+        tests/web/page.test.mjs tests/web/debian_three.test.mjs || true
     step "ship-smoke" try_package || true
     step "fleet-smoke" tests/fleet/fleet_test.sh . "$release/bin" build/fleet-smoke 1 local
 }
