@@ -2,19 +2,28 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/own_network.hpp"
 
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <linux/inet_diag.h>
+#include <linux/netlink.h>
+#include <linux/sock_diag.h>
+#include <netinet/in.h>
 #include <sched.h>
 #include <spdlog/fmt/fmt.h>
 #include <sstream>
 #include <string_view>
 #include <sys/mount.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -75,6 +84,53 @@ void put_over(const char* place, const std::string& text)
     const int error = errno;
     unlink(name.c_str());
     if (mounted != 0) deny_network(error, fmt::format("cannot give the command its own {}", place));
+}
+
+/// A socket that tells of the sockets in the network of that process (sock_diag(7)); -1 when it
+/// cannot be had. The calling thread is in that network for a moment.
+int sockets_of(pid_t process)
+{
+    const int own = open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC);
+    const int other = open(fmt::format("/proc/{}/ns/net", process).c_str(), O_RDONLY | O_CLOEXEC);
+    int sockets = -1;
+    if (own >= 0 && other >= 0 && setns(other, CLONE_NEWNET) == 0) {
+        sockets = socket(AF_NETLINK, SOCK_DGRAM | SOCK_CLOEXEC, NETLINK_SOCK_DIAG);
+        base::ensure(setns(own, CLONE_NEWNET) == 0);
+    }
+    if (own >= 0) close(own);
+    if (other >= 0) close(other);
+    return sockets;
+}
+
+/// True if there is a socket of this family and protocol in one of the states, each a bit. False,
+/// too, where the kernel cannot tell.
+bool has_socket(int sockets, int family, int protocol, std::uint32_t states)
+{
+    struct Request {
+        nlmsghdr header{};
+        inet_diag_req_v2 wanted{};
+    } request;
+    request.header.nlmsg_len = sizeof request;
+    request.header.nlmsg_type = SOCK_DIAG_BY_FAMILY;
+    request.header.nlmsg_flags = NLM_F_REQUEST | NLM_F_DUMP;
+    request.wanted.sdiag_family = static_cast<std::uint8_t>(family);
+    request.wanted.sdiag_protocol = static_cast<std::uint8_t>(protocol);
+    request.wanted.idiag_states = states;
+    if (send(sockets, &request, sizeof request, 0) != static_cast<ssize_t>(sizeof request))
+        return false;
+    bool has = false;
+    alignas(nlmsghdr) std::array<char, 8192> answer{};
+    while (true) {
+        const auto length = recv(sockets, answer.data(), answer.size(), 0);
+        if (length < static_cast<ssize_t>(sizeof(nlmsghdr))) return has;
+        for (std::size_t at = 0; at + sizeof(nlmsghdr) <= static_cast<std::size_t>(length);) {
+            nlmsghdr header{};
+            std::memcpy(&header, answer.data() + at, sizeof header);
+            if (header.nlmsg_type == NLMSG_DONE || header.nlmsg_type == NLMSG_ERROR) return has;
+            has = true;
+            at += NLMSG_ALIGN(std::max<std::size_t>(header.nlmsg_len, sizeof header));
+        }
+    }
 }
 
 void put_names(const ChildCommand::Setup& setup)
@@ -284,25 +340,17 @@ ChildCommand::~ChildCommand()
 
 bool has_listener(pid_t process)
 {
-    const auto has = [&](const char* table, std::string_view state) {
-        std::ifstream file{fmt::format("/proc/{}/net/{}", process, table)};
-        std::string line;
-        std::getline(file, line); // its titles
-        while (std::getline(file, line)) {
-            std::istringstream words{line};
-            std::string number;
-            std::string local;
-            std::string remote;
-            std::string is;
-            words >> number >> local >> remote >> is;
-            if (is == state) return true;
-        }
-        return false;
-    };
-    constexpr std::string_view listens = "0A";
-    constexpr std::string_view is_bound = "07";
-    return has("tcp", listens) || has("tcp6", listens) || has("udp", is_bound) ||
-           has("udp6", is_bound);
+    const int sockets = sockets_of(process);
+    if (sockets < 0) return false;
+    // Those that listen; UDP has no state of its own for a socket that is bound to no other end.
+    constexpr std::uint32_t listens = 1U << 10U; // TCP_LISTEN
+    constexpr std::uint32_t is_bound = 1U << 7U; // TCP_CLOSE
+    const bool has = has_socket(sockets, AF_INET, IPPROTO_TCP, listens) ||
+                     has_socket(sockets, AF_INET6, IPPROTO_TCP, listens) ||
+                     has_socket(sockets, AF_INET, IPPROTO_UDP, is_bound) ||
+                     has_socket(sockets, AF_INET6, IPPROTO_UDP, is_bound);
+    close(sockets);
+    return has;
 }
 
 } // namespace hapnet::net
