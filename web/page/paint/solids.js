@@ -26,16 +26,11 @@ const roundedBox = (three, half, radius) => {
 const capsule = (three, half) => {
   const axis = half.indexOf(Math.max(...half));
   const radius = Math.min(...half);
-  const reach = half[axis] - radius;
-  const steps = 8; // of each cap
-  const outline = [];
-  for (const end of [-1, 1]) {
-    for (let step = 0; step <= steps; step += 1) {
-      const angle = (Math.PI / 2) * (end < 0 ? step / steps - 1 : step / steps);
-      outline.push(new three.Vector2(
-        radius * Math.cos(angle), end * reach + radius * Math.sin(angle)));
-    }
-  }
+  const outline = Array.from({ length: 18 }, (_, i) => { // nine points of each cap
+    const angle = (Math.PI / 16) * (i < 9 ? i - 8 : i - 9);
+    const reach = (half[axis] - radius) * (i < 9 ? -1 : 1);
+    return new three.Vector2(radius * Math.cos(angle), reach + radius * Math.sin(angle));
+  });
   const geometry = new three.LatheGeometry(outline, 24);
   if (axis === 0) geometry.rotateZ(Math.PI / 2);
   if (axis === 2) geometry.rotateX(Math.PI / 2);

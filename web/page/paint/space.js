@@ -11,17 +11,9 @@ import { length } from "./vector.js";
 const up = new three.Vector3(0, 1, 0);
 const [fieldOfView, shadowSize] = [26, 1024];
 
-/** Before revision 152 three.js took colours as they are, and lights pi times brighter. */
-const isOld = Number(three.REVISION) < 152;
-const brightness = isOld ? 1 / Math.PI : 1;
-const colourOf = (css) => {
-  const colour = new three.Color(css);
-  return isOld ? colour.convertSRGBToLinear() : colour;
-};
-
 const lightsOf = () => {
-  const sky = new three.HemisphereLight(0xffffff, 0x8895a5, 1.5 * brightness);
-  const sun = new three.DirectionalLight(0xffffff, 2.1 * brightness);
+  const sky = new three.HemisphereLight(0xffffff, 0x8895a5, 1.5);
+  const sun = new three.DirectionalLight(0xffffff, 2.1);
   sun.position.set(-110, 320, 190);
   sun.castShadow = true;
   sun.shadow.mapSize.set(shadowSize, shadowSize);
@@ -47,7 +39,6 @@ export class Space {
   constructor(canvas, { antialias }) {
     this.renderer = new three.WebGLRenderer({ canvas, alpha: true, antialias });
     this.renderer.setScissorTest(true);
-    if (isOld) this.renderer.gammaOutput = true;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = three.PCFShadowMap;
     this.#world.add(...lightsOf());
@@ -78,22 +69,16 @@ export class Space {
     return this.#kept(this.#materials, look, () => {
       if (look === "edge") {
         return new three.LineDashedMaterial({
-          color: colourOf(this.colours.ink), dashSize: 3.5, gapSize: 2.5, transparent: true,
-          opacity: 0.8,
+          color: this.colours.ink, dashSize: 3.5, gapSize: 2.5, transparent: true, opacity: 0.8,
         });
       }
       if (look === "ghost") {
         return new three.MeshBasicMaterial({
-          color: colourOf(this.colours.cube), transparent: true, opacity: 0.16,
-          depthWrite: false,
+          color: this.colours.cube, transparent: true, opacity: 0.16, depthWrite: false,
         });
       }
-      if (look === "grid") {
-        return new three.LineBasicMaterial({ color: colourOf(this.colours.line) });
-      }
-      return new three.MeshStandardMaterial({
-        color: colourOf(this.colours[look]), roughness: 0.62,
-      });
+      if (look === "grid") return new three.LineBasicMaterial({ color: this.colours.line });
+      return new three.MeshStandardMaterial({ color: this.colours[look], roughness: 0.62 });
     });
   }
 
