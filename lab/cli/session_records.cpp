@@ -12,7 +12,11 @@
 
 namespace hapnet::lab {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+} // namespace
 
 base::Result<std::vector<record::Record>> records_in(const std::string& folder, std::size_t peers)
 {
