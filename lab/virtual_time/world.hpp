@@ -42,6 +42,8 @@ public:
     ~VirtualWorld();
     VirtualWorld(VirtualWorld&&) noexcept;
     VirtualWorld& operator=(VirtualWorld&&) noexcept;
+    VirtualWorld(const VirtualWorld&) = delete;
+    VirtualWorld& operator=(const VirtualWorld&) = delete;
 
     /// To the next deadline, and all that happens then.
     void step();
