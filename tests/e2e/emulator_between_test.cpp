@@ -81,17 +81,26 @@ TEST_F(EmulatorBetween, DelaysBothWaysAndNeverLess)
 }
 
 /// The kernels of both networks send a few packets before any command does. Command B listens on no
-/// port, so the emulator looks for its listener meanwhile, for a second.
+/// port, so the emulator looks for its listener meanwhile, for a second. p99 of so few packets is
+/// their maximum: without SCHED_FIFO one of twenty runs on a quiet machine has a packet that is too
+/// late, so one of three must be valid. A relay that is late for a reason of its own is so each
+/// time.
 TEST_F(EmulatorBetween, IsValidFromItsFirstPacketOn)
 {
     const TemporaryFolder folder;
     const auto stats = folder.file("run.json");
-    const auto outcome =
-        run_between({"--delay", "40ms", "--require", "valid==true", "--stats", stats}, "true",
-                    {"sleep", "infinity"});
-    EXPECT_EQ(outcome.exit, 0) << outcome.err;
-    const auto statistics = nlohmann::json::parse(text_of(stats));
-    EXPECT_GE(statistics["duration_s"], 1.0) << statistics;
+    std::string said;
+    bool was_valid = false;
+    for (int times = 0; times < 3 && !was_valid; ++times) {
+        const auto outcome =
+            run_between({"--delay", "40ms", "--require", "valid==true", "--stats", stats}, "true",
+                        {"sleep", "infinity"});
+        was_valid = outcome.exit == 0;
+        said += outcome.err;
+        const auto statistics = nlohmann::json::parse(text_of(stats));
+        EXPECT_GE(statistics["duration_s"], 1.0) << statistics;
+    }
+    EXPECT_TRUE(was_valid) << said;
 }
 
 TEST_F(EmulatorBetween, CarriesIpv6)
