@@ -11,7 +11,7 @@ include(GoogleTest)
 # Tests that judge how long something took, or that a device's or a peer's loop kept time.
 set(hapnet_clock_tests "\
 ^conformance/(dhd|falcon|hdapi|hid|inverse3|omni1394)/|\
-^e2e/(Emulator|EmulatorBetween|EmulatorControl|EmulatorLinks|EmulatorMarks|EmulatorProbe)[.]|\
+^e2e/(Emulator|EmulatorBetween|EmulatorRecords|EmulatorLinks|EmulatorMarks|EmulatorProbe)[.]|\
 ^e2e/(EmulatorUpstream|EmulatorUsage|EmulatorVerify|LabRun|Controlled|ControlledPeers)[.]|\
 ^e2e/(Peer[A-Za-z]*|TwoFalcons|JoystickSession|DeadMan[A-Za-z]*|Service)[.]|\
 ^unit/emulator/Workers[.]|^unit/peer/(Watchdog|WatchedRig|PlotStream)[.]|\

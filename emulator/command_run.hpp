@@ -18,7 +18,7 @@ namespace hapnet::emulator {
 /// end.
 class CommandRun {
 public:
-    /// What stands at the other end of the wire.
+    /// The process at the other end of the wire.
     struct Other {
         net::ChildCommand& process;
         std::string name; // "command B"

@@ -125,8 +125,8 @@ public:
         auto now = start_;
         while (!stop.requested() && !is_stopped_ && !workers.has_failed() &&
                !base::is_due(end_, now)) {
-            // requested() may have read a hangup, which then wakes nobody: it is looked for between
-            // that and the wait.
+            // requested() may have read a hangup from the descriptor, which then ends no wait. So
+            // this stands between requested() and the wait.
             if (stop.reload_requested()) reload(now, workers);
             pacer.wait(descriptors, base::earlier(next_deadline(), manager.next_deadline()));
             now = relay(0);

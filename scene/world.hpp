@@ -54,7 +54,7 @@ public:
     [[nodiscard]] static base::Result<World> freeze(const Description& description,
                                                     const FreezeOptions& options = {});
 
-    // Copying all steppers takes a second to compile: not in each file that has a World.
+    // Defined in world.cpp: every file that uses a World would compile copies of all steppers.
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;

@@ -60,7 +60,7 @@ public:
     /// The profile's timeline counts from `start`. Its seed is that of the run, and stays.
     Director(Profile profile, base::TimePoint start);
 
-    // Not compiled in each file that has a Director.
+    // Defined in director.cpp, so that not every file that uses a Director compiles them.
     ~Director();
     Director(Director&&) noexcept;
     Director& operator=(Director&&) noexcept;

@@ -41,7 +41,7 @@ struct CircleDemo {
 /// True if the programs kept their own time.
 [[nodiscard]] bool circle_demo_is_valid(const CircleDemo& demo);
 
-/// The same in words, with the reasons.
+/// A sentence that says whether the run is valid, with the reasons if it is not.
 [[nodiscard]] std::string circle_demo_verdict(const CircleDemo& demo);
 
 /// The manifest of the folder in which that of the task is.

@@ -38,7 +38,7 @@ public:
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
     /// One group for each setting.
     explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
-    // Not compiled in each file that has a VirtualWorld.
+    // Defined in world.cpp, so that not every file that uses a VirtualWorld compiles them.
     ~VirtualWorld();
     VirtualWorld(VirtualWorld&&) noexcept;
     VirtualWorld& operator=(VirtualWorld&&) noexcept;

@@ -85,7 +85,7 @@ void Server::attend(const net::Ready& ready)
     auto& client = clients_[ready.key];
     if (!client) return;
     const bool can_be_read = ready.is_readable && client->conversation.room() > 0;
-    // One that has gone may have left requests behind: these are read first.
+    // A client that has gone may have left requests behind, which are read first.
     if (can_be_read && take(*client) != net::Transfer::State::ended) return;
     if (ready.is_gone) client->conversation.on_gone();
 }

@@ -91,7 +91,8 @@ TEST_F(EmulatorBetween, IsValidFromItsFirstPacketOn)
     const auto stats = folder.file("run.json");
     std::string said;
     bool was_valid = false;
-    for (int times = 0; times < 3 && !was_valid; ++times) {
+    const int tries = geteuid() == 0 ? 1 : 3;
+    for (int times = 0; times < tries && !was_valid; ++times) {
         const auto outcome =
             run_between({"--delay", "40ms", "--require", "valid==true", "--stats", stats}, "true",
                         {"sleep", "infinity"});
