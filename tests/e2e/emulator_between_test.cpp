@@ -82,9 +82,8 @@ TEST_F(EmulatorBetween, DelaysBothWaysAndNeverLess)
 
 /// The kernels of both networks send a few packets before any command does. Command B listens on no
 /// port, so the emulator looks for its listener meanwhile, for a second. p99 of so few packets is
-/// their maximum: without SCHED_FIFO one of twenty runs on a quiet machine has a packet that is too
-/// late, so one of three must be valid. A relay that is late for a reason of its own is so each
-/// time.
+/// their maximum: without SCHED_FIFO one of twenty runs on a quiet machine had a packet that was
+/// too late, so there one run of three has to be valid. As root the first one has to be.
 TEST_F(EmulatorBetween, IsValidFromItsFirstPacketOn)
 {
     const TemporaryFolder folder;
