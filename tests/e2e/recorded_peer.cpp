@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <poll.h>
 #include <stdexcept>
@@ -288,8 +289,14 @@ bool RecordedPeer::has_more(int wait_ms) const
 
 bool RecordedPeer::pushes()
 {
+    // A peer that was late pushes no more until its user acts.
+    constexpr int patience = 10'000; // ticks
     int pushes = 0;
-    while (pushes < pushes_before_trouble && take_one()) pushes += told_.back().newtons > 0 ? 1 : 0;
+    for (int quiet = 0; pushes < pushes_before_trouble && quiet < patience && take_one(); ++quiet) {
+        if (told_.back().newtons == 0.0) continue;
+        ++pushes;
+        quiet = 0;
+    }
     return pushes == pushes_before_trouble;
 }
 
@@ -302,7 +309,11 @@ void RecordedPeer::signal_thread(std::size_t thread, int number) const
     for (const auto& entry : std::filesystem::directory_iterator{tasks}) {
         threads.push_back(std::stoi(entry.path().filename()));
     }
-    std::sort(threads.begin(), threads.end());
+    // In the order of their birth: numbers begin again at the system's largest one.
+    pid_t largest = 0;
+    std::ifstream{"/proc/sys/kernel/pid_max"} >> largest;
+    const auto age = [&](pid_t one) { return one >= pid_ ? one - pid_ : one - pid_ + largest; };
+    std::sort(threads.begin(), threads.end(), [&](pid_t a, pid_t b) { return age(a) < age(b); });
     tgkill(pid_, threads.at(thread), number);
 }
 
