@@ -2,20 +2,60 @@
 // SPDX-License-Identifier: MIT
 #include "ctl/request.hpp"
 
+#include "proto/base/document.hpp"
+#include "proto/base/reading.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <set>
 #include <string>
+#include <system_error>
 #include <utility>
+#include <variant>
 
 namespace hapnet::ctl {
 
 namespace {
 
-/// The profile that a request names: its text, or a name that only the emulator can know.
+/// The files that laws name, wherever they stand: { law = "trace", file = "delays.csv" }.
+void add_names(const base::Node& node, std::set<std::string>& names)
+{
+    if (const auto* list = std::get_if<base::Node::List>(&node.value)) {
+        for (const base::Node& one : *list) add_names(one, names);
+    }
+    const auto* table = std::get_if<base::Node::Table>(&node.value);
+    if (table == nullptr) return;
+    for (const base::Entry& entry : *table) {
+        const auto* text = std::get_if<std::string>(&entry.value.value);
+        if (entry.key == "file" && text != nullptr) names.insert(*text);
+        add_names(entry.value, names);
+    }
+}
+
+/// Sends the files of these names, which lie in `folder`, along. If none of them is there, they are
+/// those of the folder that the emulator reads.
+base::Result<void> add_files(const std::set<std::string>& names,
+                             const std::filesystem::path& folder, nlohmann::ordered_json& request)
+{
+    std::error_code error;
+    const auto is_here = [&](const std::string& name) {
+        return std::filesystem::exists(folder / name, error);
+    };
+    if (std::none_of(names.begin(), names.end(), is_here)) return {};
+    for (const std::string& name : names) {
+        auto text = net::text_of_file((folder / name).string());
+        if (!text) return tl::unexpected{text.error()};
+        request["files"][name] = *std::move(text);
+    }
+    return {};
+}
+
+/// The profile that a request names: its text with its files, or a name that only the emulator can
+/// know.
 base::Result<void> add_profile(const std::string& file, nlohmann::ordered_json& request)
 {
     const bool is_input = file == "-";
@@ -28,10 +68,23 @@ base::Result<void> add_profile(const std::string& file, nlohmann::ordered_json& 
                                          ? std::string{std::istreambuf_iterator<char>{std::cin}, {}}
                                          : net::text_of_file(file);
     if (!text) return tl::unexpected{text.error()};
+    std::set<std::string> names;
+    if (const auto document = base::parse_document(*text)) add_names(*document, names);
     request["profile"] = *std::move(text);
-    // What a profile names lies beside it, wherever the emulator was started.
-    request["file"] = is_input ? "(standard input)" : std::filesystem::absolute(file).string();
-    return {};
+    request["file"] = is_input ? "(standard input)" : file;
+    // What a profile names lies beside it.
+    return add_files(names, is_input ? "" : std::filesystem::path{file}.parent_path(), request);
+}
+
+/// Settings may name files, too: they lie where this was started.
+base::Result<void> add_settings(const Options& options, nlohmann::ordered_json& request)
+{
+    std::set<std::string> names;
+    for (const auto& [key, value] : options.settings) {
+        request["settings"][key] = value;
+        if (const auto node = base::parse_option(value, false)) add_names(*node, names);
+    }
+    return add_files(names, "", request);
 }
 
 } // namespace
@@ -42,7 +95,9 @@ base::Result<nlohmann::ordered_json> make_request(const Options& options)
     const auto add = [&](const char* key, const std::optional<base::Duration>& time) {
         if (time) request[key] = base::to_text(*time);
     };
-    for (const auto& [key, value] : options.settings) request["settings"][key] = value;
+    if (const auto added = add_settings(options, request); !added) {
+        return tl::unexpected{added.error()};
+    }
     if (!options.file.empty()) {
         const auto added = add_profile(options.file, request);
         if (!added) return tl::unexpected{added.error()};

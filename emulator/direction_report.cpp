@@ -39,14 +39,14 @@ Json distribution_of(const base::DurationHistogram& histogram)
     return list;
 }
 
-Json json_of(const StreamStatistics& stream, bool has_distributions)
+Json json_of(const StreamTotals& stream, bool has_distributions)
 {
     const StreamReport measured = stream.report();
     Json delay = json_in_ms(measured.delay);
     if (measured.delay_quantiles) delay.update(json_in_ms(measured.delay_quantiles));
     if (measured.delay && has_distributions) {
         using Milliseconds = std::chrono::duration<double, std::milli>;
-        delay["distribution"] = distribution_of<Milliseconds>(stream.delays());
+        delay["distribution"] = distribution_of<Milliseconds>(stream.delays);
     }
     return {{"requested_delay_ms", json_in_ms(measured.requested_delay)},
             {"delay_ms", delay},

@@ -16,7 +16,7 @@ namespace hapnet::emulator {
 /// What a run knows of one direction.
 struct DirectionOfRun {
     const Statistics& statistics;
-    const StreamStatistics* stream = nullptr; // null for the sum of several paths
+    const StreamTotals* stream = nullptr; // null for the sum of several paths
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
     bool has_distributions =

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/checks.hpp"
 #include "emulator/commands.hpp"
-#include "emulator/control/reply.hpp"
+#include "emulator/control/change.hpp"
+#include "emulator/control_desk.hpp"
 #include "emulator/core/all_paths.hpp"
 #include "emulator/core/paths.hpp"
 #include "emulator/core/profile/paths.hpp"
@@ -16,10 +17,10 @@
 #include "emulator/recorder.hpp"
 #include "emulator/report.hpp"
 #include "emulator/results.hpp"
+#include "emulator/run_state.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/status.hpp"
 #include "emulator/workers.hpp"
-#include "proto/control/server.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
@@ -69,8 +70,8 @@ AllPaths together(const std::vector<std::unique_ptr<Paths>>& parts)
 }
 
 /// One run, from bound sockets to written files. The thread that constructs it relays the first
-/// part and does all that concerns the whole of it; `workers_` relay the others, and the recorder
-/// writes. `Run`: what its reports are made from, with its port.
+/// part; `workers_` relay the others, the recorder writes, and the control desk does all that is no
+/// hurry. `Run`: what its reports are made from, with its port.
 template <typename Run>
 class Session {
     using Port = typename Run::Port;
@@ -88,9 +89,9 @@ public:
           status_{start_}
     {
         const Options& options = run_.options;
-        if (options.control) control_.emplace(*options.control);
         if (options.duration) end_ = start_ + *options.duration;
-        // After the recorder's thread was made. Most of the slab is never used.
+        desk_.emplace(duties());
+        // After the other threads were made. Most of the slab is never used.
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
@@ -117,47 +118,45 @@ public:
         auto& part = *port_->parts().front();
         std::vector<int> descriptors = part.descriptors();
         descriptors.push_back(stop.descriptor());
-        if (control_) descriptors.push_back(control_->descriptor());
+        control::Turns& turns = desk_->turns();
+        descriptors.push_back(turns.descriptor());
         if (!workers.empty()) descriptors.push_back(workers.descriptor());
-        Emulation emulation = controlled();
-        const control::Subject subject = at_rest(subject_of(emulation), workers);
         Pacer pacer{run_.options.timing, start_};
         auto now = start_;
         while (!stop.requested() && !is_stopped_ && !workers.has_failed() &&
                !base::is_due(end_, now)) {
             // requested() may have read a hangup from the descriptor, which then ends no wait. So
             // this stands between requested() and the wait.
-            if (stop.reload_requested()) reload(now, workers);
+            if (stop.reload_requested()) desk_->reload();
             pacer.wait(descriptors, base::earlier(next_deadline(), manager.next_deadline()));
             now = relay(0);
             manager.tell_alive(now);
             run_.elapsed = now - start_;
-            if (control_) control_->serve(subject, now, paths_.front()->next_due());
-            tell_of_kept();
-            status_.show(
-                [&] {
-                    const Workers::Rest rest{workers};
-                    return status_line(run_);
-                },
-                now);
+            if (turns.is_due(now, paths_.front()->next_due())) {
+                const Workers::Rest rest{workers};
+                turns.take(now);
+            }
         }
         workers.stop();
+        desk_->close();
         status_.finish();
     }
 
     /// The error names a check that no statistics can meet.
-    [[nodiscard]] base::Result<void> ensure_checks() const
+    [[nodiscard]] base::Result<void> ensure_checks()
     {
-        return ensure_keys(run_.scenario.checks, statistics_of(run_));
+        return ensure_keys(run_.scenario.checks, statistics(control::do_at_once));
     }
 
     /// Writes the files and says how it went; gives the exit code. Throws, after that, what kept
     /// the recorder from its files.
     int finish()
     {
-        const bool is_fine = results_.finish(run_, recorder_,
-                                             {.statistics = [this] { return statistics_of(run_); },
-                                              .summary = [this] { return summary(run_); }});
+        state_.is_over = true;
+        const auto all_statistics = [this] { return statistics(control::do_at_once); };
+        const bool is_fine = results_.finish(
+            run_, recorder_,
+            {.statistics = all_statistics, .summary = [this] { return summary(run_, state_); }});
         return is_fine ? 0 : net::exit_failed;
     }
 
@@ -187,8 +186,7 @@ private:
     {
         auto deadline = next_deadline(0);
         deadline = base::earlier(deadline, end_);
-        deadline = base::earlier(deadline, status_.next_deadline());
-        return control_ ? base::earlier(deadline, control_->next_deadline()) : deadline;
+        return base::earlier(deadline, desk_->turns().next_deadline());
     }
 
     /// All but the first.
@@ -203,65 +201,73 @@ private:
         return parts;
     }
 
-    /// Its functions, called while no other thread relays.
-    [[nodiscard]] static control::Subject at_rest(control::Subject subject, Workers& workers)
+    /// As they are now; by whoever the state belongs to at the time.
+    [[nodiscard]] nlohmann::ordered_json statistics(const control::DoWork& work)
     {
-        if (workers.empty()) return subject;
-        return {[answer = std::move(subject.answer), &workers](std::string_view line,
-                                                               base::TimePoint now) {
-                    const Workers::Rest rest{workers};
-                    return answer(line, now);
-                },
-                [statistics = std::move(subject.statistics), &workers] {
-                    const Workers::Rest rest{workers};
-                    return statistics();
-                },
-                [frames = std::move(subject.frames), &workers] {
-                    const Workers::Rest rest{workers};
-                    return control::FrameSource{
-                        [next = frames(), &workers](std::string& text, std::uint64_t left_out) {
-                            const Workers::Rest rest_for_one{workers};
-                            next(text, left_out);
-                        }};
-                }};
+        look_at(run_, *port_, work, state_);
+        return statistics_of(run_, state_);
     }
 
-    [[nodiscard]] Emulation controlled()
+    /// What is done on the desk's thread.
+    [[nodiscard]] ControlDesk::Setup duties()
     {
-        return {.paths = run_.paths,
-                .statistics_json = [this] { return statistics_of(run_).dump(); },
-                .open = text_beside,
-                .preset = preset_text,
+        const Options& options = run_.options;
+        ControlDesk::Setup setup{
+            .socket = options.control,
+            .files = options.files,
+            .emulation = {
+                .paths = run_.paths,
+                .statistics = [this](const control::DoWork& work) { return statistics(work); },
                 .stop = [this] { is_stopped_ = true; },
+                .preset = preset_text,
                 .netem = netem_profile,
                 .held = recorder_.held(),
                 .keep = [this](const std::string& name,
-                               base::TimePoint from) { return recorder_.keep(name, from); }};
+                               base::TimePoint from) { return recorder_.keep(name, from); }}};
+        if (options.conditions.profile) {
+            setup.reload = [this](Emulation& emulation) { reload(emulation); };
+        }
+        if (status_.next_deadline() || recorder_.held()) {
+            setup.look = [this](base::TimePoint now, const control::DoWork& work) {
+                return look_after(now, work);
+            };
+        }
+        return setup;
+    }
+
+    /// Tells what a person should know by now; gives when to call it again.
+    std::optional<base::TimePoint> look_after(base::TimePoint now, const control::DoWork& work)
+    {
+        if (const auto trouble = recorder_.keep_trouble()) status_.say(*trouble);
+        const auto line = [&] {
+            look_at(run_, *port_, work, state_);
+            return status_line(run_, state_);
+        };
+        status_.show(line, now);
+        const auto keeper_next = now + std::chrono::milliseconds{100};
+        if (!recorder_.held()) return status_.next_deadline();
+        return base::earlier(keeper_next, status_.next_deadline());
     }
 
     /// Reads the profile again. One that is wrong changes nothing.
-    void reload(base::TimePoint now, Workers& workers)
+    void reload(Emulation& emulation)
     {
         Options options = run_.options;
-        options.replay.reset(); // stays as it was read; reading it would hold up the relay
+        options.replay.reset(); // stays as it was read
         const auto scenario = scenario_of(options, run_.paths.names());
         if (!scenario) {
             return status_.say(
                 fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
-        const Profile& profile = scenario->profile;
-        const auto command = [&](std::string_view name,
-                                 const Path& /*path*/) -> base::Result<Command> {
-            return Apply{profile_of(profile, name)};
-        };
-        const Workers::Rest rest{workers};
-        const auto done = run_.paths.apply(command, paths_in(profile), now, ChangeCause::reload);
+        const Scripts scripts{scenario->profile};
+        const auto done = change(emulation, scripts.command(), scripts.mentioned(),
+                                 net::monotonic_now(), ChangeCause::reload);
         if (!done) {
             return status_.say(
                 fmt::format("SIGHUP: the old profile stays: {}", done.error().message));
         }
         status_.say(fmt::format("SIGHUP: {} is read again, generation {}",
-                                *run_.options.conditions.profile, run_.paths.generation()));
+                                *run_.options.conditions.profile, done->generation));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -273,22 +279,18 @@ private:
             "on, but its files will end here");
     }
 
-    void tell_of_kept()
-    {
-        if (const auto trouble = recorder_.keep_trouble()) status_.say(*trouble);
-    }
-
     base::TimePoint start_;
     Recorder recorder_;
     std::vector<std::unique_ptr<Paths>> paths_;
     std::unique_ptr<Port> port_;
-    std::optional<control::Server> control_;
     std::optional<base::TimePoint> end_;
     std::atomic<bool> has_told_of_files_{false};
     bool is_stopped_ = false; // by a client
     Run run_;
+    RunState state_; // as the desk has seen it last, or who reports in the end
     Results results_;
     Status status_;
+    std::optional<ControlDesk> desk_; // last: its thread uses the others
 };
 
 /// The signals that end it or, with a profile to read again, also SIGHUP: without one a closed

@@ -3,7 +3,6 @@
 #include "emulator/frame_session.hpp"
 
 #include "emulator/checks.hpp"
-#include "emulator/control/reply.hpp"
 #include "emulator/direction_report.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/report.hpp"
@@ -23,15 +22,9 @@ using FrameJson = nlohmann::ordered_json;
 
 void say_of_frames(std::string_view text) { net::say("hapnet-emulator", text); }
 
-DirectionOfRun way_of(const EmulatedPath& path, const ports::Frames::Side& side)
+FrameJson json_of(const std::string& interface, const InterfaceState& side)
 {
-    const Link& link = path.link(side.direction);
-    return {link.statistics(), &link.stream_statistics(), 0, side.socket.overflowed()};
-}
-
-FrameJson json_of(const ports::Frames::Side& side)
-{
-    return {{"interface", side.interface},
+    return {{"interface", interface},
             {"undisturbed", side.undisturbed},
             {"not_ip", side.not_ip},
             {"oversized", side.oversized},
@@ -39,7 +32,7 @@ FrameJson json_of(const ports::Frames::Side& side)
             {"told_too_big", side.told_too_big}};
 }
 
-std::string frames_in_words(const char* name, const ports::Frames::Side& side)
+std::string frames_in_words(const char* name, const InterfaceState& side)
 {
     if (side.undisturbed + side.oversized == 0) return "";
     auto text = fmt::format("frames from {}: {} passed undisturbed", name, side.undisturbed);
@@ -63,25 +56,30 @@ FrameSession::FrameSession(const Options& options, const Scenario& scenario, Set
               .replay = scenario.replay}},
       frames_{setup_.frames, paths_, recorder_},
       run_{options, scenario, paths_, recorder_},
-      emulation_{.paths = paths_,
-                 .statistics_json = [this] { return statistics().dump(); },
-                 .open = text_beside,
-                 .preset = preset_text,
-                 .stop = [this] { is_stopped_ = true; },
-                 .netem = netem_profile},
-      subject_{subject_of(emulation_)},
       pacer_{options.timing, start_},
       results_{options}
 {
-    if (options.control) control_.emplace(*options.control);
     if (options.duration) end_ = start_ + *options.duration;
-    // After the recorder's thread was made. Most of the slab is never used.
+    desk_.emplace(duties());
+    // After the other threads were made. Most of the slab is never used.
     run_.real_time = net::request_real_time(40, net::Locking::as_used);
 }
 
-base::Result<void> FrameSession::ensure_checks() const
+ControlDesk::Setup FrameSession::duties()
 {
-    return ensure_keys(run_.scenario.checks, statistics());
+    return {.socket = run_.options.control,
+            .files = run_.options.files,
+            .emulation = {
+                .paths = paths_,
+                .statistics = [this](const control::DoWork& work) { return statistics(work); },
+                .stop = [this] { is_stopped_ = true; },
+                .preset = preset_text,
+                .netem = netem_profile}};
+}
+
+base::Result<void> FrameSession::ensure_checks()
+{
+    return ensure_keys(run_.scenario.checks, statistics(control::do_at_once));
 }
 
 void FrameSession::announce() const
@@ -97,10 +95,9 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
     descriptors_.assign(descriptors.begin(), descriptors.end());
     descriptors_.push_back(frames_.a().socket.descriptor());
     descriptors_.push_back(frames_.b().socket.descriptor());
-    if (control_) {
-        descriptors_.push_back(control_->descriptor());
-        deadline = base::earlier(deadline, control_->next_deadline());
-    }
+    control::Turns& turns = desk_->turns();
+    descriptors_.push_back(turns.descriptor());
+    deadline = base::earlier(deadline, turns.next_deadline());
     deadline = base::earlier(deadline, paths_.next_change());
     pacer_.wait(descriptors_, base::earlier(deadline, paths_.next_due()));
     frames_.receive();
@@ -109,7 +106,7 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
     frames_.release(now);
     run_.elapsed = now - start_;
     if (const auto notice = frames_.next_notice()) say_of_frames(*notice);
-    if (control_) control_->serve(subject_, now, paths_.next_due());
+    if (turns.is_due(now, paths_.next_due())) turns.take(now);
     if (!has_told_of_files_ && recorder_.has_failed()) {
         has_told_of_files_ = true;
         say_of_frames("what this run records cannot be written any more (is the disk full?): the "
@@ -118,27 +115,23 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
     return now;
 }
 
-nlohmann::ordered_json FrameSession::statistics() const
+nlohmann::ordered_json FrameSession::statistics(const control::DoWork& work)
 {
-    const auto up = way_of(frames_.path(), frames_.a());
-    const auto down = way_of(frames_.path(), frames_.b());
-    std::vector<std::string> reasons;
-    for (const auto& [way, direction] : {std::pair{"up", &up}, std::pair{"down", &down}}) {
-        for (const std::string& reason : reasons_against(*direction, run_.options.budget)) {
-            reasons.push_back(fmt::format("{}: {}", way, reason));
-        }
-    }
-    FrameJson json = head_of(run_);
+    look_at(run_, frames_, work, state_);
+    const PathState& path = state_.paths.front();
+    const auto reasons = reasons_against(path, run_.options.budget);
+    FrameJson json = head_of(run_, state_);
     json["command"] = setup_.command;
     if (setup_.through) json["through"] = *setup_.through;
-    json["frames"] = {{"a", json_of(frames_.a())}, {"b", json_of(frames_.b())}};
-    json["generation"] = paths_.generation();
-    add_course(json, run_, frames_.path(), "");
+    json["frames"] = {{"a", json_of(frames_.a().interface, state_.a)},
+                      {"b", json_of(frames_.b().interface, state_.b)}};
+    json["generation"] = state_.generation;
+    add_course(json, run_, path);
     add_files(json, run_);
     json["valid"] = reasons.empty();
     json["invalid_because"] = reasons;
-    json["up"] = json_of_way(up, run_);
-    json["down"] = json_of_way(down, run_);
+    json["up"] = json_of_way(path.up, run_, state_);
+    json["down"] = json_of_way(path.down, run_, state_);
     add_checks(json, run_);
     return json;
 }
@@ -146,19 +139,21 @@ nlohmann::ordered_json FrameSession::statistics() const
 std::string FrameSession::summary() const
 {
     const auto budget = run_.options.budget;
-    return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(run_.elapsed),
+    const PathState& path = state_.paths.front();
+    return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(state_.elapsed),
                        run_.scenario.seed.value()) +
-           in_words("up   (A to B)", way_of(frames_.path(), frames_.a()), budget) +
-           in_words("down (B to A)", way_of(frames_.path(), frames_.b()), budget) +
-           frames_in_words("A", frames_.a()) + frames_in_words("B", frames_.b()) +
-           incomplete(recorder_);
+           in_words("up   (A to B)", path.up.view(), budget) +
+           in_words("down (B to A)", path.down.view(), budget) + frames_in_words("A", state_.a) +
+           frames_in_words("B", state_.b) + incomplete(recorder_);
 }
 
 bool FrameSession::finish()
 {
-    return results_.finish(
-        run_, recorder_,
-        {.statistics = [this] { return statistics(); }, .summary = [this] { return summary(); }});
+    desk_->close();
+    state_.is_over = true;
+    return results_.finish(run_, recorder_,
+                           {.statistics = [this] { return statistics(control::do_at_once); },
+                            .summary = [this] { return summary(); }});
 }
 
 } // namespace hapnet::emulator

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/control/emulation.hpp"
+#include "emulator/control_desk.hpp"
 #include "emulator/core/paths.hpp"
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
@@ -10,10 +10,11 @@
 #include "emulator/recorder.hpp"
 #include "emulator/report.hpp"
 #include "emulator/results.hpp"
+#include "emulator/run_state.hpp"
 #include "emulator/scenario.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
-#include "proto/control/server.hpp"
+#include "proto/control/core/work.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -24,7 +25,7 @@
 namespace hapnet::emulator {
 
 /// A run between two network interfaces, from their sockets to the written files. Everything but
-/// the recorder's writing happens on the thread that constructs it.
+/// the recorder's writing and the control happens on the thread that constructs it.
 class FrameSession {
 public:
     struct Setup {
@@ -37,7 +38,7 @@ public:
     FrameSession(const Options& options, const Scenario& scenario, Setup setup);
 
     /// The error names a check that no statistics can meet.
-    [[nodiscard]] base::Result<void> ensure_checks() const;
+    [[nodiscard]] base::Result<void> ensure_checks();
 
     /// What holds for this run, and warnings, on stderr.
     void announce() const;
@@ -57,7 +58,8 @@ public:
     bool finish();
 
 private:
-    [[nodiscard]] nlohmann::ordered_json statistics() const;
+    [[nodiscard]] ControlDesk::Setup duties();
+    [[nodiscard]] nlohmann::ordered_json statistics(const control::DoWork& work);
     [[nodiscard]] std::string summary() const;
 
     base::TimePoint start_;
@@ -66,15 +68,14 @@ private:
     Paths paths_;
     ports::Frames frames_;
     AnyRun run_;
-    Emulation emulation_;
-    control::Subject subject_; // of it
+    RunState state_; // as the desk has seen it last, or who reports in the end
     Pacer pacer_;
-    std::optional<control::Server> control_;
     Results results_;
     std::optional<base::TimePoint> end_;
     std::vector<int> descriptors_;
     bool has_told_of_files_ = false;
     bool is_stopped_ = false;
+    std::optional<ControlDesk> desk_; // last: its thread uses the others
 };
 
 } // namespace hapnet::emulator

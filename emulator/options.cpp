@@ -289,6 +289,9 @@ void add_run_options(cli::Command& program, Options& options, const ConditionsFo
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
                    cli::into(options.control));
+    program.option("--files", "DIR",
+                   "Clients of the control socket may name files below DIR (default: none)",
+                   cli::into(options.files));
 }
 
 void add_capture(cli::Command& program, Options& options)
@@ -405,6 +408,7 @@ base::Result<void> require_own_files(const Options& options)
                                           option, files[j].first, *file));
         }
     }
+    if (options.files && !options.control) return base::fail("--files needs --control SOCKET");
     return cli::check_keep(options.keep, options.control.has_value());
 }
 

@@ -65,6 +65,7 @@ struct Options {
     std::optional<std::string> fates;
     std::optional<std::string> capture;
     std::optional<std::string> control;      // the path of a Unix socket
+    std::optional<std::string> files;        // the folder whose files its clients may name
     cli::KeepOptions keep{};                 // the last seconds of the capture
     std::vector<base::Condition> required{}; // besides the profile's checks
 };

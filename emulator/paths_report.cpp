@@ -3,8 +3,11 @@
 #include "emulator/paths_report.hpp"
 
 #include "emulator/direction_report.hpp"
+#include "emulator/run_state.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <utility>
@@ -15,6 +18,11 @@ namespace hapnet::emulator {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::span<const PathState> present(const RunState& state)
+{
+    return std::span{state.paths}.first(state.count);
+}
 
 /// Of all paths together, those too that have been forgotten.
 struct Sums {
@@ -36,71 +44,50 @@ struct Sums {
     }
 };
 
-Sums sums_of(const ports::Upstream& port)
+Sums sums_of(const RunState& state)
 {
-    const auto departed = port.departed();
-    Sums sums{.up = departed.up,
-              .down = departed.down,
-              .strangers_up = port.strangers() + port.refused(),
-              .strangers_down = departed.strangers_down,
-              .overflowed_up = port.overflowed(),
-              .overflowed_down = departed.overflowed_down};
-    for (const auto* client : port.clients()) {
-        ++sums.paths;
-        sums.up.add(client->path->link(Direction::up).statistics());
-        sums.down.add(client->path->link(Direction::down).statistics());
-        sums.strangers_down += client->strangers;
-        sums.overflowed_down += client->socket.overflowed();
+    const RunState::Server& server = state.server;
+    Sums sums{.up = server.departed.up,
+              .down = server.departed.down,
+              .strangers_up = server.strangers + server.refused,
+              .strangers_down = server.departed.strangers_down,
+              .overflowed_up = server.overflowed,
+              .overflowed_down = server.departed.overflowed_down,
+              .paths = state.count};
+    for (const PathState& path : present(state)) {
+        sums.up.add(path.up.statistics);
+        sums.down.add(path.down.statistics);
+        sums.strangers_up += path.up.strangers;
+        sums.strangers_down += path.down.strangers;
+        sums.overflowed_up += path.up.overflowed;
+        sums.overflowed_down += path.down.overflowed;
     }
     return sums;
 }
 
-Sums sums_of(const ports::Links& port)
+Json json_of(const PathState& client, const UpstreamRun& run, const RunState& state)
 {
-    Sums sums;
-    for (const auto& relay : port.relays()) {
-        const auto& a = relay->a();
-        const auto& b = relay->b();
-        ++sums.paths;
-        sums.up.add(a.link.statistics());
-        sums.down.add(b.link.statistics());
-        sums.strangers_up += a.strangers;
-        sums.strangers_down += b.strangers;
-        sums.overflowed_up += a.socket.overflowed();
-        sums.overflowed_down += b.socket.overflowed();
-    }
-    return sums;
-}
-
-Json json_of(const ports::Upstream::Client& client, const UpstreamRun& run)
-{
-    const Link& up = client.path->link(Direction::up);
-    const Link& down = client.path->link(Direction::down);
     Json json{
-        {"client", client.number}, {"name", client.name}, {"address", client.address->to_text()}};
-    add_course(json, run, *client.path, client.name);
-    json["up"] = json_of_way({up.statistics(), &up.stream_statistics()}, run);
-    json["down"] = json_of_way({down.statistics(), &down.stream_statistics(), client.strangers,
-                                client.socket.overflowed()},
-                               run);
+        {"client", client.client}, {"name", client.name}, {"address", client.end_a->to_text()}};
+    add_course(json, run, client);
+    json["up"] = json_of_way(client.up, run, state);
+    json["down"] = json_of_way(client.down, run, state);
     return json;
 }
 
-Json json_of(const ports::Relay& relay, const LinksRun& run)
+Json json_of(const PathState& link, const ports::Relay& relay, const LinksRun& run,
+             const RunState& state)
 {
-    const auto address = [](const ports::Relay::Side& side) {
-        const auto& known = side.filter.address();
-        return known ? Json(known->to_text()) : Json(nullptr);
+    const auto text = [](const std::optional<net::Endpoint>& end) {
+        return end ? Json(end->to_text()) : Json(nullptr);
     };
-    const auto& a = relay.a();
-    const auto& b = relay.b();
-    Json json{{"listen_1", a.local.to_text()},
-              {"listen_2", b.local.to_text()},
-              {"end_1", address(a)},
-              {"end_2", address(b)}};
-    add_course(json, run, relay.path(), relay.name());
-    json["up"] = json_of_way(direction_of(a), run);
-    json["down"] = json_of_way(direction_of(b), run);
+    Json json{{"listen_1", relay.a().local.to_text()},
+              {"listen_2", relay.b().local.to_text()},
+              {"end_1", text(link.end_a)},
+              {"end_2", text(link.end_b)}};
+    add_course(json, run, link);
+    json["up"] = json_of_way(link.up, run, state);
+    json["down"] = json_of_way(link.down, run, state);
     return json;
 }
 
@@ -120,25 +107,24 @@ void add_sums(Json& json, const Sums& sums, base::Duration budget, std::vector<s
 }
 
 /// Each link has to be on time, not only all together.
-std::vector<std::string> reasons_of_links(const ports::Links& port, base::Duration budget)
+std::vector<std::string> reasons_of_links(const RunState& state, base::Duration budget)
 {
     std::vector<std::string> reasons;
-    for (const auto& relay : port.relays()) {
-        for (const auto* side : {&relay->a(), &relay->b()}) {
-            for (const std::string& reason : reasons_against(direction_of(*side), budget)) {
-                reasons.push_back(
-                    fmt::format("{}: {}", way_name(relay->name(), side->direction), reason));
+    for (const PathState& link : present(state)) {
+        for (const auto& [direction, way] :
+             {std::pair{Direction::up, &link.up}, std::pair{Direction::down, &link.down}}) {
+            for (const std::string& reason : reasons_against(way->view(), budget)) {
+                reasons.push_back(fmt::format("{}: {}", way_name(link.name, direction), reason));
             }
         }
     }
     return reasons;
 }
 
-template <typename Run>
-std::string status_of(const Run& run, std::string_view paths)
+std::string status_of(const RunState& state, std::string_view paths)
 {
-    const Sums sums = sums_of(run.port);
-    return fmt::format("{:.0f} s | {} {} | {} | {}", base::to_seconds(run.elapsed), sums.paths,
+    const Sums sums = sums_of(state);
+    return fmt::format("{:.0f} s | {} {} | {} | {}", base::to_seconds(state.elapsed), sums.paths,
                        paths, in_short("up", sums.of_up()), in_short("down", sums.of_down()));
 }
 
@@ -162,62 +148,66 @@ std::string ready_line(const UpstreamRun& run)
                        run.scenario.seed.value(), to_text(run.options.timing));
 }
 
-nlohmann::ordered_json statistics_of(const LinksRun& run)
+nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
 {
     const auto budget = run.options.budget;
-    Json json = head_of(run);
-    json["generation"] = run.paths.generation();
+    Json json = head_of(run, state);
+    json["generation"] = state.generation;
     json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
     add_files(json, run);
-    add_sums(json, sums_of(run.port), budget, reasons_of_links(run.port, budget));
+    add_sums(json, sums_of(state), budget, reasons_of_links(state, budget));
     Json links = Json::object();
-    for (const auto& relay : run.port.relays()) links[relay->name()] = json_of(*relay, run);
+    const auto& relays = run.port.relays();
+    for (std::size_t i = 0; i < state.count; ++i) {
+        links[relays[i]->name()] = json_of(state.paths[i], *relays[i], run, state);
+    }
     json["links"] = std::move(links);
     add_checks(json, run);
     return json;
 }
 
-nlohmann::ordered_json statistics_of(const UpstreamRun& run)
+nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state)
 {
-    Json json = head_of(run);
+    Json json = head_of(run, state);
     json["listen"] = run.port.local().to_text();
     json["upstream"] = run.port.server().to_text();
-    json["clients_seen"] = run.port.clients_seen();
-    json["clients_forgotten"] = run.port.departed().count;
-    json["refused"] = run.port.refused();
-    json["generation"] = run.paths.generation();
+    json["clients_seen"] = state.server.clients_seen;
+    json["clients_forgotten"] = state.server.departed.count;
+    json["refused"] = state.server.refused;
+    json["generation"] = state.generation;
     json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
     // Of whoever comes now.
-    json["configuration_at_end"] = configuration_json(run.paths.deciders().back().director->path());
+    json["configuration_at_end"] = configuration_json(*state.server.newcomers);
     add_files(json, run);
-    add_sums(json, sums_of(run.port), run.options.budget, {});
+    add_sums(json, sums_of(state), run.options.budget, {});
     Json clients = Json::array();
-    for (const auto* client : run.port.clients()) clients.push_back(json_of(*client, run));
+    for (const PathState& client : present(state)) clients.push_back(json_of(client, run, state));
     json["clients"] = std::move(clients);
     add_checks(json, run);
     return json;
 }
 
-std::string summary(const LinksRun& run)
+std::string summary(const LinksRun& run, const RunState& state)
 {
-    auto text = fmt::format("{:.1f} s, seed {}, {} links\n", base::to_seconds(run.elapsed),
-                            run.scenario.seed.value(), run.port.relays().size());
-    for (const auto& relay : run.port.relays()) {
-        for (const auto* side : {&relay->a(), &relay->b()}) {
-            const auto title = way_name(relay->name(), side->direction);
-            text += in_words(title.c_str(), direction_of(*side), run.options.budget);
+    auto text = fmt::format("{:.1f} s, seed {}, {} links\n", base::to_seconds(state.elapsed),
+                            run.scenario.seed.value(), state.count);
+    for (const PathState& link : present(state)) {
+        for (const auto& [direction, way] :
+             {std::pair{Direction::up, &link.up}, std::pair{Direction::down, &link.down}}) {
+            const auto title = way_name(link.name, direction);
+            text += in_words(title.c_str(), way->view(), run.options.budget);
         }
     }
     return text + incomplete(run.recorder);
 }
 
-std::string summary(const UpstreamRun& run)
+std::string summary(const UpstreamRun& run, const RunState& state)
 {
-    const Sums sums = sums_of(run.port);
+    const Sums sums = sums_of(state);
     auto text =
-        fmt::format("{:.1f} s, seed {}, clients in all: {}\n", base::to_seconds(run.elapsed),
-                    run.scenario.seed.value(), run.port.clients_seen());
-    if (const auto refused = run.port.refused(); refused > 0) {
+        fmt::format("{:.1f} s, seed {}, clients in all: {}\n", base::to_seconds(state.elapsed),
+                    run.scenario.seed.value(), state.server.clients_seen);
+    if (const auto refused = state.server.refused; refused > 0) {
         text +=
             fmt::format("{} datagrams found no place for their client: raise --clients\n", refused);
     }
@@ -226,8 +216,14 @@ std::string summary(const UpstreamRun& run)
            incomplete(run.recorder);
 }
 
-std::string status_line(const LinksRun& run) { return status_of(run, "links"); }
+std::string status_line(const LinksRun& /*run*/, const RunState& state)
+{
+    return status_of(state, "links");
+}
 
-std::string status_line(const UpstreamRun& run) { return status_of(run, "clients"); }
+std::string status_line(const UpstreamRun& /*run*/, const RunState& state)
+{
+    return status_of(state, "clients");
+}
 
 } // namespace hapnet::emulator

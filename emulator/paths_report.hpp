@@ -22,15 +22,15 @@ using UpstreamRun = RunOf<ports::Upstream, true>;
 [[nodiscard]] std::string ready_line(const UpstreamRun& run);
 
 /// What --stats writes: one JSON object, with the sums of all paths and each that is there.
-[[nodiscard]] nlohmann::ordered_json statistics_of(const LinksRun& run);
-[[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state);
 
 /// A few lines for a person.
-[[nodiscard]] std::string summary(const LinksRun& run);
-[[nodiscard]] std::string summary(const UpstreamRun& run);
+[[nodiscard]] std::string summary(const LinksRun& run, const RunState& state);
+[[nodiscard]] std::string summary(const UpstreamRun& run, const RunState& state);
 
 /// One short line for a terminal.
-[[nodiscard]] std::string status_line(const LinksRun& run);
-[[nodiscard]] std::string status_line(const UpstreamRun& run);
+[[nodiscard]] std::string status_line(const LinksRun& run, const RunState& state);
+[[nodiscard]] std::string status_line(const UpstreamRun& run, const RunState& state);
 
 } // namespace hapnet::emulator

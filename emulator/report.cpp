@@ -8,13 +8,12 @@
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/direction_report.hpp"
+#include "emulator/run_state.hpp"
 #include "emulator/stream_json.hpp"
 #include "proto/base/version.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <utility>
@@ -26,31 +25,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json address_of(const ports::Relay::Side& side)
+Json text_of(const std::optional<net::Endpoint>& address)
 {
-    const auto& address = side.filter.address();
     return address ? Json(address->to_text()) : Json(nullptr);
 }
 
 const ports::Relay& relay_of(const Run& run) { return *run.port.relays().front(); }
 
-/// The last `count_max` of the changes that a path saw, each with the settings that changed. The
-/// generation is that of the run where it has one path only.
-Json changes_json(const ChangeLog& changes, std::size_t count_max, std::string_view name)
+/// The changes that a path saw, each with the settings that changed. The generation is that of the
+/// run where it has one path only.
+Json changes_json(const std::vector<ConditionChange>& changes, std::string_view name)
 {
     Json list = Json::array();
-    const std::span all{changes.entries()};
-    for (const ConditionChange& change : all.last(std::min(all.size(), count_max))) {
+    for (const ConditionChange& change : changes) {
         Json json = Json::object();
         if (name.empty()) json["generation"] = change.generation;
         json["elapsed_s"] = base::to_seconds(change.elapsed);
         json["effective_at"] = {{"up", change.effective_up}, {"down", change.effective_down}};
         json["by"] = to_text(change.by);
         Json settings = Json::object();
-        for (const auto& [key, value] : texts_of(Direction::up, change.up, name)) {
+        for (const auto& [key, value] :
+             texts_of(Direction::up, change.patch(Direction::up), name)) {
             settings[key] = value;
         }
-        for (const auto& [key, value] : texts_of(Direction::down, change.down, name)) {
+        for (const auto& [key, value] :
+             texts_of(Direction::down, change.patch(Direction::down), name)) {
             settings[key] = value;
         }
         json["settings"] = std::move(settings);
@@ -60,12 +59,6 @@ Json changes_json(const ChangeLog& changes, std::size_t count_max, std::string_v
 }
 
 } // namespace
-
-DirectionOfRun direction_of(const ports::Relay::Side& side)
-{
-    return {side.link.statistics(), &side.link.stream_statistics(), side.strangers,
-            side.socket.overflowed()};
-}
 
 std::string incomplete(const Recorder& recorder)
 {
@@ -92,7 +85,7 @@ nlohmann::ordered_json configuration_json(const Path& path)
     return {{"up", of(Direction::up, path.up)}, {"down", of(Direction::down, path.down)}};
 }
 
-nlohmann::ordered_json head_of(const AnyRun& run)
+nlohmann::ordered_json head_of(const AnyRun& run, const RunState& state)
 {
     return {{"program", "hapnet-emulator"},
             {"version", base::version()},
@@ -101,25 +94,18 @@ nlohmann::ordered_json head_of(const AnyRun& run)
             {"seed", run.scenario.seed.value()},
             {"timing", to_text(run.options.timing)},
             {"budget_us", json_in_us(run.options.budget)},
-            {"duration_s", base::to_seconds(run.elapsed)},
+            {"duration_s", base::to_seconds(state.elapsed)},
             {"real_time",
              {{"fifo", run.real_time.fifo}, {"locked_memory", run.real_time.locked_memory}}}};
 }
 
-void add_course(nlohmann::ordered_json& json, const AnyRun& run, const EmulatedPath& path,
-                std::string_view name)
+void add_course(nlohmann::ordered_json& json, const AnyRun& run, const PathState& path)
 {
-    // Clients may ask for them many times a second, and the relay answers.
-    constexpr std::size_t while_it_runs = 20;
-    const auto share = std::max(while_it_runs / run.paths.all().size(), std::size_t{1});
-    const ChangeLog& log = path.changes();
-    Json changes = changes_json(log, run.is_over ? ChangeLog::entries_max : share, name);
-    const auto omitted = log.omitted() + (log.entries().size() - changes.size());
     json["configuration_at_start"] =
-        configuration_json(profile_of(run.scenario.profile, name).path);
-    json["configuration_at_end"] = configuration_json(path.director().path());
-    json["changes"] = std::move(changes);
-    json["changes_omitted"] = omitted;
+        configuration_json(profile_of(run.scenario.profile, path.name).path);
+    json["configuration_at_end"] = configuration_json(*path.conditions);
+    json["changes"] = changes_json(path.changes, path.name);
+    json["changes_omitted"] = path.changes_omitted;
 }
 
 void add_files(nlohmann::ordered_json& json, const AnyRun& run)
@@ -132,10 +118,22 @@ void add_files(nlohmann::ordered_json& json, const AnyRun& run)
     json["capture_lost"] = run.recorder.capture_lost();
 }
 
-nlohmann::ordered_json json_of_way(DirectionOfRun direction, const AnyRun& run)
+nlohmann::ordered_json json_of_way(const WayState& way, const AnyRun& run, const RunState& state)
 {
-    direction.has_distributions = run.is_over && run.options.fates.has_value();
+    DirectionOfRun direction = way.view();
+    direction.has_distributions = state.is_over && run.options.fates.has_value();
     return json_of(direction, run.options.budget);
+}
+
+std::vector<std::string> reasons_against(const PathState& path, base::Duration budget)
+{
+    std::vector<std::string> reasons;
+    for (const auto& [way, state] : {std::pair{"up", &path.up}, std::pair{"down", &path.down}}) {
+        for (const std::string& reason : reasons_against(state->view(), budget)) {
+            reasons.push_back(fmt::format("{}: {}", way, reason));
+        }
+    }
+    return reasons;
 }
 
 void add_checks(nlohmann::ordered_json& json, const AnyRun& run)
@@ -152,48 +150,43 @@ std::string ready_line(const Run& run)
                        to_text(run.options.timing));
 }
 
-nlohmann::ordered_json statistics_of(const Run& run)
+nlohmann::ordered_json statistics_of(const Run& run, const RunState& state)
 {
-    const ports::Relay::Side& a = relay_of(run).a();
-    const ports::Relay::Side& b = relay_of(run).b();
-    std::vector<std::string> reasons;
-    for (const auto& [way, side] : {std::pair{"up", &a}, std::pair{"down", &b}}) {
-        for (const std::string& reason : reasons_against(direction_of(*side), run.options.budget)) {
-            reasons.push_back(fmt::format("{}: {}", way, reason));
-        }
-    }
-    Json json = head_of(run);
-    json["listen_a"] = a.socket.local().to_text();
-    json["listen_b"] = b.socket.local().to_text();
-    json["a"] = address_of(a);
-    json["b"] = address_of(b);
-    json["strangers"] = a.strangers + b.strangers;
-    json["overflowed"] = a.socket.overflowed() + b.socket.overflowed();
-    json["generation"] = run.paths.generation();
-    add_course(json, run, *run.paths.all().front()->path, "");
+    const PathState& path = state.paths.front();
+    const auto reasons = reasons_against(path, run.options.budget);
+    Json json = head_of(run, state);
+    json["listen_a"] = relay_of(run).a().local.to_text();
+    json["listen_b"] = relay_of(run).b().local.to_text();
+    json["a"] = text_of(path.end_a);
+    json["b"] = text_of(path.end_b);
+    json["strangers"] = path.up.strangers + path.down.strangers;
+    json["overflowed"] = path.up.overflowed + path.down.overflowed;
+    json["generation"] = state.generation;
+    add_course(json, run, path);
     add_files(json, run);
     json["valid"] = reasons.empty();
     json["invalid_because"] = reasons;
-    json["up"] = json_of_way(direction_of(a), run);
-    json["down"] = json_of_way(direction_of(b), run);
+    json["up"] = json_of_way(path.up, run, state);
+    json["down"] = json_of_way(path.down, run, state);
     add_checks(json, run);
     return json;
 }
 
-std::string summary(const Run& run)
+std::string summary(const Run& run, const RunState& state)
 {
-    return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(run.elapsed),
+    const PathState& path = state.paths.front();
+    return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(state.elapsed),
                        run.scenario.seed.value()) +
-           in_words("up   (A to B)", direction_of(relay_of(run).a()), run.options.budget) +
-           in_words("down (B to A)", direction_of(relay_of(run).b()), run.options.budget) +
+           in_words("up   (A to B)", path.up.view(), run.options.budget) +
+           in_words("down (B to A)", path.down.view(), run.options.budget) +
            incomplete(run.recorder);
 }
 
-std::string status_line(const Run& run)
+std::string status_line(const Run& /*run*/, const RunState& state)
 {
-    return fmt::format("{:.0f} s | {} | {}", base::to_seconds(run.elapsed),
-                       in_short("up", direction_of(relay_of(run).a())),
-                       in_short("down", direction_of(relay_of(run).b())));
+    const PathState& path = state.paths.front();
+    return fmt::format("{:.0f} s | {} | {}", base::to_seconds(state.elapsed),
+                       in_short("up", path.up.view()), in_short("down", path.down.view()));
 }
 
 } // namespace hapnet::emulator

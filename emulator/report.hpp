@@ -14,10 +14,16 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::emulator {
 
-/// All that a report on a run is made from, whatever moves its datagrams.
+struct PathState;
+struct RunState;
+struct WayState;
+
+/// A run, whatever moves its datagrams. Reports are made from it and from a RunState: what changes
+/// while it goes on is read from that alone.
 struct AnyRun {
     const Options& options;
     const Scenario& scenario;
@@ -25,7 +31,6 @@ struct AnyRun {
     const Recorder& recorder;
     net::RealTime real_time{};
     base::Duration elapsed{}; // since the sockets were bound
-    bool is_over = false;     // nothing waits for the statistics any more: they may be long
 };
 
 /// With what moves them. `has_names`: its paths have them.
@@ -39,30 +44,32 @@ struct RunOf : AnyRun {
 /// Of one pair.
 using Run = RunOf<ports::Links, false>;
 
-/// What is known of the direction that begins on this side.
-[[nodiscard]] DirectionOfRun direction_of(const ports::Relay::Side& side);
-
 /// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
 [[nodiscard]] std::string ready_line(const Run& run);
 
 // The parts of statistics that runs of all kinds have.
 
 /// What they begin with: the program, and how it ran.
-[[nodiscard]] nlohmann::ordered_json head_of(const AnyRun& run);
+[[nodiscard]] nlohmann::ordered_json head_of(const AnyRun& run, const RunState& state);
 
 /// What of each direction differs from the default, as a profile says it.
 [[nodiscard]] nlohmann::ordered_json configuration_json(const Path& path);
 
-/// What held on the path called `name` at the start and in the end, and how it changed. While the
-/// run goes on, only the last changes.
-void add_course(nlohmann::ordered_json& json, const AnyRun& run, const EmulatedPath& path,
-                std::string_view name);
+/// What held on the path at the start and in the end, and how it changed. While the run goes on,
+/// only the last changes.
+void add_course(nlohmann::ordered_json& json, const AnyRun& run, const PathState& path);
 
 /// The profile and the files of the run.
 void add_files(nlohmann::ordered_json& json, const AnyRun& run);
 
-/// A direction of one path. A run that keeps each fate keeps whole distributions, too.
-[[nodiscard]] nlohmann::ordered_json json_of_way(DirectionOfRun direction, const AnyRun& run);
+/// A direction of one path. A run that keeps each fate keeps whole distributions, too, once it is
+/// over.
+[[nodiscard]] nlohmann::ordered_json json_of_way(const WayState& way, const AnyRun& run,
+                                                 const RunState& state);
+
+/// What is against the only path's being valid: "up: ...".
+[[nodiscard]] std::vector<std::string> reasons_against(const PathState& path,
+                                                       base::Duration budget);
 
 /// What has become of the checks, if there are any: after all that they may speak of.
 void add_checks(nlohmann::ordered_json& json, const AnyRun& run);
@@ -71,12 +78,12 @@ void add_checks(nlohmann::ordered_json& json, const AnyRun& run);
 [[nodiscard]] std::string incomplete(const Recorder& recorder);
 
 /// What --stats writes: one JSON object.
-[[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run, const RunState& state);
 
 /// A few lines for a person.
-[[nodiscard]] std::string summary(const Run& run);
+[[nodiscard]] std::string summary(const Run& run, const RunState& state);
 
 /// One short line for a terminal.
-[[nodiscard]] std::string status_line(const Run& run);
+[[nodiscard]] std::string status_line(const Run& run, const RunState& state);
 
 } // namespace hapnet::emulator

@@ -29,7 +29,6 @@ bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
     } catch (const std::system_error&) {
         failure = std::current_exception();
     }
-    run.is_over = true;
     const auto statistics = reports.statistics();
     const std::string text = statistics.dump(2) + "\n";
     if (stats_) {

@@ -52,7 +52,8 @@ any_failed=0
 for ((run = 1; run <= runs; run++)); do
     if ! grep -q "^$run," "$rows"; then
         begin=$SECONDS
-        "${as_user[@]}" ctest --test-dir build/release --parallel $((2 * $(nproc))) --no-tests=error \
+        "${as_user[@]}" ctest --test-dir build/release --parallel $((2 * $(nproc))) \
+           --no-tests=error \
             --label-regex "^($label)\$" --output-on-failure >"$out/run-$run.console" 2>&1 || true
         grep -q '% tests passed' "$out/run-$run.console" || {
             cat "$out/run-$run.console" >&2

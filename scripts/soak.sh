@@ -3,13 +3,14 @@
 # SPDX-License-Identifier: MIT
 #
 # What takes too long for every change: the laws over ten million datagrams, the emulator's memory
-# over ten minutes, floods, what jitter and order do on real sockets, a million random scenes,
-# sessions under attack, daemons that are killed in turn, and how soon a stop ends a force.
+# over ten minutes, floods, what jitter and order do on real sockets, hostile lines to its control,
+# damaged files, a million random scenes, sessions under attack, daemons that are killed in turn,
+# and how soon a stop ends a force.
 set -euo pipefail
 
-usage="usage: scripts/soak.sh all|emulator|scene|session|daemons|stop [--quick] [--minutes N]
+usage="usage: scripts/soak.sh SUBJECT [--quick] [--minutes N]
                        [--first SEED] [--peers N] [--task T7|T8] [--out DIR] [--programs DIR]
-Installs what is missing, builds the release preset, and runs one subject, or all of them:
+Installs what is missing, builds the release preset, and runs one SUBJECT, or all of them (all):
 emulator:
   1. every law of delay and loss over 10 000 000 virtual datagrams,
   2. an emulator with everything switched on at 20 000 datagrams/s for N minutes (default 10):
@@ -19,14 +20,22 @@ emulator:
   4. each row of the table of jitter and order at 1 kHz for 20 s, against 'predict',
   5. 28 links and then 64 clients on two threads, for N minutes each: nothing is allocated after
      the start, nothing is lost that is not counted;
+control:
+  6. 100 000 lines to the control socket of an emulator with 64 clients, typical and longest ones,
+     changed at random from SEED on: no turn of the thread that relays takes more than 100 us of its
+     processor time. One after the other: 5 minutes;
+files:
+  7. 2000 files of each of 16 kinds (profiles, fates, captures, scenes, plans, shards, records,
+     keys, ...), changed at random from SEED on: the program that reads them ends by itself, with an
+     exit code that it documents: about 10 minutes. What breaks this is kept in build/soak/files;
 scene:
-  6. 1 000 000 random scenes under the laws of energy, momentum and force, from SEED on
+  8. 1 000 000 random scenes under the laws of energy, momentum and force, from SEED on
      (default 0), on two processes: about ten minutes; and how often guards acted in them. From
      1000000000 on some bodies are round, from 1000000000000 on scenes have every element, in
      which guards act more often (docs/results/limitations.md),
-  7. the ticks that cost most among 20 000 of them with at most 8 bodies;
+  9. the ticks that cost most among 20 000 of them with at most 8 bodies;
 session:
-  8. 1000 sessions from SEED on, half of them with keys, and more until 100 000 000 datagrams have
+ 10. 1000 sessions from SEED on, half of them with keys, and more until 100 000 000 datagrams have
      reached a side, over drawn networks and under an attacker who owns the path: forces, energy
      and counters in each millisecond, with keys what is accepted, and whether the copies agree
      afterwards; a seed that fails is printed with the command that repeats it;
@@ -35,7 +44,7 @@ session:
      and started again, and two halves may have begun apart; and then 1000 of N peers under that
      attacker, who owns all links;
 daemons:
-  9. as many daemons as --peers says (default 3), with simulated devices and keys, through one
+ 11. as many daemons as --peers says (default 3), with simulated devices and keys, through one
      emulator with a link for every two (30 % loss, 40 ms +- 10 ms), in rounds of 60 s for N
      minutes: 15 s and 45 s after the start one of them, in turn, is killed (SIGKILL) and started
      again 3 s later; after 57 s the hands let go. A row for each round is printed, by the records
@@ -45,15 +54,16 @@ daemons:
      three peers at most. --out DIR takes the results instead of build/soak/daemons; --programs
      DIR takes the programs in DIR and builds nothing;
 stop:
- 10. 100 signals to a daemon in the middle of a push, whose stderr, stdout and record are not read:
+ 12. 100 signals to a daemon in the middle of a push, whose stderr, stdout and record are not read:
      zero force two turns of the loop later at most, within 5 ms at p99, and gone within a second:
      about 6 minutes,
- 11. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its
+ 13. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its
      force is zero 300 ms after the last message, about 10 minutes.
-All of them take about 4 N + 45 minutes. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000
-scenes, 200 sessions, a round of 11 s, 10 signals of each kind, about 7 minutes for all. Run
+All of them take about 4 N + 60 minutes. --quick: 1 000 000 datagrams, 30 s and 5 s a row, 20 000
+scenes, 200 sessions, a round of 11 s, 10 signals of each kind, 2000 lines, 50 files of a kind,
+about 9 minutes for all. Run
 emulator, daemons and stop as root, or where SCHED_FIFO is allowed, on a machine that does nothing
-else: 2 to 5 and 9 to 11 measure time. A round whose programs did not keep their time says so under
+else: 2 to 6 and 11 to 13 measure time. A round whose programs did not keep their time says so under
 'valid'.
 What is written in full is in build/soak/. Exits 0 when all passed, 1 when something failed, 2
 without a subject or for an unknown argument."
@@ -72,6 +82,8 @@ sessions=1000
 session_packets=100000000
 stops=100
 kills=200
+lines=100000
+files=2000
 first=0
 peers=
 task=T7
@@ -80,7 +92,7 @@ programs=
 subject=
 while (($# > 0)); do
     case $1 in
-    all | emulator | scene | session | daemons | stop)
+    all | emulator | control | files | scene | session | daemons | stop)
         [[ -z $subject ]] || refuse "one subject, not '$subject' and '$1': 'all' runs each of them"
         subject=$1 && shift
         ;;
@@ -118,6 +130,8 @@ if $quick; then
     session_packets=0
     stops=10
     kills=10
+    lines=2000
+    files=50
     row_seconds=5
     seconds=${seconds:-30}
 fi
@@ -130,7 +144,11 @@ fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 targets=()
 if [[ $subject == all || $subject == emulator ]]; then
-    targets+=(property_delay property_loss soak_emulator)
+    targets+=(property_emulator soak_emulator)
+fi
+if [[ $subject == all || $subject == control ]]; then targets+=(soak_control); fi
+if [[ $subject == all || $subject == files ]]; then
+    targets+=(hapnet-emulator hapnet-lab hapnet-peer)
 fi
 if [[ $subject == all || $subject == scene ]]; then targets+=(soak_scene); fi
 if [[ $subject == all || $subject == session ]]; then targets+=(soak_session); fi
@@ -165,6 +183,16 @@ run() {
         failed+=("$name")
     fi
     echo "== $name: $verdict in $((SECONDS - started)) s"
+}
+
+# run_files: the programs read damaged files.
+run_files() {
+    local started=$SECONDS verdict=passed
+    echo "== files"
+    python3 tests/soak/files_soak.py . build/release/bin build/soak/files "$files" "$first" ||
+        verdict=FAILED
+    [[ $verdict == passed ]] || failed+=(files)
+    echo "== files: $verdict in $((SECONDS - started)) s"
 }
 
 # run_scenes: two halves of the seeds side by side.
@@ -236,13 +264,18 @@ run_daemons() {
 }
 
 if [[ $subject == all || $subject == emulator ]]; then
-    run delay-laws property_delay
-    run loss-laws property_loss
+    run laws property_emulator '--gtest_filter=Laws.*:FourState.*:Gilbert.*'
     run memory soak_emulator '--gtest_filter=Soak.*'
     run floods soak_emulator '--gtest_filter=Flood.*'
     run frames soak_emulator '--gtest_filter=FrameFlood.*'
     run jitter-and-order soak_emulator '--gtest_filter=JitterAndOrder.*'
     run many-paths soak_emulator '--gtest_filter=ManyPaths.*'
+fi
+if [[ $subject == all || $subject == control ]]; then
+    run control soak_control "$lines" "$first"
+fi
+if [[ $subject == all || $subject == files ]]; then
+    run_files
 fi
 if [[ $subject == all || $subject == scene ]]; then
     run_scenes

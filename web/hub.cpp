@@ -409,14 +409,22 @@ void Hub::answer_emulator(const Json& request, const OnReply& on_reply)
         return on_reply(
             error_reply(400, "\"command\" must be one of show, set, apply, diff, reset"));
     }
-    if (request.contains("file")) {
-        return on_reply(error_reply(400, "\"file\" is not known here: send the profile itself"));
+    for (const char* key : {"file", "files"}) {
+        if (!request.contains(key)) continue;
+        return on_reply(error_reply(400, fmt::format("\"{}\" is not known here: a page may name no "
+                                                     "files, but send a profile itself",
+                                                     key)));
     }
     if (!emulator_ || !emulator_->is_attached()) {
         return on_reply(error_reply(503, "no emulator is attached"));
     }
+    Json asked = request;
+    // None but those that the request brings, which are none: the emulator opens no file for a
+    // page.
+    const bool may_name_files = command == "set" || command == "apply" || command == "diff";
+    if (may_name_files) asked["files"] = Json::object();
     emulator_->ask(
-        text_of(request), [this, request, command, on_reply](const base::Result<Json>& reply) {
+        text_of(asked), [this, request, command, on_reply](const base::Result<Json>& reply) {
             if (!reply) return on_reply(error_reply(504, "the emulator: " + reply.error().message));
             const bool is_fine = reply->value("ok", false);
             if (is_fine && reply->value("changed", false)) {

@@ -4,29 +4,32 @@
 
 #include "emulator/core/all_paths.hpp"
 #include "emulator/core/profile/profile.hpp"
+#include "emulator/core/profile/reading.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
+#include "proto/control/core/work.hpp"
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 namespace hapnet::emulator {
 
-/// The running emulator as its control sees it. All functions are called between two datagrams,
-/// while nothing is relayed.
+/// The running emulator as its control sees it. Whatever takes time happens on the thread of the
+/// control; only what looks at the paths or changes them is done by `work`, a step at a time,
+/// between two datagrams.
 struct Emulation {
-    AllPaths paths;
-    /// The statistics as one JSON object.
-    std::function<std::string()> statistics_json;
-    /// The text of a file that a profile or a setting names; `beside` is the file of the profile,
-    /// empty for a setting.
-    std::function<base::Result<std::string>(const std::string& name, const std::string& beside)>
-        open;
+    AllPaths paths; // in steps of `work` alone, but for names()
+    /// The statistics as one JSON object; looks by steps of `work`.
+    std::function<nlohmann::ordered_json(const control::DoWork& work)> statistics;
+    /// Ends the run, as a signal does. In a step of `work`.
+    std::function<void()> stop;
+    control::DoWork work = control::do_at_once;
+    /// The files that a client may name without sending them; none: there is no such folder.
+    OpenFile folder{};
     /// The text of a built-in profile.
     std::function<base::Result<std::string>(const std::string& name)> preset{};
-    /// Ends the run, as a signal does.
-    std::function<void()> stop{};
     /// What a sentence of tc-netem asks for.
     std::function<base::Result<TranslatedProfile>(const std::string& sentence)> netem{};
     /// How much of the last packets is held in memory; nullopt: none.

@@ -4,20 +4,14 @@
 
 #include <algorithm>
 #include <iterator>
-#include <span>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::emulator {
 
 namespace {
 
 constexpr std::array directions{Direction::up, Direction::down};
-
-/// The paths that a frame has room for.
-std::span<const Paths::Named* const> shown(const std::vector<const Paths::Named*>& all)
-{
-    return std::span{all}.first(std::min(all.size(), Frames::paths_max));
-}
 
 template <typename... Values>
 void put(std::string& text, fmt::format_string<Values...> form, Values&&... values)
@@ -51,97 +45,106 @@ void put_pulse(std::string& text, const Pulse& pulse)
 
 } // namespace
 
-control::FrameSource Frames::watch(AllPaths& paths)
+control::FrameSource Frames::watch(AllPaths& paths, const control::DoWork& work)
 {
-    share_out(paths); // what left before belongs to the others
+    const Look first = share_out(paths, work); // what left before belongs to the others
     auto watch = std::make_shared<Watch>();
-    const auto all = paths.all();
-    for (const Paths::Named* one : shown(all)) {
-        Ways& ways = watch->paths[one->name];
-        for (std::size_t i = 0; i < directions.size(); ++i) {
-            begin(ways[i], one->path->link(directions[i]).statistics());
-        }
+    for (const SeenPath& one : first.paths) {
+        Ways& ways = watch->paths[one.name];
+        for (std::size_t i = 0; i < ways.size(); ++i) ways[i].counts = one.ways[i].counts;
     }
     watches_.push_back(watch);
-    return [self = shared_from_this(), watch, &paths](std::string& text, std::uint64_t left_out) {
-        self->share_out(paths);
-        write(text, *watch, paths, left_out);
+    return [self = shared_from_this(), watch, &paths, work](std::string& text,
+                                                            std::uint64_t left_out) {
+        write(text, *watch, self->share_out(paths, work), left_out);
     };
 }
 
-/// Gives what has left the links to every watch.
-void Frames::share_out(AllPaths& paths)
+Frames::Look Frames::look(AllPaths& paths)
 {
-    std::erase_if(watches_, [](const auto& watch) { return watch.expired(); });
     const auto all = paths.all();
-    for (const Paths::Named* one : shown(all)) {
-        for (std::size_t i = 0; i < directions.size(); ++i) {
-            const Pulse pulse = one->path->take_pulse(directions[i]);
-            if (pulse.count == 0) continue;
+    Look look{paths.latest_now(), paths.elapsed(), paths.generation(), all.size(), {}};
+    for (std::size_t i = 0; i < std::min(all.size(), paths_max); ++i) {
+        SeenPath& one = look.paths.emplace_back(SeenPath{all[i]->name, {}});
+        for (std::size_t way = 0; way < directions.size(); ++way) {
+            const Statistics& now = all[i]->path->link(directions[way]).statistics();
+            one.ways[way] = {all[i]->path->take_pulse(directions[way]),
+                             {now.received, now.delivered, now.duplicated, now.dropped},
+                             now.in_flight};
+        }
+    }
+    return look;
+}
+
+Frames::Look Frames::share_out(AllPaths& paths, const control::DoWork& work)
+{
+    Look look;
+    work([&] {
+        look = Frames::look(paths);
+        return true;
+    });
+    std::erase_if(watches_, [](const auto& watch) { return watch.expired(); });
+    for (const SeenPath& one : look.paths) {
+        for (std::size_t i = 0; i < one.ways.size(); ++i) {
+            if (one.ways[i].pulse.count == 0) continue;
             for (const auto& watch : watches_) {
-                if (const auto own = watch.lock()) own->paths[one->name][i].pulse.add(pulse);
+                if (const auto own = watch.lock()) {
+                    own->paths[one.name][i].pulse.add(one.ways[i].pulse);
+                }
             }
         }
     }
+    return look;
 }
 
-void Frames::begin(Way& way, const Statistics& statistics)
+void Frames::write(std::string& text, Way& way, const Seen& seen)
 {
-    way.pulse = {};
-    way.received = statistics.received;
-    way.delivered = statistics.delivered;
-    way.duplicated = statistics.duplicated;
-    way.dropped = statistics.dropped;
-}
-
-void Frames::write(std::string& text, Way& way, const Statistics& statistics)
-{
+    const Counts& now = seen.counts;
     // A path that has gone and come again begins at 0.
-    if (statistics.received < way.received) way = {};
+    if (now.received < way.counts.received) way = {};
     put(text, "{{\"received\":{},\"delivered\":{},\"duplicated\":{},\"dropped\":{{",
-        statistics.received - way.received, statistics.delivered - way.delivered,
-        statistics.duplicated - way.duplicated);
+        now.received - way.counts.received, now.delivered - way.counts.delivered,
+        now.duplicated - way.counts.duplicated);
     bool is_first = true;
     for (std::size_t i = 0; i < drop_causes.size(); ++i) {
-        const auto count = statistics.dropped[i] - way.dropped[i];
+        const auto count = now.dropped[i] - way.counts.dropped[i];
         if (count == 0) continue;
         put(text, "{}\"{}\":{}", is_first ? "" : ",", to_text(drop_causes[i]), count);
         is_first = false;
     }
-    put(text, "}},\"in_flight\":{}", statistics.in_flight);
+    put(text, "}},\"in_flight\":{}", seen.in_flight);
     put_pulse(text, way.pulse);
-    begin(way, statistics);
+    way = {{}, now};
 }
 
-void Frames::write(std::string& text, Watch& watch, AllPaths& paths, std::uint64_t left_out)
+void Frames::write(std::string& text, Watch& watch, const Look& look, std::uint64_t left_out)
 {
-    const auto all = paths.all();
-    const auto seen = shown(all);
-    const auto at = paths.latest_now();
     put(text,
         "{{\"ok\":true,\"frame\":{},\"at_ns\":{},\"elapsed_s\":{:.4f},\"generation\":{},\"paths\":"
         "[",
-        watch.frames++, at.time_since_epoch().count(), base::to_seconds(paths.elapsed()),
-        paths.generation());
-    for (const Paths::Named* one : seen) {
-        Ways& ways = watch.paths[one->name];
-        text += one == seen.front() ? "{\"name\":" : ",{\"name\":";
-        put_name(text, one->name);
+        watch.frames++, look.at.time_since_epoch().count(), base::to_seconds(look.elapsed),
+        look.generation);
+    for (const SeenPath& one : look.paths) {
+        Ways& ways = watch.paths[one.name];
+        text += &one == look.paths.data() ? "{\"name\":" : ",{\"name\":";
+        put_name(text, one.name);
         text += ",\"up\":";
-        write(text, ways[0], one->path->link(Direction::up).statistics());
+        write(text, ways[0], one.ways[0]);
         text += ",\"down\":";
-        write(text, ways[1], one->path->link(Direction::down).statistics());
+        write(text, ways[1], one.ways[1]);
         text += '}';
     }
     text += ']';
-    if (all.size() > seen.size()) put(text, ",\"paths_left_out\":{}", all.size() - seen.size());
+    if (look.all_paths > look.paths.size()) {
+        put(text, ",\"paths_left_out\":{}", look.all_paths - look.paths.size());
+    }
     if (left_out > 0) put(text, ",\"left_out\":{}", left_out);
     text += '}';
     if (watch.paths.size() <= 2 * paths_max) return;
     // Clients come and go: forget those that have gone.
     std::erase_if(watch.paths, [&](const auto& entry) {
-        return std::ranges::none_of(
-            seen, [&](const Paths::Named* one) { return one->name == entry.first; });
+        return std::ranges::none_of(look.paths,
+                                    [&](const SeenPath& one) { return one.name == entry.first; });
     });
 }
 

@@ -5,9 +5,12 @@
 #include "emulator/core/all_paths.hpp"
 #include "emulator/core/pulse.hpp"
 #include "emulator/core/statistics.hpp"
+#include "proto/base/time.hpp"
 #include "proto/control/core/conversation.hpp"
+#include "proto/control/core/work.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -23,29 +26,51 @@ public:
     /// A frame has at most so many paths.
     static constexpr std::size_t paths_max = 32;
 
-    /// Begins a watch; it ends when the source is destroyed, and `paths` outlive it. For a moment
-    /// in which nothing is relayed, like the source itself.
-    [[nodiscard]] control::FrameSource watch(AllPaths& paths);
+    /// Begins a watch; it ends when the source is destroyed, and `paths` outlive it. They are
+    /// looked at by `work` alone.
+    [[nodiscard]] control::FrameSource watch(AllPaths& paths, const control::DoWork& work);
 
 private:
-    /// One direction of a path, as a watch sees it.
-    struct Way {
-        Pulse pulse;                // since its last frame
-        std::uint64_t received = 0; // as they were at its last frame
+    struct Counts {
+        std::uint64_t received = 0;
         std::uint64_t delivered = 0;
         std::uint64_t duplicated = 0;
         std::array<std::uint64_t, drop_causes.size()> dropped{};
     };
-    using Ways = std::array<Way, 2>; // up, down
+    /// What was seen of one direction of a path.
+    struct Seen {
+        Pulse pulse; // since the look before
+        Counts counts;
+        std::uint64_t in_flight = 0;
+    };
+    struct SeenPath {
+        std::string name;
+        std::array<Seen, 2> ways; // up, down
+    };
+    struct Look {
+        base::TimePoint at{};
+        base::Duration elapsed{};
+        std::uint64_t generation = 0;
+        std::size_t all_paths = 0;
+        std::vector<SeenPath> paths; // those that a frame has room for
+    };
+
+    /// One direction of a path, as a watch sees it.
+    struct Way {
+        Pulse pulse;   // since its last frame
+        Counts counts; // as they were at its last frame
+    };
+    using Ways = std::array<Way, 2>;
     struct Watch {
         std::uint64_t frames = 0;
         std::map<std::string, Ways, std::less<>> paths;
     };
 
-    void share_out(AllPaths& paths);
-    static void begin(Way& way, const Statistics& statistics);
-    static void write(std::string& text, Way& way, const Statistics& statistics);
-    static void write(std::string& text, Watch& watch, AllPaths& paths, std::uint64_t left_out);
+    [[nodiscard]] static Look look(AllPaths& paths);
+    /// Takes a look, and gives what has left the links to every watch.
+    [[nodiscard]] Look share_out(AllPaths& paths, const control::DoWork& work);
+    static void write(std::string& text, Way& way, const Seen& seen);
+    static void write(std::string& text, Watch& watch, const Look& look, std::uint64_t left_out);
 
     std::vector<std::weak_ptr<Watch>> watches_;
 };

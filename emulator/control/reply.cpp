@@ -2,21 +2,26 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/control/reply.hpp"
 
+#include "emulator/control/change.hpp"
 #include "emulator/control/frames.hpp"
+#include "emulator/control/moment.hpp"
 #include "emulator/control/settings.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
-#include "proto/base/ensure.hpp"
 #include "proto/control/core/reply.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -40,15 +45,29 @@ Json seconds(std::optional<base::Duration> duration)
     return duration ? Json(base::to_seconds(*duration)) : Json(nullptr);
 }
 
-/// Opens the files that a text names: they lie beside the file that it comes from.
-OpenFile files_beside(const std::string& file, const Emulation& emulation)
+/// Opens the files that a request names: those that it brings along, or else those of the folder,
+/// whose contents are not the client's.
+OpenFile files_for(const SentFiles& sent, const Emulation& emulation)
 {
-    return [&emulation, file](const std::string& name) { return emulation.open(name, file); };
+    if (sent) {
+        return [&sent](const std::string& name) -> base::Result<std::string> {
+            const auto found = sent->find(name);
+            if (found != sent->end()) return found->second;
+            return base::fail(fmt::format("the request does not bring the file '{}'", name));
+        };
+    }
+    if (emulation.folder) return emulation.folder.unquoted();
+    return [](const std::string& name) -> base::Result<std::string> {
+        return base::fail(
+            fmt::format("the file '{}' was not sent, and there is no folder to read it from: "
+                        "hapnet-ctl sends it, and --files DIR at the start names a folder",
+                        name));
+    };
 }
 
 /// `warnings`: what of it cannot be done.
-base::Result<Profile> parsed(const ProfileText& text, const Emulation& emulation,
-                             std::vector<std::string>& warnings)
+base::Result<Profile> parsed(const ProfileText& text, const SentFiles& files,
+                             const Emulation& emulation, std::vector<std::string>& warnings)
 {
     if (text.netem) {
         if (!emulation.netem) return base::fail("sentences of netem are not understood here");
@@ -57,46 +76,38 @@ base::Result<Profile> parsed(const ProfileText& text, const Emulation& emulation
             return std::move(netem.profile);
         });
     }
-    const auto read = [&](const std::string& toml, const std::string& name,
-                          const std::string& beside) {
-        return parse_profile(toml, name, files_beside(beside, emulation), emulation.paths.names());
+    const auto read = [&](const std::string& toml, const std::string& name) {
+        return parse_profile(toml, name, files_for(files, emulation), emulation.paths.names());
     };
-    if (!text.preset) return read(text.toml, text.file, text.file);
+    if (!text.preset) return read(text.toml, text.file);
     return emulation.preset(*text.preset).and_then([&](const std::string& toml) {
-        return read(toml, *text.preset, "");
+        return read(toml, *text.preset);
     });
 }
 
-/// The numbers of the next datagrams.
-Json next_numbers(const EmulatedPath& path)
-{
-    const auto next = [&](Direction direction) {
-        return path.link(direction).statistics().received;
-    };
-    return {{"up", next(Direction::up)}, {"down", next(Direction::down)}};
-}
-
 /// What holds now, without what does nothing: {"up.delay":"160ms", ...}.
-Json conditions_json(const AllPaths& paths)
+Json conditions_json(const Moment& moment)
 {
     Json json = Json::object();
-    for (const Paths::Named* one : paths.all()) {
+    for (const Decider& one : moment.deciders) {
+        if (!one.is_there) continue;
         for (const Direction direction : {Direction::up, Direction::down}) {
-            const Patch patch = to_patch(one->path->link(direction).conditions());
-            for (const auto& [key, value] : texts_of(direction, patch, one->name))
-                json[key] = value;
+            const Path& path = one.director.path();
+            const Patch patch = to_patch(direction == Direction::up ? path.up : path.down);
+            for (const auto& [key, value] : texts_of(direction, patch, one.name)) json[key] = value;
         }
     }
     return json;
 }
 
 /// Of the only path, or of each by its name.
-Json effective_at(const AllPaths& paths)
+Json effective_at(const std::vector<NextNumbers>& all)
 {
     Json json = Json::object();
-    for (const Paths::Named* one : paths.all()) {
-        if (one->name.empty()) return next_numbers(*one->path);
-        json[one->name] = next_numbers(*one->path);
+    for (const NextNumbers& next : all) {
+        Json numbers{{"up", next.up}, {"down", next.down}};
+        if (next.name.empty()) return numbers;
+        json[next.name] = std::move(numbers);
     }
     return json;
 }
@@ -106,17 +117,14 @@ base::Result<Json> effect_of(const Paths::CommandFor& command,
                              std::span<const std::string> mentioned, Emulation& emulation,
                              base::TimePoint now)
 {
-    AllPaths& paths = emulation.paths;
-    const auto generation = paths.generation();
-    if (const auto done = paths.apply(command, mentioned, now); !done) {
-        return tl::unexpected{done.error()};
-    }
-    return Json{{"ok", true},
-                {"generation", paths.generation()},
-                {"changed", paths.generation() != generation},
-                {"elapsed_s", base::to_seconds(paths.elapsed())},
-                {"effective_at_ns", now.time_since_epoch().count()},
-                {"effective_at", effective_at(paths)}};
+    return change(emulation, command, mentioned, now).map([](const Effect& effect) {
+        return Json{{"ok", true},
+                    {"generation", effect.generation},
+                    {"changed", effect.has_changed},
+                    {"elapsed_s", base::to_seconds(effect.elapsed)},
+                    {"effective_at_ns", effect.at.time_since_epoch().count()},
+                    {"effective_at", effective_at(effect.next)}};
+    });
 }
 
 std::string answer_of(const base::Result<Json>& effect)
@@ -124,21 +132,19 @@ std::string answer_of(const base::Result<Json>& effect)
     return effect ? line_of(*effect) : refusal(effect.error().message);
 }
 
-using Deciders = std::vector<Paths::Decider>;
-
 /// What is set by hand on several paths: one entry for all that ends at the same time.
-Json live_of_several(const Deciders& deciders, base::TimePoint now)
+Json live_of_several(const std::vector<Decider>& deciders, base::TimePoint now)
 {
     std::map<std::optional<base::TimePoint>, std::vector<PathPatch>> by_end;
-    for (const auto& [name, director] : deciders) {
-        for (const Director::Override& one : director->overrides()) {
-            auto& patches = by_end[one.until];
-            const auto known = std::ranges::find(patches, name, &PathPatch::path);
+    for (const Decider& decider : deciders) {
+        for (const auto& one : decider.director.overrides()) {
+            auto& patches = by_end[one->until];
+            const auto known = std::ranges::find(patches, decider.name, &PathPatch::path);
             PathPatch& patch = known != patches.end()
                                    ? *known
-                                   : patches.emplace_back(PathPatch{std::string{name}, {}, {}});
-            patch.up = merged(std::move(patch.up), one.up);
-            patch.down = merged(std::move(patch.down), one.down);
+                                   : patches.emplace_back(PathPatch{decider.name, {}, {}});
+            patch.up = merged(std::move(patch.up), one->up);
+            patch.down = merged(std::move(patch.down), one->down);
         }
     }
     Json live = Json::array();
@@ -169,58 +175,56 @@ Json live_of_several(const Deciders& deciders, base::TimePoint now)
 Json live_of(const Director& director)
 {
     Json live = Json::array();
-    for (const Director::Override& one : director.overrides()) {
+    for (const auto& one : director.overrides()) {
         std::optional<base::Duration> left;
-        if (one.until) left = *one.until - director.now();
-        live.push_back({{"settings", settings_json(one)}, {"remaining_s", seconds(left)}});
+        if (one->until) left = *one->until - director.now();
+        live.push_back({{"settings", settings_json(*one)}, {"remaining_s", seconds(left)}});
     }
     return live;
 }
 
 /// What is still to come; with clients, of those that have nothing of their own.
-Profile remaining_of(const Emulation& emulation, const Deciders& deciders)
+Profile remaining_of(const Emulation& emulation, const std::vector<Decider>& deciders)
 {
     const bool has_clients = emulation.paths.names().clients;
     if (has_clients || deciders.size() == 1) {
-        Profile remaining = deciders.back().director->remaining();
+        Profile remaining = deciders.back().director.remaining();
         if (deciders.back().name.empty()) return remaining;
     }
     std::vector<NamedProfile> profiles;
-    for (const auto& [name, director] : deciders) {
-        profiles.push_back({std::string{name}, director->remaining()});
-    }
+    for (const Decider& one : deciders) profiles.push_back({one.name, one.director.remaining()});
     return joined(profiles);
 }
 
 } // namespace
 
-std::string reply_to(const ShowRequest& /*request*/, const Emulation& emulation)
+std::string reply_to(const ShowRequest& /*request*/, Emulation& emulation, base::TimePoint now)
 {
-    const auto deciders = emulation.paths.deciders();
-    const Director& director = *deciders.back().director;
-    const base::TimePoint now = director.now();
+    const Moment moment = moment_of(emulation, now);
+    const auto& deciders = moment.deciders;
+    const Director& director = deciders.back().director;
     std::optional<base::Duration> next;
-    if (const auto change = emulation.paths.next_change()) next = *change - now;
+    if (moment.next_change) next = *moment.next_change - director.now();
     const bool is_only = deciders.size() == 1;
-    return line_of(
-        Json{{"ok", true},
-             {"generation", emulation.paths.generation()},
-             {"elapsed_s", base::to_seconds(emulation.paths.elapsed())},
-             {"timeline",
-              {{"position_s", base::to_seconds(director.position())},
-               {"changes", director.profile().timeline.size()},
-               {"next_change_in_s", seconds(next)}}},
-             {"conditions", conditions_json(emulation.paths)},
-             {"held_s", seconds(emulation.held)},
-             {"live", is_only && deciders.front().name.empty() ? live_of(director)
-                                                               : live_of_several(deciders, now)},
-             {"profile", to_text(remaining_of(emulation, deciders))}});
+    return line_of(Json{{"ok", true},
+                        {"generation", moment.generation},
+                        {"elapsed_s", base::to_seconds(moment.elapsed)},
+                        {"timeline",
+                         {{"position_s", base::to_seconds(director.position())},
+                          {"changes", director.script().profile().timeline.size()},
+                          {"next_change_in_s", seconds(next)}}},
+                        {"conditions", conditions_json(moment)},
+                        {"held_s", seconds(emulation.held)},
+                        {"live", is_only && deciders.front().name.empty()
+                                     ? live_of(director)
+                                     : live_of_several(deciders, director.now())},
+                        {"profile", to_text(remaining_of(emulation, deciders))}});
 }
 
 std::string reply_to(const SetRequest& request, Emulation& emulation, base::TimePoint now)
 {
     const auto settings =
-        settings_of(request, files_beside("", emulation), emulation.paths.names());
+        settings_of(request, files_for(request.files, emulation), emulation.paths.names());
     if (!settings) return refusal(settings.error().message);
     std::vector<std::string> mentioned;
     for (const Setting& setting : *settings) {
@@ -237,32 +241,30 @@ std::string reply_to(const SetRequest& request, Emulation& emulation, base::Time
 std::string reply_to(const ApplyRequest& request, Emulation& emulation, base::TimePoint now)
 {
     std::vector<std::string> warnings;
-    const auto profile = parsed(request.profile, emulation, warnings);
+    const auto profile = parsed(request.profile, request.files, emulation, warnings);
     if (!profile) return refusal(profile.error().message);
-    const auto command = [&](std::string_view name, const Path& /*path*/) -> base::Result<Command> {
-        return Apply{profile_of(*profile, name)};
-    };
-    auto effect = effect_of(command, paths_in(*profile), emulation, now);
+    const Scripts scripts{*profile};
+    auto effect = effect_of(scripts.command(), scripts.mentioned(), emulation, now);
     if (effect && !warnings.empty()) (*effect)["warnings"] = std::move(warnings);
     return answer_of(effect);
 }
 
-std::string reply_to(const DiffRequest& request, const Emulation& emulation)
+std::string reply_to(const DiffRequest& request, Emulation& emulation, base::TimePoint now)
 {
     std::vector<std::string> warnings;
-    const auto profile = parsed(request.profile, emulation, warnings);
+    const auto profile = parsed(request.profile, request.files, emulation, warnings);
     if (!profile) return refusal(profile.error().message);
-    const auto deciders = emulation.paths.deciders();
+    const Moment moment = moment_of(emulation, now);
     Json changes = Json::array();
     bool is_other_timeline = false;
-    for (const auto& [name, director] : deciders) {
-        const Profile own = profile_of(*profile, name);
-        for (const auto& [key, from, to] : differences(director->path(), own.path, name)) {
+    for (const Decider& one : moment.deciders) {
+        const Profile own = profile_of(*profile, one.name);
+        for (const auto& [key, from, to] : differences(one.director.path(), own.path, one.name)) {
             changes.push_back({{"key", key}, {"from", from}, {"to", to}});
         }
-        is_other_timeline = is_other_timeline || director->remaining().timeline != own.timeline;
+        is_other_timeline = is_other_timeline || one.director.remaining().timeline != own.timeline;
     }
-    const auto steps = deciders.back().director->remaining().timeline.size();
+    const auto steps = moment.deciders.back().director.remaining().timeline.size();
     return line_of(Json{{"ok", true},
                         {"changes", std::move(changes)},
                         {"timeline", {{"from", steps}, {"to", profile->timeline.size()}}},
@@ -278,7 +280,10 @@ std::string reply_to(const ResetRequest& /*request*/, Emulation& emulation, base
 
 std::string reply_to(const StopRequest& /*request*/, const Emulation& emulation)
 {
-    emulation.stop();
+    emulation.work([&] {
+        emulation.stop();
+        return true;
+    });
     return line_of(Json{{"ok", true}, {"stopping", true}, {"program", "hapnet-emulator"}});
 }
 
@@ -288,13 +293,14 @@ std::string reply_to(const KeepRequest& request, const Emulation& emulation, bas
     return control::keep_reply(emulation.keep(request.name, from), from, now);
 }
 
-nlohmann::ordered_json statistics_of(const Emulation& emulation)
+nlohmann::ordered_json statistics_of(Emulation& emulation)
 {
-    auto json = Json::parse(emulation.statistics_json(), nullptr,
-                            /*allow_exceptions*/ false);
-    base::ensure(json.is_object());
-    json["generation"] = emulation.paths.generation();
-    json["elapsed_s"] = base::to_seconds(emulation.paths.elapsed());
+    auto json = emulation.statistics(emulation.work);
+    emulation.work([&] {
+        json["generation"] = emulation.paths.generation();
+        json["elapsed_s"] = base::to_seconds(emulation.paths.elapsed());
+        return true;
+    });
     return json;
 }
 
@@ -302,25 +308,19 @@ control::Answer answer_to(std::string_view line, Emulation& emulation, base::Tim
 {
     const auto request = parse_request(line, emulation.held);
     if (!request) return refusal(request.error().message);
-    emulation.paths.catch_up(now);
-    if (const auto* one = std::get_if<ShowRequest>(&*request)) return reply_to(*one, emulation);
-    if (const auto* set = std::get_if<SetRequest>(&*request)) {
-        return reply_to(*set, emulation, now);
-    }
-    if (const auto* apply = std::get_if<ApplyRequest>(&*request)) {
-        return reply_to(*apply, emulation, now);
-    }
-    if (const auto* diff = std::get_if<DiffRequest>(&*request)) return reply_to(*diff, emulation);
-    if (const auto* reset = std::get_if<ResetRequest>(&*request)) {
-        return reply_to(*reset, emulation, now);
-    }
-    if (const auto* stop = std::get_if<StopRequest>(&*request)) return reply_to(*stop, emulation);
-    if (const auto* keep = std::get_if<KeepRequest>(&*request)) {
-        return reply_to(*keep, emulation, now);
-    }
-    if (const auto* wait = std::get_if<WaitRequest>(&*request)) return *wait;
-    if (const auto* watch = std::get_if<WatchRequest>(&*request)) return *watch;
-    return control::statistics_reply(statistics_of(emulation));
+    return std::visit(
+        [&]<typename One>(const One& one) -> control::Answer {
+            if constexpr (std::is_same_v<One, WaitRequest> || std::is_same_v<One, WatchRequest>) {
+                return one;
+            } else if constexpr (std::is_same_v<One, StatsRequest>) {
+                return control::statistics_reply(statistics_of(emulation));
+            } else if constexpr (std::is_same_v<One, StopRequest>) {
+                return reply_to(one, emulation);
+            } else {
+                return reply_to(one, emulation, now);
+            }
+        },
+        *request);
 }
 
 control::Subject subject_of(Emulation& emulation)
@@ -330,7 +330,7 @@ control::Subject subject_of(Emulation& emulation)
                 return answer_to(line, emulation, now);
             },
             [&emulation] { return statistics_of(emulation); },
-            [&emulation, frames] { return frames->watch(emulation.paths); }};
+            [&emulation, frames] { return frames->watch(emulation.paths, emulation.work); }};
 }
 
 } // namespace hapnet::emulator

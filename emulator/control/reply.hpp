@@ -13,22 +13,24 @@
 
 namespace hapnet::emulator {
 
-// The lines that answer requests, each a JSON object without a newline.
+// The lines that answer requests, each a JSON object without a newline. On the thread of the
+// control.
 
-[[nodiscard]] std::string reply_to(const ShowRequest& request, const Emulation& emulation);
+[[nodiscard]] std::string reply_to(const ShowRequest& request, Emulation& emulation,
+                                   base::TimePoint now);
 [[nodiscard]] std::string reply_to(const SetRequest& request, Emulation& emulation,
                                    base::TimePoint now);
 [[nodiscard]] std::string reply_to(const ApplyRequest& request, Emulation& emulation,
                                    base::TimePoint now);
-[[nodiscard]] std::string reply_to(const DiffRequest& request, const Emulation& emulation);
+[[nodiscard]] std::string reply_to(const DiffRequest& request, Emulation& emulation,
+                                   base::TimePoint now);
 [[nodiscard]] std::string reply_to(const ResetRequest& request, Emulation& emulation,
                                    base::TimePoint now);
-
 [[nodiscard]] std::string reply_to(const KeepRequest& request, const Emulation& emulation,
                                    base::TimePoint now);
 
 /// The emulator's statistics with "generation" and "elapsed_s".
-[[nodiscard]] nlohmann::ordered_json statistics_of(const Emulation& emulation);
+[[nodiscard]] nlohmann::ordered_json statistics_of(Emulation& emulation);
 
 /// What becomes of a request.
 [[nodiscard]] control::Answer answer_to(std::string_view line, Emulation& emulation,

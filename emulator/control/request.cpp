@@ -37,6 +37,35 @@ std::vector<SettingText> settings_of(Members& members)
     return settings;
 }
 
+SentFiles files_of(Members& members)
+{
+    const auto* value = members.find("files");
+    if (value == nullptr) return std::nullopt;
+    std::map<std::string, std::string> files;
+    const auto refuse = [&](std::string why) {
+        members.fail(std::move(why));
+        return SentFiles{};
+    };
+    if (!value->is_object()) {
+        return refuse("\"files\" must be an object such as {\"delays.csv\":\"time,delay\\n...\"}");
+    }
+    if (value->size() > files_max) return refuse(fmt::format("more than {} files", files_max));
+    std::size_t bytes = 0;
+    for (const auto& [name, text] : value->items()) {
+        if (!text.is_string()) {
+            return refuse(fmt::format("the text of the file \"{}\" must be a string", name));
+        }
+        bytes += text.get_ref<const std::string&>().size();
+        files.emplace(name, text.get<std::string>());
+    }
+    if (bytes > sent_bytes_max) {
+        return refuse(fmt::format("the files have {} bytes together; {} may be: copy them into the "
+                                  "folder that the emulator reads (--files)",
+                                  bytes, sent_bytes_max));
+    }
+    return files;
+}
+
 ProfileText profile_of(Members& members)
 {
     if (auto preset = members.optional_text("preset")) return {"", *preset, *preset};
@@ -49,10 +78,15 @@ Request request_of(std::string_view command, Members& members, std::optional<bas
 {
     if (command == "set") {
         auto settings = settings_of(members);
-        return SetRequest{std::move(settings), members.time("for", 1ms)};
+        const auto lasting = members.time("for", 1ms);
+        return SetRequest{std::move(settings), lasting, files_of(members)};
     }
-    if (command == "apply") return ApplyRequest{profile_of(members)};
-    if (command == "diff") return DiffRequest{profile_of(members)};
+    if (command == "apply" || command == "diff") {
+        auto profile = profile_of(members);
+        auto files = files_of(members);
+        if (command == "apply") return ApplyRequest{std::move(profile), std::move(files)};
+        return DiffRequest{std::move(profile), std::move(files)};
+    }
     if (command == "reset") return ResetRequest{};
     if (command == "stats") return StatsRequest{};
     if (command == "stop") return StopRequest{};

@@ -7,6 +7,7 @@
 #include "proto/control/core/request.hpp"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,10 +22,16 @@ namespace hapnet::emulator {
 /// A key and its value as a profile or a command line writes them: "both.delay", "80ms".
 using SettingText = std::pair<std::string, std::string>;
 
+/// The texts of the files that a request names, as it brings them along; nullopt: it brings none,
+/// and names those of the emulator's folder.
+using SentFiles = std::optional<std::map<std::string, std::string>>;
+/// How long they may be together.
+inline constexpr std::size_t sent_bytes_max = std::size_t{1} << 20;
+
 /// A profile as it was sent, the name of a built-in one, or a sentence of tc-netem.
 struct ProfileText {
     std::string toml;
-    std::string file;                    // what messages call it; files that it names lie beside it
+    std::string file;                    // what messages call it
     std::optional<std::string> preset{}; // instead of both
     std::optional<std::string> netem{};  // instead of all
 };
@@ -33,12 +40,15 @@ struct ShowRequest {};
 struct SetRequest {
     std::vector<SettingText> settings; // at least one
     std::optional<base::Duration> lasting;
+    SentFiles files{};
 };
 struct ApplyRequest {
     ProfileText profile;
+    SentFiles files{};
 };
 struct DiffRequest {
     ProfileText profile;
+    SentFiles files{};
 };
 struct ResetRequest {};
 struct StatsRequest {};
@@ -50,8 +60,11 @@ using control::WatchRequest;
 using Request = std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest,
                              StatsRequest, WaitRequest, WatchRequest, KeepRequest, StopRequest>;
 
-/// How many settings one request may make.
+/// How many settings one request may make, and how many files it may bring.
 inline constexpr std::size_t settings_max = 64;
+inline constexpr std::size_t files_max = 64;
+/// A profile of 1 MiB and as much in files, both as JSON writes them.
+inline constexpr std::size_t request_bytes_max = std::size_t{3} << 20;
 
 /// Reads one line. The error says what is wrong and what would be right. `held`: how much of the
 /// last packets is in memory; nullopt: none.

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -24,8 +25,11 @@ struct ConditionChange {
     std::uint64_t effective_up = 0;   // number of the first datagram for which it holds
     std::uint64_t effective_down = 0; // the same of the other direction
     ChangeCause by = ChangeCause::hand;
-    Patch up; // the settings that changed, as they are from then on
-    Patch down;
+    std::shared_ptr<const Path> from{}; // what held before; never null
+    std::shared_ptr<const Path> to{};   // and from then on
+
+    /// The settings that changed, as they are from then on.
+    [[nodiscard]] Patch patch(Direction direction) const;
 };
 
 /// The changes of a path, in their order. A ramp changes the conditions a thousand times a second:

@@ -55,9 +55,34 @@ void strip(Director::Override& one, const Patch& up, const Patch& down)
     strip(one.down, down);
 }
 
+/// Whether `patch` sets something that `later` sets, too.
+bool meets(const Patch& patch, const Patch& later)
+{
+    bool does = false;
+    for_each_setting(
+        [&](const auto& slot) { does = does || (patch.*slot.patch && later.*slot.patch); });
+    return does;
+}
+
+/// The same of one that others may share.
+void strip(std::shared_ptr<const Director::Override>& one, const Patch& up, const Patch& down)
+{
+    if (!meets(one->up, up) && !meets(one->down, down)) return;
+    Director::Override rest = *one;
+    strip(rest, up, down);
+    one = std::make_shared<const Director::Override>(std::move(rest));
+}
+
+bool sets_nothing(const Patch& patch)
+{
+    bool does = false;
+    for_each_setting([&](const auto& slot) { does = does || (patch.*slot.patch).has_value(); });
+    return !does;
+}
+
 bool sets_nothing(const Director::Override& one)
 {
-    return one.up == Patch{} && one.down == Patch{};
+    return sets_nothing(one.up) && sets_nothing(one.down);
 }
 
 /// Whether an override that ends at `until` is over no later than one that ends at `other`.
@@ -75,13 +100,16 @@ Director::Director(const Director&) = default;
 Director& Director::operator=(const Director&) = default;
 
 Director::Director(Profile profile, base::TimePoint start)
-    : started_with_{std::move(profile)},
+    : Director{std::make_shared<const Script>(std::move(profile)), start}
+{}
+
+Director::Director(std::shared_ptr<const Script> script, base::TimePoint start)
+    : started_with_{std::move(script)},
       start_{start},
-      profile_{started_with_},
-      timeline_{profile_},
+      script_{started_with_},
       begin_{start},
       now_{start},
-      path_{timeline_.at(base::Duration{0})},
+      path_{std::make_shared<const Path>(script_->timeline().at(base::Duration{0}))},
       next_change_{find_next_change()}
 {}
 
@@ -89,8 +117,8 @@ Director::Director(Profile profile, base::TimePoint start)
 bool Director::change_after(base::TimePoint before)
 {
     const bool has_step = let_later_steps_win(before - begin_);
-    const auto ended = std::erase_if(
-        overrides_, [&](const Override& one) { return base::is_due(one.until, now_); });
+    const auto ended =
+        std::erase_if(overrides_, [&](const auto& one) { return base::is_due(one->until, now_); });
     last_reason_ = has_step ? Reason::step : ended > 0 ? Reason::hand : Reason::ramp;
     return update();
 }
@@ -108,33 +136,34 @@ base::Result<void> Director::apply(const Command& command, base::TimePoint now)
     }
     last_reason_ = Reason::hand;
     if (const auto* other = std::get_if<Apply>(&command)) {
-        follow(other->profile, now_);
+        follow(other->script, now_);
     } else {
         follow(started_with_, start_);
     }
     return {};
 }
 
-base::Result<void> Director::check(const Command& command) const
+bool Director::is_twin_of(const Director& other) const
 {
-    const auto* set = std::get_if<Set>(&command);
-    if (set == nullptr) return {};
-    return overrides_with(*set).map([](const auto&) {});
+    return script_ == other.script_ && path_ == other.path_ && overrides_ == other.overrides_ &&
+           started_with_ == other.started_with_ && start_ == other.start_ &&
+           begin_ == other.begin_ && generation_ == other.generation_ &&
+           last_reason_ == other.last_reason_ && next_change_ == other.next_change_;
 }
 
-base::Result<std::vector<Director::Override>> Director::overrides_with(const Set& set) const
+base::Result<Director::Overrides> Director::overrides_with(const Set& set) const
 {
     std::optional<base::TimePoint> until;
     if (set.lasting) {
         base::ensure(set.lasting->count() > 0);
         until = now_ + *set.lasting;
     }
-    std::vector<Override> overrides = overrides_;
-    for (Override& one : overrides) {
-        if (ends_within(one.until, until)) strip(one, set.up, set.down);
+    Overrides overrides = overrides_;
+    for (auto& one : overrides) {
+        if (ends_within(one->until, until)) strip(one, set.up, set.down);
     }
-    overrides.push_back({set.up, set.down, until});
-    std::erase_if(overrides, sets_nothing);
+    overrides.push_back(std::make_shared<const Override>(Override{set.up, set.down, until}));
+    std::erase_if(overrides, [](const auto& one) { return sets_nothing(*one); });
     if (overrides.size() > overrides_max) {
         return base::fail(fmt::format("{} temporary settings are already active; wait for one to "
                                       "expire, or run reset",
@@ -143,13 +172,11 @@ base::Result<std::vector<Director::Override>> Director::overrides_with(const Set
     return overrides;
 }
 
-void Director::follow(const Profile& profile, base::TimePoint begin)
+void Director::follow(std::shared_ptr<const Script> script, base::TimePoint begin)
 {
-    Profile next = profile;
-    next.seed = started_with_.seed;
-    const bool is_the_same = next == profile_ && (next.timeline.empty() || begin == begin_);
-    profile_ = std::move(next);
-    timeline_ = Timeline{profile_};
+    const bool is_the_same = script->says_the_same_as(*script_) &&
+                             (script->profile().timeline.empty() || begin == begin_);
+    script_ = std::move(script);
     begin_ = begin;
     overrides_.clear();
     if (!update() && !is_the_same) ++generation_;
@@ -158,25 +185,25 @@ void Director::follow(const Profile& profile, base::TimePoint begin)
 /// Whether there were steps since.
 bool Director::let_later_steps_win(base::Duration before)
 {
-    const auto begin = after(profile_.timeline, before);
-    const auto end = after(profile_.timeline, position());
+    const auto begin = after(script_->profile().timeline, before);
+    const auto end = after(script_->profile().timeline, position());
     for (auto step = begin; step < end; ++step) {
-        for (Override& one : overrides_) strip(one, step->up, step->down);
+        for (auto& one : overrides_) strip(one, step->up, step->down);
     }
-    std::erase_if(overrides_, sets_nothing);
+    std::erase_if(overrides_, [](const auto& one) { return sets_nothing(*one); });
     return begin < end;
 }
 
 bool Director::update()
 {
-    Path path = timeline_.at(position());
-    for (const Override& one : overrides_) {
-        path.up = patched(std::move(path.up), one.up);
-        path.down = patched(std::move(path.down), one.down);
+    Path path = script_->timeline().at(position());
+    for (const auto& one : overrides_) {
+        path.up = patched(std::move(path.up), one->up);
+        path.down = patched(std::move(path.down), one->down);
     }
     next_change_ = find_next_change();
-    if (path == path_) return false;
-    path_ = std::move(path);
+    if (path == *path_) return false;
+    path_ = std::make_shared<const Path>(std::move(path));
     ++generation_;
     return true;
 }
@@ -184,23 +211,25 @@ bool Director::update()
 std::optional<base::TimePoint> Director::find_next_change() const
 {
     std::optional<base::TimePoint> next;
-    if (const auto at = timeline_.next_change(position())) next = begin_ + *at;
+    if (const auto at = script_->timeline().next_change(position())) next = begin_ + *at;
     // A step that only repeats what the profile says still ends what was set by hand.
-    const auto step = after(profile_.timeline, position());
-    if (step != profile_.timeline.end()) next = base::earlier(next, begin_ + step->time);
-    for (const Override& one : overrides_) next = base::earlier(next, one.until);
+    const Steps& steps = script_->profile().timeline;
+    const auto step = after(steps, position());
+    if (step != steps.end()) next = base::earlier(next, begin_ + step->time);
+    for (const auto& one : overrides_) next = base::earlier(next, one->until);
     return next;
 }
 
 Profile Director::remaining() const
 {
-    Profile profile{profile_.name, profile_.seed, path_, {}, {}, profile_.checks};
+    const Profile& all = script_->profile();
+    Profile profile{all.name, started_with_->profile().seed, *path_, {}, {}, all.checks};
     Override by_hand; // as far as no step has taken over yet
-    for (const Override& one : overrides_) {
-        by_hand.up = merged(std::move(by_hand.up), one.up);
-        by_hand.down = merged(std::move(by_hand.down), one.down);
+    for (const auto& one : overrides_) {
+        by_hand.up = merged(std::move(by_hand.up), one->up);
+        by_hand.down = merged(std::move(by_hand.down), one->down);
     }
-    for (Change step : profile_.timeline) {
+    for (Change step : all.timeline) {
         const bool is_past = step.time <= position();
         if (is_past) {
             step.ramp -= position() - step.time;
@@ -209,7 +238,7 @@ Profile Director::remaining() const
             if (step.ramp.count() <= 0 || sets_nothing({step.up, step.down, {}})) continue;
         } else if (step.ramp.count() > 0) {
             // It does not begin at what was set by hand, but at what the profile says.
-            const Path before = timeline_.at(step.time);
+            const Path before = script_->timeline().at(step.time);
             Change start{step.time - position(),
                          {},
                          common(step.up, by_hand.up, before.up),

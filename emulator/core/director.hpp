@@ -4,14 +4,16 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/profile/profile.hpp"
-#include "emulator/core/profile/timeline.hpp"
+#include "emulator/core/profile/script.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -27,7 +29,10 @@ struct Set {
 
 /// Another profile. Its timeline counts from now, and what was set by hand is gone.
 struct Apply {
-    Profile profile;
+    std::shared_ptr<const Script> script; // never null
+
+    explicit Apply(std::shared_ptr<const Script> other) : script{std::move(other)} {}
+    explicit Apply(Profile profile) : script{std::make_shared<const Script>(std::move(profile))} {}
 };
 
 /// Back to the profile that the emulator was started with, where its timeline stands by now: what
@@ -59,6 +64,7 @@ public:
 
     /// The profile's timeline counts from `start`. Its seed is that of the run, and stays.
     Director(Profile profile, base::TimePoint start);
+    Director(std::shared_ptr<const Script> script, base::TimePoint start);
 
     // Defined in director.cpp, so that not every file that uses a Director compiles them.
     ~Director();
@@ -68,7 +74,9 @@ public:
     Director& operator=(const Director&);
 
     /// The conditions that hold at the time of the last call.
-    [[nodiscard]] const Path& path() const { return path_; }
+    [[nodiscard]] const Path& path() const { return *path_; }
+    /// The same, for whoever goes on using them. Never null.
+    [[nodiscard]] const std::shared_ptr<const Path>& shared_path() const { return path_; }
 
     /// 1 at first, and one more whenever path() has changed or another profile was applied.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
@@ -93,13 +101,17 @@ public:
     /// refused.
     base::Result<void> apply(const Command& command, base::TimePoint now);
 
-    /// Whether apply() would refuse it after advance().
-    [[nodiscard]] base::Result<void> check(const Command& command) const;
+    /// Whether both are at the same point, as far as it can be told at once: what is done to both
+    /// makes them the same again, and so has to be done once only. Their times may differ while
+    /// nothing has become due.
+    [[nodiscard]] bool is_twin_of(const Director& other) const;
 
-    [[nodiscard]] const Profile& profile() const { return profile_; }
+    /// The profile that it follows, with the timeline.
+    [[nodiscard]] const Script& script() const { return *script_; }
 
-    /// What is set by hand; a later one wins over an earlier one.
-    [[nodiscard]] const std::vector<Override>& overrides() const { return overrides_; }
+    /// What is set by hand; a later one wins over an earlier one. Never null.
+    using Overrides = std::vector<std::shared_ptr<const Override>>;
+    [[nodiscard]] const Overrides& overrides() const { return overrides_; }
 
     /// The time of the last call.
     [[nodiscard]] base::TimePoint now() const { return now_; }
@@ -115,21 +127,20 @@ public:
     [[nodiscard]] Profile remaining() const;
 
 private:
-    [[nodiscard]] base::Result<std::vector<Override>> overrides_with(const Set& set) const;
-    void follow(const Profile& profile, base::TimePoint begin);
+    [[nodiscard]] base::Result<Overrides> overrides_with(const Set& set) const;
+    void follow(std::shared_ptr<const Script> script, base::TimePoint begin);
     bool change_after(base::TimePoint before);
     bool let_later_steps_win(base::Duration before);
     bool update();
     [[nodiscard]] std::optional<base::TimePoint> find_next_change() const;
 
-    Profile started_with_;
+    std::shared_ptr<const Script> started_with_;
     base::TimePoint start_;
-    Profile profile_;
-    Timeline timeline_;
+    std::shared_ptr<const Script> script_;
     base::TimePoint begin_; // time 0 of the timeline
     base::TimePoint now_;
-    std::vector<Override> overrides_;
-    Path path_;
+    Overrides overrides_;
+    std::shared_ptr<const Path> path_;
     std::uint64_t generation_ = 1;
     Reason last_reason_ = Reason::hand;
     std::optional<base::TimePoint> next_change_;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/emulated_path.hpp"
 
-#include "emulator/core/profile/paths.hpp"
-
 #include <utility>
 #include <vector>
 
@@ -11,7 +9,14 @@ namespace hapnet::emulator {
 
 namespace {
 
-Link make_link(const Path& path, const EmulatedPath::Setup& setup,
+/// One way of a path that others may share.
+std::shared_ptr<const Conditions> way_of(const std::shared_ptr<const Path>& path,
+                                         Direction direction)
+{
+    return {path, direction == Direction::up ? &path->up : &path->down};
+}
+
+Link make_link(const std::shared_ptr<const Path>& path, const EmulatedPath::Setup& setup,
                const std::shared_ptr<Slab>& slab, Direction direction)
 {
     const bool is_up = direction == Direction::up;
@@ -26,7 +31,7 @@ Link make_link(const Path& path, const EmulatedPath::Setup& setup,
         const auto& fates = is_up ? setup.replay->up : setup.replay->down;
         link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});
     }
-    return Link{is_up ? path.up : path.down, link};
+    return Link{way_of(path, direction), link};
 }
 
 } // namespace
@@ -40,8 +45,9 @@ EmulatedPath::EmulatedPath(Director director, const Setup& setup, const std::sha
     : director_{std::move(director)},
       place_{setup.place},
       changes_{setup.changes_max},
-      up_{make_link(director_.path(), setup, slab, Direction::up)},
-      down_{make_link(director_.path(), setup, slab, Direction::down)}
+      enacted_{director_.shared_path()},
+      up_{make_link(enacted_, setup, slab, Direction::up)},
+      down_{make_link(enacted_, setup, slab, Direction::down)}
 {}
 
 base::Result<void> EmulatedPath::apply(const Command& command, base::TimePoint now, ChangeCause by)
@@ -51,6 +57,20 @@ base::Result<void> EmulatedPath::apply(const Command& command, base::TimePoint n
     auto done = director_.apply(command, now);
     if (director_.generation() != generation) enact(now, by);
     return done;
+}
+
+void EmulatedPath::follow(const Director& director, base::TimePoint now, ChangeCause by)
+{
+    const auto generation = director_.generation();
+    director_ = director;
+    if (director_.generation() != generation) enact(now, by);
+}
+
+void EmulatedPath::follow(const Director& director, base::TimePoint now)
+{
+    const auto generation = director_.generation();
+    director_ = director;
+    if (director_.generation() != generation) enact_timeline(now);
 }
 
 void EmulatedPath::enact_timeline(base::TimePoint now)
@@ -66,12 +86,13 @@ void EmulatedPath::enact(base::TimePoint now, ChangeCause by)
                   .effective_up = up_.statistics().received,
                   .effective_down = down_.statistics().received,
                   .by = by,
-                  .up = difference(up_.conditions(), director_.path().up),
-                  .down = difference(down_.conditions(), director_.path().down)},
+                  .from = enacted_,
+                  .to = director_.shared_path()},
                  director_.last_reason() == Director::Reason::ramp);
     place_.mark();
-    up_.change(director_.path().up, now);
-    down_.change(director_.path().down, now);
+    enacted_ = director_.shared_path();
+    up_.share(way_of(enacted_, Direction::up), now);
+    down_.share(way_of(enacted_, Direction::down), now);
 }
 
 } // namespace hapnet::emulator

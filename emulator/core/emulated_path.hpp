@@ -96,6 +96,11 @@ public:
     base::Result<void> apply(const Command& command, base::TimePoint now,
                              ChangeCause by = ChangeCause::hand);
 
+    /// From now on another director decides: the own one, as it has gone on elsewhere.
+    void follow(const Director& director, base::TimePoint now, ChangeCause by);
+    /// The same of one that has only followed its timeline.
+    void follow(const Director& director, base::TimePoint now);
+
     /// See Link::take_pulse().
     [[nodiscard]] Pulse take_pulse(Direction direction) { return link_of(direction).take_pulse(); }
 
@@ -123,6 +128,7 @@ private:
     Director director_;
     DueTimes::Place place_;
     ChangeLog changes_;
+    std::shared_ptr<const Path> enacted_; // what the links do
     Link up_;
     Link down_;
 };

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace hapnet::emulator {
 
@@ -41,13 +42,17 @@ Link::Link(Link&&) noexcept = default;
 Link& Link::operator=(Link&&) noexcept = default;
 
 Link::Link(const Conditions& conditions, const Setup& setup)
-    : conditions_{conditions},
+    : Link{std::make_shared<const Conditions>(conditions), setup}
+{}
+
+Link::Link(std::shared_ptr<const Conditions> conditions, const Setup& setup)
+    : conditions_{std::move(conditions)},
       setup_{setup},
-      pipeline_{conditions, setup.seed, setup.direction, setup.name},
+      pipeline_{*conditions_, setup.seed, setup.direction, setup.name},
       slab_{setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)},
       line_{setup.limits.datagrams_max},
-      bottleneck_{conditions.rate, setup.limits.datagrams_max, setup.start,
-                  QueueManager{conditions.queue, pipeline_.stream("queue")}},
+      bottleneck_{conditions_->rate, setup.limits.datagrams_max, setup.start,
+                  QueueManager{conditions_->queue, pipeline_.stream("queue")}},
       last_arrival_{setup.start}
 {
     displaced_.reserve(displaced_max);
@@ -166,7 +171,7 @@ void Link::release(const Datagram& datagram)
 void Link::schedule(Datagram& datagram, const Fate& fate)
 {
     datagram.due += fate.delay;
-    if (conditions_.order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
+    if (conditions_->order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
     last_due_ = std::max(last_due_, datagram.due);
     const auto [places, time] = fate.displacement;
     if (places > 0 && displaced_.size() < displaced_max) {
@@ -196,7 +201,7 @@ void Link::schedule_copy(Datagram copy, base::Duration after)
 
 void Link::put(const Datagram& datagram)
 {
-    if (conditions_.order == Order::sorted) {
+    if (conditions_->order == Order::sorted) {
         line_.push_sorted(datagram);
     } else {
         line_.push(datagram);
@@ -285,14 +290,14 @@ void Link::on_failed(const Datagram& datagram, DropCause cause)
     release(datagram);
 }
 
-void Link::change(const Conditions& conditions, base::TimePoint now)
+void Link::share(std::shared_ptr<const Conditions> conditions, base::TimePoint now)
 {
     // A change is stamped by what arrives on either side: it may come after a later arrival here.
     const auto at = std::max(now, last_arrival_);
     advance(at);
-    bottleneck_.change(conditions.rate, at, conditions.queue);
-    pipeline_.change(conditions);
-    conditions_ = conditions;
+    bottleneck_.change(conditions->rate, at, conditions->queue);
+    pipeline_.change(*conditions);
+    conditions_ = std::move(conditions);
 }
 
 } // namespace hapnet::emulator

@@ -55,6 +55,8 @@ public:
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
+    /// The same; links may share them.
+    Link(std::shared_ptr<const Conditions> conditions, const Setup& setup);
     Link(Link&&) noexcept;
     Link& operator=(Link&&) noexcept;
     Link(const Link&) = delete; // two would use each other's slots
@@ -82,9 +84,14 @@ public:
 
     /// Other conditions for what arrives from now on; what is scheduled keeps its time, and what
     /// is being sent at the old rate goes on at the new one from `now`.
-    void change(const Conditions& conditions, base::TimePoint now);
+    void change(const Conditions& conditions, base::TimePoint now)
+    {
+        share(std::make_shared<const Conditions>(conditions), now);
+    }
+    /// The same of conditions that other links have, too. Not null.
+    void share(std::shared_ptr<const Conditions> conditions, base::TimePoint now);
 
-    [[nodiscard]] const Conditions& conditions() const { return conditions_; }
+    [[nodiscard]] const Conditions& conditions() const { return *conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
     /// What left since the last call. The first one begins to count, so that a link costs no more
@@ -110,7 +117,7 @@ private:
     }
     void move_on(base::TimePoint now);
 
-    Conditions conditions_;
+    std::shared_ptr<const Conditions> conditions_; // never null
     Setup setup_;
     Pipeline pipeline_;
     std::shared_ptr<Slab> slab_;

@@ -6,25 +6,68 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
 namespace hapnet::emulator {
 
+/// What is done to directors that are twins is done to one of them.
+class Paths::Twins {
+public:
+    /// What has become of one that was as this one is; nullptr: there was none.
+    [[nodiscard]] const Director* find(const Director& director) const
+    {
+        const auto found = std::ranges::find_if(
+            known_, [&](const Known& one) { return director.is_twin_of(one.before); });
+        return found == known_.end() ? nullptr : &found->after;
+    }
+    const Director& add(const Director& before, Director after)
+    {
+        return known_.emplace_back(Known{before, std::move(after)}).after;
+    }
+
+    /// As director.advance(now), where something has become due by then.
+    const Director& advanced(const Director& director, base::TimePoint now)
+    {
+        if (const Director* twin = find(director)) return *twin;
+        Director after = director;
+        after.advance(now);
+        return add(director, std::move(after));
+    }
+
+private:
+    struct Known {
+        Director before;
+        Director after;
+    };
+    std::deque<Known> known_;
+};
+
 Paths::Paths(const Profile& profile, Setup setup)
-    : profile_{profile}, setup_{std::move(setup)}, now_{setup_.start}
+    : profile_{profile},
+      setup_{std::move(setup)},
+      beginning_{profile_of(profile_, ""), setup_.start},
+      said_of_{paths_in(profile_)},
+      now_{setup_.start}
 {
     for (const std::string& name : setup_.elsewhere) {
-        absent_.push_back({name, Director{profile_of(profile_, name), setup_.start}});
+        absent_.push_back({name, beginning_of(name)});
     }
     find_next_change();
     if (!setup_.takes_newcomers) return;
-    newcomers_.emplace(profile_of(profile_, ""), setup_.start);
-    mentioned_ = paths_in(profile_);
+    newcomers_ = beginning_;
+    mentioned_ = said_of_;
     for (const std::string& name : mentioned_) {
-        absent_.push_back({name, Director{profile_of(profile_, name), setup_.start}});
+        absent_.push_back({name, beginning_of(name)});
     }
     find_next_change();
+}
+
+Director Paths::beginning_of(const std::string& name) const
+{
+    const bool has_its_own = std::ranges::find(said_of_, name) != said_of_.end();
+    return has_its_own ? Director{profile_of(profile_, name), setup_.start} : beginning_;
 }
 
 /// What decides for a path that comes now.
@@ -36,7 +79,7 @@ Director Paths::director_for(const std::string& name)
         absent_.erase(known);
         return director;
     }
-    return newcomers_ ? *newcomers_ : Director{profile_of(profile_, name), setup_.start};
+    return newcomers_ ? *newcomers_ : beginning_of(name);
 }
 
 EmulatedPath& Paths::add(const std::string& name)
@@ -78,11 +121,20 @@ void Paths::remove(std::string_view name)
 
 void Paths::advance_all(base::TimePoint now)
 {
-    bool has_changed = false;
-    for (const Named& one : paths_) has_changed = one.path->advance(now) || has_changed;
-    for (Absent& one : absent_) has_changed = one.director.advance(now) || has_changed;
-    if (newcomers_) has_changed = newcomers_->advance(now) || has_changed;
-    if (has_changed) ++generation_;
+    const auto before = generations();
+    Twins twins;
+    for (const Named& one : paths_) {
+        const Director& director = one.path->director();
+        const bool is_due = base::is_due(director.next_change(), now) && director.now() <= now;
+        if (is_due) {
+            one.path->follow(twins.advanced(director, now), now);
+        } else {
+            one.path->advance(now);
+        }
+    }
+    for (Absent& one : absent_) one.director.advance(now);
+    if (newcomers_) newcomers_->advance(now);
+    if (generations() != before) ++generation_;
     find_next_change();
 }
 
@@ -122,20 +174,32 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     catch_up(now);
     now = now_;
     if (auto expected = expect(mentioned); !expected) return expected;
-    std::vector<Command> commands;
+    // First what each becomes, and only when none refuses, all of it at once.
+    Twins twins;
+    std::deque<Director> own; // of those that the command speaks of
+    std::vector<const Director*> next;
+    std::optional<Command> last;
     for (const auto& [name, director] : deciders()) {
-        auto own = command(name, director->path());
-        if (!own) return tl::unexpected{own.error()};
-        if (auto valid = director->check(*own); !valid) return valid;
-        commands.push_back(*std::move(own));
+        const bool is_mentioned = std::ranges::find(mentioned, name) != mentioned.end();
+        const Director* twin = is_mentioned ? nullptr : twins.find(*director);
+        if (twin == nullptr) {
+            auto told = command(name, director->path());
+            if (!told) return tl::unexpected{told.error()};
+            Director after = *director;
+            if (auto done = after.apply(*told, now); !done) return done;
+            twin = is_mentioned ? &own.emplace_back(std::move(after))
+                                : &twins.add(*director, std::move(after));
+            last = *std::move(told);
+        }
+        next.push_back(twin);
     }
     const auto before = generations();
-    auto own = commands.begin();
-    for (const Named& one : paths_) base::ensure(one.path->apply(*own++, now, by).has_value());
-    for (Absent& one : absent_) base::ensure(one.director.apply(*own++, now).has_value());
-    if (newcomers_) base::ensure(newcomers_->apply(*own, now).has_value());
+    auto becomes = next.begin();
+    for (const Named& one : paths_) one.path->follow(**becomes++, now, by);
+    for (Absent& one : absent_) one.director = **becomes++;
+    if (newcomers_) newcomers_ = **becomes;
     if (generations() != before) ++generation_;
-    if (newcomers_) forget_absent(commands.back(), mentioned);
+    if (newcomers_ && last) forget_absent(*last, mentioned);
     find_next_change();
     return {};
 }
@@ -145,7 +209,7 @@ void Paths::forget_absent(const Command& command, std::span<const std::string> m
 {
     if (std::holds_alternative<Set>(command)) return;
     mentioned_ = std::holds_alternative<Reset>(command)
-                     ? paths_in(profile_)
+                     ? said_of_
                      : std::vector<std::string>{mentioned.begin(), mentioned.end()};
     std::erase_if(absent_, [&](const Absent& one) {
         return std::ranges::find(mentioned_, one.name) == mentioned_.end();

@@ -63,7 +63,8 @@ public:
         advance_all(now_);
     }
 
-    /// What a path is told, by its name and the conditions that hold on it.
+    /// What a path is told, by its name and the conditions that hold on it. Those whose names are
+    /// not mentioned are told the same by the same conditions.
     using CommandFor =
         std::function<base::Result<Command>(std::string_view path, const Path& conditions)>;
 
@@ -120,6 +121,8 @@ private:
         Director director;
     };
 
+    class Twins;
+
     void advance_all(base::TimePoint now);
     void refresh_due_times()
     {
@@ -129,10 +132,14 @@ private:
     base::Result<void> expect(std::span<const std::string> mentioned);
     void forget_absent(const Command& command, std::span<const std::string> mentioned);
     [[nodiscard]] Director director_for(const std::string& name);
+    /// As if it had been there from the start, and nothing had been changed.
+    [[nodiscard]] Director beginning_of(const std::string& name) const;
     [[nodiscard]] std::uint64_t generations() const;
 
     Profile profile_;
     Setup setup_;
+    Director beginning_;                // of those of which the profile says nothing of their own
+    std::vector<std::string> said_of_;  // the others
     std::optional<Director> newcomers_; // what holds for whoever comes
     std::vector<Absent> absent_;        // what holds for some of them, or elsewhere
     std::vector<std::string> mentioned_;

@@ -26,8 +26,8 @@ struct Statistics {
     std::uint64_t bytes_in = 0;  // payload of `received`
     std::uint64_t bytes_out = 0; // payload of `delivered`
     std::array<std::uint64_t, drop_causes.size()> dropped{};
-    base::DurationHistogram lateness; // of each delivered one: left minus due
-    base::DurationHistogram sojourn;  // before a bottleneck, of each that it sent
+    base::SnapshotHistogram lateness; // of each delivered one: left minus due
+    base::SnapshotHistogram sojourn;  // before a bottleneck, of each that it sent
 
     [[nodiscard]] std::uint64_t& dropped_by(DropCause cause);
     [[nodiscard]] std::uint64_t dropped_by(DropCause cause) const;

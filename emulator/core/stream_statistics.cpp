@@ -29,7 +29,7 @@ std::optional<double> ratio(std::uint64_t part, std::uint64_t whole)
 
 } // namespace
 
-void StreamStatistics::Running::add(base::Duration value)
+void StreamTotals::Running::add(base::Duration value)
 {
     ++count;
     const double deviation = base::to_nanoseconds(value) - mean;
@@ -37,7 +37,7 @@ void StreamStatistics::Running::add(base::Duration value)
     squares += deviation * (base::to_nanoseconds(value) - mean);
 }
 
-std::optional<Moments> StreamStatistics::Running::moments() const
+std::optional<Moments> StreamTotals::Running::moments() const
 {
     if (count == 0) return std::nullopt;
     Moments moments{nearest_duration(mean), {}};
@@ -48,7 +48,7 @@ std::optional<Moments> StreamStatistics::Running::moments() const
 
 void StreamStatistics::on_packet(const Fate& fate)
 {
-    if (!fate.drop) requested_.add(fate.delay);
+    if (!fate.drop) totals_.requested.add(fate.delay);
 }
 
 void StreamStatistics::on_sent(const Datagram& datagram, base::TimePoint at)
@@ -56,14 +56,14 @@ void StreamStatistics::on_sent(const Datagram& datagram, base::TimePoint at)
     if (datagram.is_copy) return;
     const Times times{datagram.arrival, at};
     const auto delay = at - datagram.arrival;
-    delay_.add(delay);
-    delays_.add(delay);
+    totals_.delay.add(delay);
+    totals_.delays.add(delay);
     if (last_) {
         const auto variation = delay - (last_->sent - last_->arrival);
-        variations_.add(std::max(variation, -variation));
+        totals_.variations.add(std::max(variation, -variation));
         const auto gap = at - last_->sent;
-        gaps_.add(gap);
-        if (gap < clump_gap) ++clumped_;
+        totals_.gaps.add(gap);
+        if (gap < clump_gap) ++totals_.clumped;
     }
     last_ = times;
     if (datagram.number >= beyond_highest_) {
@@ -77,22 +77,21 @@ void StreamStatistics::on_sent(const Datagram& datagram, base::TimePoint at)
 void StreamStatistics::in_order(std::uint64_t number, const Times& times)
 {
     if (const auto missing = number - beyond_highest_; missing > 0) {
-        ++missing_runs_;
-        missing_ += missing;
-        missing_run_max_ = std::max(missing_run_max_, missing);
+        ++totals_.missing_runs;
+        totals_.missing += missing;
+        totals_.missing_run_max = std::max(totals_.missing_run_max, missing);
     }
     beyond_highest_ = number + 1;
     remember({number, departures_});
-    if (!freshest_) {
-        first_fresh_ = times;
-    } else {
+    if (freshest_) {
+        totals_.fresh_time += times.sent - freshest_->sent;
         // Between two updates the age grows by the second every second: a trapezium.
         const auto from = freshest_->sent - freshest_->arrival;
         const auto peak = times.sent - freshest_->arrival;
-        age_area_ += base::to_nanoseconds(times.sent - freshest_->sent) *
-                     base::to_nanoseconds(from + peak) / 2.0;
-        peaks_.add(peak);
-        peak_max_ = std::max(peak_max_, peak);
+        totals_.age_area += base::to_nanoseconds(times.sent - freshest_->sent) *
+                            base::to_nanoseconds(from + peak) / 2.0;
+        totals_.peaks.add(peak);
+        totals_.peak_max = std::max(totals_.peak_max, peak);
     }
     freshest_ = times;
 }
@@ -121,35 +120,34 @@ void StreamStatistics::out_of_order(std::uint64_t number)
             low = middle + 1;
         }
     }
-    if (low == oldest && oldest > 0) ++beyond_look_back_;
+    if (low == oldest && oldest > 0) ++totals_.beyond_look_back;
     const auto extent = departures_ - at(low).place;
-    ++reordered_;
-    extents_ += extent;
-    extent_max_ = std::max(extent_max_, extent);
+    ++totals_.reordered;
+    totals_.extents += extent;
+    totals_.extent_max = std::max(totals_.extent_max, extent);
 }
 
-StreamReport StreamStatistics::report() const
+StreamReport StreamTotals::report() const
 {
     StreamReport report;
-    report.requested_delay = requested_.moments();
-    report.delay = delay_.moments();
-    report.delay_quantiles = quantiles_of(delays_);
-    report.delay_variation = quantiles_of(variations_);
-    report.gap = quantiles_of(gaps_);
-    report.clumped_share = ratio(clumped_, gaps_.count());
-    report.missing_runs = missing_runs_;
-    report.missing_run_mean = ratio(missing_, missing_runs_);
-    report.missing_run_max = missing_run_max_;
-    report.reordered = reordered_;
-    report.reorder_extent_mean = ratio(extents_, reordered_);
-    report.reorder_extent_max = extent_max_;
-    report.beyond_look_back = beyond_look_back_;
-    if (peaks_.count > 0) {
-        report.peak_age_mean = peaks_.moments()->mean;
-        report.peak_age_max = peak_max_;
-        const auto time = freshest_->sent - first_fresh_->sent;
-        if (time > base::Duration{0})
-            report.age_mean = nearest_duration(age_area_ / base::to_nanoseconds(time));
+    report.requested_delay = requested.moments();
+    report.delay = delay.moments();
+    report.delay_quantiles = quantiles_of(delays);
+    report.delay_variation = quantiles_of(variations);
+    report.gap = quantiles_of(gaps);
+    report.clumped_share = ratio(clumped, gaps.count());
+    report.missing_runs = missing_runs;
+    report.missing_run_mean = ratio(missing, missing_runs);
+    report.missing_run_max = missing_run_max;
+    report.reordered = reordered;
+    report.reorder_extent_mean = ratio(extents, reordered);
+    report.reorder_extent_max = extent_max;
+    report.beyond_look_back = beyond_look_back;
+    if (peaks.count > 0) {
+        report.peak_age_mean = peaks.moments()->mean;
+        report.peak_age_max = peak_max;
+        if (fresh_time > base::Duration{0})
+            report.age_mean = nearest_duration(age_area / base::to_nanoseconds(fresh_time));
     }
     return report;
 }

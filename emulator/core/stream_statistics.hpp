@@ -76,20 +76,8 @@ struct StreamReport {
     std::optional<base::Duration> peak_age_max;
 };
 
-/// Measures one direction as it goes, in memory of a fixed size.
-class StreamStatistics {
-public:
-    /// The datagram that arrived was given this fate.
-    void on_packet(const Fate& fate);
-
-    /// The datagram left at `at`, not before the one that left before it.
-    void on_sent(const Datagram& datagram, base::TimePoint at);
-
-    [[nodiscard]] StreamReport report() const;
-    /// The one-way delays.
-    [[nodiscard]] const base::DurationHistogram& delays() const { return delays_; }
-
-private:
+/// What has been measured of one direction so far.
+struct StreamTotals {
     /// Mean and variance in one pass (Welford 1962), in nanoseconds.
     struct Running {
         std::uint64_t count = 0;
@@ -99,6 +87,41 @@ private:
         void add(base::Duration value);
         [[nodiscard]] std::optional<Moments> moments() const;
     };
+
+    Running requested;
+    Running delay;
+    base::SnapshotHistogram delays; // one-way
+    base::SnapshotHistogram variations;
+    base::SnapshotHistogram gaps;
+    std::uint64_t clumped = 0;
+    std::uint64_t missing_runs = 0;
+    std::uint64_t missing = 0;
+    std::uint64_t missing_run_max = 0;
+    std::uint64_t reordered = 0;
+    std::uint64_t extents = 0; // their sum
+    std::uint64_t extent_max = 0;
+    std::uint64_t beyond_look_back = 0;
+    base::Duration fresh_time{}; // from the first to the last in-order departure
+    double age_area = 0.0;       // nanoseconds squared
+    Running peaks;
+    base::Duration peak_max{};
+
+    [[nodiscard]] StreamReport report() const;
+};
+
+/// Measures one direction as it goes, in memory of a fixed size.
+class StreamStatistics {
+public:
+    /// The datagram that arrived was given this fate.
+    void on_packet(const Fate& fate);
+
+    /// The datagram left at `at`, not before the one that left before it.
+    void on_sent(const Datagram& datagram, base::TimePoint at);
+
+    [[nodiscard]] const StreamTotals& totals() const { return totals_; }
+    [[nodiscard]] StreamReport report() const { return totals_.report(); }
+
+private:
     /// An in-order departure.
     struct Record {
         std::uint64_t number = 0;
@@ -115,32 +138,13 @@ private:
     void out_of_order(std::uint64_t number);
     void remember(const Record& record);
 
-    Running requested_;
-    Running delay_;
-    base::DurationHistogram delays_;
-    base::DurationHistogram variations_;
-    base::DurationHistogram gaps_;
-    std::uint64_t clumped_ = 0;
+    StreamTotals totals_;
     std::optional<Times> last_;
     std::uint64_t departures_ = 0;
-
-    std::uint64_t beyond_highest_ = 0; // the highest number that departed, plus one
-    std::uint64_t missing_runs_ = 0;
-    std::uint64_t missing_ = 0;
-    std::uint64_t missing_run_max_ = 0;
-
+    std::uint64_t beyond_highest_ = 0;                // the highest number that departed, plus one
     std::array<Record, reorder_look_back> records_{}; // a ring, ascending in number and place
     std::uint64_t recorded_ = 0;
-    std::uint64_t reordered_ = 0;
-    std::uint64_t extents_ = 0; // their sum
-    std::uint64_t extent_max_ = 0;
-    std::uint64_t beyond_look_back_ = 0;
-
-    std::optional<Times> first_fresh_;
-    std::optional<Times> freshest_;
-    double age_area_ = 0.0; // nanoseconds squared
-    Running peaks_;
-    base::Duration peak_max_{};
+    std::optional<Times> freshest_; // the last in-order departure
 };
 
 } // namespace hapnet::emulator

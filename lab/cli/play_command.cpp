@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/play_command.hpp"
 
+#include "emulator/control/request.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "lab/cli/files.hpp"
 #include "lab/experiment/session_spec.hpp"
@@ -42,7 +43,7 @@ constexpr base::Duration turn = 16ms;
 /// Of a turn that plays as fast as possible.
 constexpr base::Duration playing_max = 12ms;
 constexpr base::Duration played_at_once = 20ms;
-constexpr control::Server::Limits limits{.answers = 8};
+constexpr control::Server::Limits limits{.line_bytes = emulator::request_bytes_max, .answers = 8};
 
 base::Result<std::string> preset_text(const std::string& name)
 {
@@ -191,7 +192,7 @@ int play_live(const PlayCommand& command, Played& session, base::Duration tick)
         while (!stop.requested() && !is_over) {
             auto deadline = std::optional{end};
             for (const Served& one : all) {
-                one.server->serve(one.subject, net::monotonic_now(), std::nullopt);
+                one.server->serve(one.subject, net::monotonic_now());
                 deadline = base::earlier(deadline, one.server->next_deadline());
             }
             if (base::is_due(end, net::monotonic_now())) break;

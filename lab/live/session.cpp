@@ -103,12 +103,9 @@ void Session::begin()
     for (std::size_t group = 0; group < world_->groups(); ++group) {
         emulations_.push_back(
             {.paths = world_->paths(group),
-             .statistics_json = [this] { return statistics().dump(); },
-             .open = [](const std::string& name, const std::string&) -> base::Result<std::string> {
-                 return base::fail(name + ": no files are read here");
-             },
-             .preset = presets_,
-             .stop = [] {}});
+             .statistics = [this](const control::DoWork&) { return statistics(); },
+             .stop = [] {},
+             .preset = presets_});
     }
     frames_ = std::make_shared<emulator::Frames>();
     for (std::size_t seat = 0; seat < peers(); ++seat) {
@@ -234,7 +231,7 @@ control::FrameSource Session::watch()
     };
     return [this, watch = std::make_shared<Watch>()](std::string& text, std::uint64_t left_out) {
         if (watch->life != lives_) {
-            *watch = {lives_, frames_->watch(emulations_.front().paths)};
+            *watch = {lives_, frames_->watch(emulations_.front().paths, control::do_at_once)};
         }
         emulations_.front().paths.catch_up(world_->now());
         watch->next(text, left_out);
@@ -324,9 +321,8 @@ nlohmann::ordered_json Session::steps() const
     for (const auto& [name, path] : world_->paths().all()) {
         for (const emulator::ConditionChange& change : path->changes().entries()) {
             Json settings = Json::object();
-            for (const auto& [way, patch] : {std::pair{emulator::Direction::up, &change.up},
-                                             std::pair{emulator::Direction::down, &change.down}}) {
-                for (const auto& [key, value] : emulator::texts_of(way, *patch, name))
+            for (const auto way : {emulator::Direction::up, emulator::Direction::down}) {
+                for (const auto& [key, value] : emulator::texts_of(way, change.patch(way), name))
                     settings[key] = value;
             }
             steps.push_back(
@@ -355,7 +351,9 @@ base::Result<experiment::Experiment> Session::as_experiment() const
     saved.record = !saved.keyed;
     saved.timeline.clear();
     for (const emulator::ConditionChange& change : path.changes().entries()) {
-        saved.timeline.push_back({.time = change.elapsed, .up = change.up, .down = change.down});
+        saved.timeline.push_back({.time = change.elapsed,
+                                  .up = change.patch(emulator::Direction::up),
+                                  .down = change.patch(emulator::Direction::down)});
     }
     for (emulator::Change change : remaining) {
         change.time += at();

@@ -48,7 +48,7 @@ void ControlSession::serve(base::TimePoint now)
         parts_.servo.request_status();
         next_request_ = now + request_every;
     }
-    if (status_) parts_.server.serve(subject_, now, std::nullopt);
+    if (status_) parts_.server.serve(subject_, now);
 }
 
 } // namespace hapnet::peer::monitor

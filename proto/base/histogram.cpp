@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 namespace hapnet::base {
 
@@ -32,16 +33,37 @@ void DurationHistogram::add(Duration duration)
 {
     const auto nanoseconds =
         static_cast<std::uint64_t>(std::max<Duration::rep>(0, duration.count()));
-    ++counts_[bin_of(nanoseconds)];
+    const std::size_t bin = bin_of(nanoseconds);
+    ++counts_[bin];
     ++count_;
     max_ = std::max(max_, nanoseconds);
+    first_ = std::min(first_, bin);
+}
+
+void DurationHistogram::assign(const DurationHistogram& other)
+{
+    if (this == &other) return;
+    const auto own = std::span{counts_};
+    std::ranges::fill(own.subspan(first_, end_bin() - first_), 0);
+    const auto filled =
+        std::span{other.counts_}.subspan(other.first_, other.end_bin() - other.first_);
+    std::ranges::copy(filled, own.subspan(other.first_).begin());
+    count_ = other.count_;
+    max_ = other.max_;
+    first_ = other.first_;
+}
+
+std::size_t DurationHistogram::filled_bytes() const
+{
+    return (end_bin() - first_) * sizeof counts_.front();
 }
 
 void DurationHistogram::add(const DurationHistogram& other)
 {
-    for (std::size_t i = 0; i < bins; ++i) counts_[i] += other.counts_[i];
+    for (std::size_t i = other.first_; i < other.end_bin(); ++i) counts_[i] += other.counts_[i];
     count_ += other.count_;
     max_ = std::max(max_, other.max_);
+    first_ = std::min(first_, other.first_);
 }
 
 std::optional<Duration> DurationHistogram::quantile(double q) const
@@ -51,7 +73,7 @@ std::optional<Duration> DurationHistogram::quantile(double q) const
     const auto wanted = std::max<std::uint64_t>(
         1, static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))));
     std::uint64_t seen = 0;
-    for (std::size_t bin = 0; bin < bins; ++bin) {
+    for (std::size_t bin = first_; bin < bins; ++bin) {
         seen += counts_[bin];
         if (seen >= wanted) {
             return Duration{static_cast<Duration::rep>(std::min(upper_edge(bin), max_))};

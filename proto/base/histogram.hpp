@@ -23,6 +23,12 @@ public:
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
 
+    /// Becomes the same as the other. Costs as much as there is between the smallest and the
+    /// largest value of both, and not all of the 20 KiB.
+    void assign(const DurationHistogram& other);
+    /// How many bytes of it another one is assigned.
+    [[nodiscard]] std::size_t filled_bytes() const;
+
     /// The upper edge of the bin that holds quantile q (0 < q <= 1), at most max(); nullopt
     /// when nothing was added.
     [[nodiscard]] std::optional<Duration> quantile(double q) const;
@@ -47,10 +53,32 @@ private:
 
     [[nodiscard]] static std::size_t bin_of(std::uint64_t nanoseconds);
     [[nodiscard]] static std::uint64_t upper_edge(std::size_t bin);
+    /// One more than that of the largest value.
+    [[nodiscard]] std::size_t end_bin() const { return count_ > 0 ? bin_of(max_) + 1 : first_; }
 
     std::array<std::uint64_t, bins> counts_{};
     std::uint64_t count_ = 0;
     std::uint64_t max_ = 0;
+    std::size_t first_ = bins; // the bin of the smallest value
+};
+
+/// The same, copied by assign(): for who must not be kept waiting while it is copied.
+class SnapshotHistogram : public DurationHistogram {
+public:
+    SnapshotHistogram() = default;
+    ~SnapshotHistogram() = default;
+    SnapshotHistogram(const SnapshotHistogram& other) : DurationHistogram{} { assign(other); }
+    SnapshotHistogram(SnapshotHistogram&& other) noexcept : DurationHistogram{} { assign(other); }
+    SnapshotHistogram& operator=(const SnapshotHistogram& other)
+    {
+        assign(other);
+        return *this;
+    }
+    SnapshotHistogram& operator=(SnapshotHistogram&& other) noexcept
+    {
+        assign(other);
+        return *this;
+    }
 };
 
 } // namespace hapnet::base

@@ -96,6 +96,16 @@ Result<std::string> Reading::open(const std::string& name) const
     return open_(name);
 }
 
+Error Reading::trouble_in(const std::string& file, std::string_view what) const
+{
+    if (open_.is_quoted()) return Error{fmt::format("{}: {}", file, what)};
+    const auto end = what.starts_with("line ") ? what.find_first_not_of("0123456789", 5) : 0;
+    const auto line = what.substr(0, end);
+    return Error{
+        fmt::format("{}: {}is not what belongs there", file,
+                    line.empty() ? std::string{"what it holds "} : std::string{line} + " ")};
+}
+
 std::optional<std::string_view> nearest(std::string_view word,
                                         std::span<const std::string_view> possible)
 {

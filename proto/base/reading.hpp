@@ -7,6 +7,7 @@
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -21,7 +22,33 @@
 namespace hapnet::base {
 
 /// Gives the text of a file that a text names, or says why not.
-using OpenFile = std::function<Result<std::string>(const std::string& name)>;
+class OpenFile {
+public:
+    /// There are no files.
+    OpenFile() = default;
+    template <std::invocable<const std::string&> Open>
+    OpenFile(Open open) : open_{std::move(open)} // NOLINT(google-explicit-constructor)
+    {}
+
+    /// The same files for whoever may name them but not read them: nothing quotes what is in them.
+    [[nodiscard]] OpenFile unquoted() const
+    {
+        OpenFile copy = *this;
+        copy.is_quoted_ = false;
+        return copy;
+    }
+    [[nodiscard]] bool is_quoted() const { return is_quoted_; }
+
+    [[nodiscard]] explicit operator bool() const { return static_cast<bool>(open_); }
+    [[nodiscard]] Result<std::string> operator()(const std::string& name) const
+    {
+        return open_(name);
+    }
+
+private:
+    std::function<Result<std::string>(const std::string& name)> open_;
+    bool is_quoted_ = true;
+};
 
 /// The value of an option on a command line, as it stands in TOML but for the quotes of a text:
 /// `5ms`, `{ law = "normal", sd = "3ms" }`, `["5%", "40/100"]`. With `is_bare` a number or a truth
@@ -44,6 +71,9 @@ public:
     [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
 
     [[nodiscard]] Result<std::string> open(const std::string& name) const;
+    /// What is wrong in a file that was opened: "FILE: line 3: ..."; only the line, if the file is
+    /// not to be quoted. `what` begins with the line, if there is one to name.
+    [[nodiscard]] Error trouble_in(const std::string& file, std::string_view what) const;
 
 private:
     std::string source_;

@@ -5,7 +5,6 @@
 #include "proto/control/core/reply.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -13,16 +12,6 @@
 namespace hapnet::control {
 
 namespace {
-
-using namespace std::chrono_literals;
-
-/// What the answer to an ordinary request takes at most, and how long it may be put off for the
-/// sake of what is due.
-constexpr base::Duration answer_takes = 300us;
-constexpr base::Duration put_off_max = 20ms;
-
-/// A relay that turns more often than this looks after its clients this often only.
-constexpr base::Duration turn_min = 200us;
 
 constexpr std::size_t read_bytes_max = std::size_t{64} << 10;
 constexpr std::size_t admitted_at_a_time = 4;
@@ -39,7 +28,7 @@ Server::Server(std::string path, const Limits& limits) : listener_{std::move(pat
 
 std::optional<base::TimePoint> Server::next_deadline() const
 {
-    if (has_more_) return last_served_;
+    if (has_more_) return base::TimePoint{};
     std::optional<base::TimePoint> next;
     for (const auto& client : clients_) {
         if (client) next = base::earlier(next, client->conversation.next_deadline());
@@ -47,13 +36,8 @@ std::optional<base::TimePoint> Server::next_deadline() const
     return next;
 }
 
-void Server::serve(const Subject& subject, base::TimePoint now,
-                   std::optional<base::TimePoint> next_departure)
+void Server::serve(const Subject& subject, base::TimePoint now)
 {
-    const auto since = now - last_served_;
-    const bool is_in_the_way = base::is_due(next_departure, now + answer_takes);
-    if (since < (is_in_the_way ? put_off_max : turn_min)) return;
-    last_served_ = now;
     bool is_somebody_new = false;
     for (const net::Ready& ready : wait_set_.ready()) {
         if (ready.key == listener_key) {

@@ -17,7 +17,7 @@
 namespace hapnet::control {
 
 /// A control socket and those who are connected to it. Moves bytes between them and their
-/// Conversations, a little at a time, so that whoever serves it is not kept from what is due.
+/// Conversations, a little at a time, so that whoever serves it can do something else in between.
 class Server {
 public:
     static constexpr std::size_t clients_max = 16;
@@ -41,10 +41,8 @@ public:
     /// When serve() is to be called again although descriptor() is not readable.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
-    /// Does a little of what there is to do: no more is answered than the limits say. Puts it off,
-    /// for a while, when the next datagram is due to leave before it would be done.
-    void serve(const Subject& subject, base::TimePoint now,
-               std::optional<base::TimePoint> next_departure);
+    /// Does a little of what there is to do: no more is answered than the limits say.
+    void serve(const Subject& subject, base::TimePoint now);
 
 private:
     struct Client {
@@ -69,7 +67,6 @@ private:
     std::deque<Conversation> departed_; // their clients are gone, what they have asked is not done
     std::size_t turn_ = 0;              // whose request is looked at first
     bool has_more_ = false;             // somebody's request waits already
-    base::TimePoint last_served_{};
 };
 
 } // namespace hapnet::control

@@ -11,4 +11,23 @@ namespace hapnet::net {
 /// The whole text of a file of at most 64 MiB; the error names it and says why it cannot be read.
 [[nodiscard]] base::Result<std::string> text_of_file(const std::string& path);
 
+/// Files that somebody else may name: those below one folder. Of a name that leads out of it,
+/// through "..", from the root or by a symbolic link, nothing is opened, and nothing is told.
+class Folder {
+public:
+    /// Throws std::system_error when it cannot be opened.
+    explicit Folder(const std::string& path);
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    /// The whole text of a regular file below it, of at most 64 MiB. The name may also begin with
+    /// the path of the folder.
+    [[nodiscard]] base::Result<std::string> text_of(const std::string& name) const;
+
+private:
+    std::string path_;
+    int descriptor_;
+};
+
 } // namespace hapnet::net

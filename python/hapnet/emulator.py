@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+from typing import Any, Dict, Mapping, Optional, Tuple
 
 from hapnet.control import Reply
 from hapnet.process import Daemon, option_words
@@ -67,21 +67,42 @@ class Emulator(Daemon):
         """Where B sends to."""
         return address_of(self.ready["b"])
 
-    def set(self, *, for_: Optional[str] = None, **settings: str) -> Reply:
+    def set(
+        self,
+        *,
+        for_: Optional[str] = None,
+        files: Optional[Mapping[str, str]] = None,
+        **settings: str,
+    ) -> Reply:
         """Changes conditions from the next datagram on: `set(loss="5%", up_delay="80ms")`. With
-        `for_="2s"` they end by themselves. The reply says from which datagram on they hold."""
-        members = {key_of(key): str(value) for key, value in settings.items()}
-        if for_ is None:
-            return self.control.request("set", settings=members)
-        return self.control.request("set", settings=members, **{"for": for_})
+        `for_="2s"` they end by themselves. `files`: the texts of files that laws name, by these
+        names, 1 MiB together at most. The reply says from which datagram on they hold."""
+        members: Dict[str, Any] = {
+            "settings": {key_of(key): str(value) for key, value in settings.items()}
+        }
+        if for_ is not None:
+            members["for"] = for_
+        if files is not None:
+            members["files"] = dict(files)
+        return self.control.request("set", **members)
 
-    def apply(self, *, preset: Optional[str] = None, profile: Optional[str] = None) -> Reply:
-        """Replaces the profile: by a built-in one, or by the text of one in TOML."""
+    def apply(
+        self,
+        *,
+        preset: Optional[str] = None,
+        profile: Optional[str] = None,
+        files: Optional[Mapping[str, str]] = None,
+    ) -> Reply:
+        """Replaces the profile: by a built-in one, or by the text of one in TOML. `files`: the
+        texts of files that it names, by these names, 1 MiB together at most."""
         if (preset is None) == (profile is None):
             raise ValueError("either preset or profile")
         if preset is not None:
             return self.control.request("apply", preset=preset)
-        return self.control.request("apply", profile=profile, file="profile.toml")
+        members: Dict[str, Any] = {"profile": profile, "file": "profile.toml"}
+        if files is not None:
+            members["files"] = dict(files)
+        return self.control.request("apply", **members)
 
     def reset(self) -> Reply:
         """Back to the profile of the start."""

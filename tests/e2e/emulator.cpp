@@ -4,11 +4,13 @@
 
 #include "tests/e2e/udp.hpp"
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <thread>
 
 namespace hapnet::e2e {
 
@@ -40,6 +42,35 @@ nlohmann::json Emulator::stop(int signal_number)
     expect_identity(statistics["up"]);
     expect_identity(statistics["down"]);
     return statistics;
+}
+
+std::string said_by(const std::string& socket, std::string_view text)
+{
+    auto stream = net::UnixStream::connect(socket);
+    while (!text.empty()) {
+        const auto sent = stream.write(text);
+        if (sent.state == net::Transfer::State::gone) break;
+        text.remove_prefix(sent.bytes);
+        std::this_thread::sleep_for(1ms);
+    }
+    return heard(stream);
+}
+
+std::string heard(net::UnixStream& stream)
+{
+    std::string text;
+    std::array<char, 4096> buffer{};
+    for (int i = 0; i < 5000 && text.find('\n') == std::string::npos; ++i) {
+        const auto taken = stream.read(buffer);
+        if (taken.state == net::Transfer::State::moved) {
+            text.append(buffer.data(), taken.bytes);
+        } else if (taken.state != net::Transfer::State::later) {
+            break;
+        } else {
+            std::this_thread::sleep_for(1ms);
+        }
+    }
+    return text;
 }
 
 void expect_identity(const nlohmann::json& direction)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/net/endpoint.hpp"
+#include "proto/net/unix_socket.hpp"
 #include "tests/e2e/process.hpp"
 
 #include <nlohmann/json.hpp>
@@ -38,6 +39,12 @@ private:
     std::optional<net::Endpoint> a_;
     std::optional<net::Endpoint> b_;
 };
+
+/// What a program says on its control socket to a client that sends `text` and no more: a line, or
+/// what came until the connection was closed.
+[[nodiscard]] std::string said_by(const std::string& socket, std::string_view text);
+/// The same of what a client has sent; nothing after 5 s of silence.
+[[nodiscard]] std::string heard(net::UnixStream& stream);
 
 /// Expects received + duplicated = delivered + dropped + in_flight in one direction's statistics.
 void expect_identity(const nlohmann::json& direction);

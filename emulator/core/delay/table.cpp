@@ -61,7 +61,7 @@ base::Result<void> TableLaw::load(const base::Reading& reading)
     if (!text) return tl::unexpected{text.error()};
     const bool is_dist = file.ends_with(".dist");
     auto read = is_dist ? parse_dist(*text) : parse_samples(*text);
-    if (!read) return base::fail(fmt::format("{}: {}", file, read.error().message));
+    if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     table = *std::move(read);
     return {};
 }

@@ -34,8 +34,13 @@ std::vector<LossProperty> ListedLoss::properties(const RunFacts& facts) const
 
 bool ListedLoss::Model::on_packet(const Packet& packet, const base::RandomStream& /*stream*/)
 {
-    const auto& lost = law_.numbers;
-    while (next_ < lost.size() && lost[next_] < packet.number) ++next_;
+    const auto& lost = law_.numbers.get();
+    // After a change the place may be far away.
+    if (next_ < lost.size() && lost[next_] < packet.number) {
+        const auto from = lost.begin() + static_cast<std::ptrdiff_t>(next_);
+        const auto place = std::lower_bound(from, lost.end(), packet.number);
+        next_ = static_cast<std::size_t>(place - lost.begin());
+    }
     return next_ < lost.size() && lost[next_] == packet.number;
 }
 

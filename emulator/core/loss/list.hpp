@@ -6,6 +6,7 @@
 #include "emulator/core/packet.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
+#include "proto/base/shared_vector.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace hapnet::emulator {
 
 /// The datagrams of these numbers, ascending.
 struct ListedLoss {
-    std::vector<std::uint64_t> numbers;
+    base::SharedVector<std::uint64_t> numbers;
 
     static constexpr DropCause cause = DropCause::listed_loss;
     static constexpr bool is_in_time = false;

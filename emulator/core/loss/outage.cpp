@@ -78,8 +78,14 @@ std::vector<LossProperty> Outage::properties(const RunFacts& /*facts*/) const
 
 bool Outage::Model::on_packet(const Packet& packet, const base::RandomStream& /*stream*/)
 {
-    const auto& outages = law_.windows;
-    while (next_ < outages.size() && outages[next_].to <= packet.at) ++next_;
+    const auto& outages = law_.windows.get();
+    // After a change the place may be far away.
+    if (next_ < outages.size() && outages[next_].to <= packet.at) {
+        const auto from = outages.begin() + static_cast<std::ptrdiff_t>(next_);
+        const auto place = std::partition_point(
+            from, outages.end(), [&](const Window& one) { return one.to <= packet.at; });
+        next_ = static_cast<std::size_t>(place - outages.begin());
+    }
     return next_ < outages.size() && outages[next_].from <= packet.at;
 }
 

@@ -6,6 +6,7 @@
 #include "emulator/core/packet.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
+#include "proto/base/shared_vector.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
@@ -23,7 +24,7 @@ struct Window {
 
 /// Windows, ascending and apart from each other.
 struct Outage {
-    std::vector<Window> windows;
+    base::SharedVector<Window> windows;
 
     static constexpr DropCause cause = DropCause::outage;
     static constexpr bool is_in_time = true;
@@ -47,9 +48,10 @@ struct WindowList {
 };
 constexpr auto fields_of(base::Tag<Outage>)
 {
-    return base::fields("outage", base::field("windows", &Outage::windows, WindowList{},
-                                              "times during which everything is lost")
-                                      .required());
+    return base::fields("outage",
+                        base::field("windows", &Outage::windows, base::InShared<WindowList>{},
+                                    "times during which everything is lost")
+                            .required());
 }
 
 /// Keeps its place among the windows.

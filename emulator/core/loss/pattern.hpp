@@ -6,6 +6,7 @@
 #include "emulator/core/packet.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
+#include "proto/base/shared_vector.hpp"
 
 #include <string>
 #include <string_view>
@@ -15,7 +16,7 @@ namespace hapnet::emulator {
 
 /// A pattern that repeats: true is lost. Not empty.
 struct PatternLoss {
-    std::vector<bool> pattern;
+    base::SharedVector<bool> pattern;
 
     static constexpr DropCause cause = DropCause::pattern_loss;
     static constexpr bool is_in_time = false;
@@ -45,7 +46,8 @@ struct PatternDigits {
 };
 constexpr auto fields_of(base::Tag<PatternLoss>)
 {
-    return base::fields("pattern", base::field("pattern", &PatternLoss::pattern, PatternDigits{},
+    return base::fields("pattern", base::field("pattern", &PatternLoss::pattern,
+                                               base::InShared<PatternDigits>{},
                                                "0 (passes) and 1 (lost), repeated")
                                        .required());
 }

@@ -121,7 +121,7 @@ base::Result<void> TraceLoss::load(const base::Reading& reading)
     const bool is_table =
         text->find_first_of(",abcdefghijklmnopqrstuvwxyz") < text->find_first_of("01#");
     auto read = is_table ? parse_loss_table(*text, *named) : parse_loss_trace(*text);
-    if (!read) return base::fail(fmt::format("{}: {}", file, read.error().message));
+    if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     trace = std::make_shared<const LossTrace>(*std::move(read));
     return {};
 }

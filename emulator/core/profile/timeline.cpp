@@ -7,27 +7,12 @@
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
-#include <variant>
 
 namespace hapnet::emulator {
 
 namespace {
 
 base::Duration end_of(const Change& change) { return change.time + change.ramp; }
-
-/// How many values the lists of these losses hold.
-std::size_t listed_in(const std::vector<LossLaw>& laws)
-{
-    std::size_t count = 0;
-    for (const LossLaw& law : laws) {
-        if (const auto* listed = std::get_if<ListedLoss>(&law)) count += listed->numbers.size();
-        if (const auto* outage = std::get_if<Outage>(&law)) count += 2 * outage->windows.size();
-        if (const auto* repeated = std::get_if<PatternLoss>(&law)) {
-            count += repeated->pattern.size() / 64;
-        }
-    }
-    return count;
-}
 
 } // namespace
 
@@ -53,12 +38,6 @@ base::Result<void> Timeline::add(const Change& change)
     base::ensure(steps_.empty() || steps_.back().change.time <= change.time);
     const std::size_t index = steps_.size();
     Step step{change, at(change.time, index), index};
-    listed_ += listed_in(step.before.up.loss) + listed_in(step.before.down.loss);
-    if (listed_ > listed_max) {
-        return base::fail(fmt::format("the lists of losses are too long for this many changes: at "
-                                      "most {} values in all, counted again at each change",
-                                      listed_max));
-    }
     if (change.ramp > base::Duration{0}) {
         auto valid = validate_ramp(step.before.up, change.up);
         if (valid) valid = validate_ramp(step.before.down, change.down);

@@ -25,10 +25,6 @@ public:
     /// The most ramps that may follow each other without a pause, or go on at once.
     static constexpr std::size_t ramps_max = 64;
 
-    /// The most values that the lists of losses may hold in all, each list counted again at each
-    /// change while it holds: what holds before a change is kept, 80 MB of it at most.
-    static constexpr std::size_t listed_max = 10'000'000;
-
     /// A change of a profile that cannot be made.
     struct BadChange {
         std::size_t index = 0; // in the timeline
@@ -64,7 +60,6 @@ private:
 
     Path start_;
     std::vector<Step> steps_;
-    std::size_t listed_ = 0; // values in the lists of all steps
 };
 
 } // namespace hapnet::emulator

@@ -216,7 +216,7 @@ base::Result<void> RateTraceLaw::load(const base::Reading& reading)
     const auto text = reading.open(file);
     if (!text) return tl::unexpected{text.error()};
     auto read = parse_rate_trace(*text, *named);
-    if (!read) return base::fail(fmt::format("{}: {}", file, read.error().message));
+    if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     trace = std::make_shared<const RateTrace>(*std::move(read));
     return {};
 }

@@ -29,6 +29,13 @@ public:
             fail("nested too deeply");
             return false;
         }
+        const bool is_whole = event == Json::parse_event_t::value ||
+                              event == Json::parse_event_t::object_start ||
+                              event == Json::parse_event_t::array_start;
+        if (is_whole && ++values_ > values_max) {
+            fail(fmt::format("more than {} values", values_max));
+            return false;
+        }
         if (event == Json::parse_event_t::object_start) keys_.emplace_back();
         if (event == Json::parse_event_t::object_end) keys_.pop_back();
         if (event == Json::parse_event_t::key && !keys_.back().insert(value).second) {
@@ -46,6 +53,7 @@ private:
     }
 
     std::vector<std::set<std::string>> keys_; // of the objects that are open
+    std::size_t values_ = 0;
     std::optional<std::string> error_;
 };
 

@@ -40,11 +40,14 @@ struct KeepRequest {
     std::optional<base::Duration> last;
 };
 
-/// How deep a request may be nested; an honest one needs 2.
+/// How deep a request may be nested, and how many values it may have in all; an honest one needs 3
+/// and some hundred. More is refused before it is kept: what stands in the tree is found by looking
+/// at all of it.
 inline constexpr std::size_t nesting_max = 16;
+inline constexpr std::size_t values_max = 512;
 
-/// Reads one line. Keeps the order of the members; refuses what is no object, is nested too deeply
-/// or says something twice.
+/// Reads one line. Keeps the order of the members; refuses what is no object, is nested too deeply,
+/// has too many values or says something twice.
 [[nodiscard]] base::Result<nlohmann::ordered_json> parse_object(std::string_view line);
 
 /// The members of a request; the first trouble is remembered.

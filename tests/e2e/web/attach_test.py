@@ -82,6 +82,14 @@ class Attach(unittest.TestCase):
         status, body = server.ask("POST", "/api/emulator",
                                   {"command": "set", "settings": {"both.delay": "30ms"}})
         self.assertEqual((status, json.loads(body)["generation"]), (200, 2))
+        for file in ("/etc/passwd", "/nowhere/at/all"):
+            status, body = server.ask("POST", "/api/emulator", {
+                "command": "apply",
+                "profile": f'up.delay = {{ law = "trace", file = "{file}" }}'})
+            self.assertEqual(status, 422)
+            self.assertIn(f"does not bring the file '{file}'", json.loads(body)["error"])
+        self.assertEqual(server.ask("POST", "/api/emulator", {
+            "command": "apply", "profile": "", "files": {"a": "1"}})[0], 400)
         self.assertEqual(server.stop(signal.SIGKILL), -signal.SIGKILL)
         again = self.serve(*daemons.arguments())
         again.wait_for(lambda now: now["emulator"]["conditions"]

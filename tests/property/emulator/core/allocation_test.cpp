@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <memory>
 #include <span>
 
 namespace hapnet::emulator {
@@ -33,6 +34,7 @@ TEST(Link, AllocatesNothingOnceItIsMade)
                                 .jitter = uniform(15ms),
                                 .order = Order::free,
                                 .reorder = {1_percent, {2, {}}}};
+    const auto shared = std::make_shared<const Conditions>(conditions);
     Link link{conditions, {base::Seed{42}, Direction::up, start, {}}};
     const std::array<std::byte, 1400> bytes{};
 
@@ -40,7 +42,7 @@ TEST(Link, AllocatesNothingOnceItIsMade)
     EXPECT_GT(before, 0U); // the counter is in place
     for (int i = 0; i < 100'000; ++i) {
         const auto now = start + i * 100us;
-        if (i == 50'000) link.change(conditions, now); // as a ramp does, again and again
+        if (i == 50'000) link.share(shared, now); // as a ramp does, again and again
         link.on_packet(std::span{bytes}.first(static_cast<std::size_t>(i) % bytes.size()), now);
         while (const auto departure = link.poll(now)) link.on_sent(*departure, now);
     }

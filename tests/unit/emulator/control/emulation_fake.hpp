@@ -55,14 +55,15 @@ struct EmulationFake {
 
     Paths paths;
     bool is_stopped = false;
-    nlohmann::json statistics{{"up", {{"received", 0}, {"lateness_us", {{"p50", nullptr}}}}},
-                              {"down", {{"received", 0}}},
-                              {"program", "fake"},
-                              {"valid", true}};
-    Emulation emulation{paths, [this] { return statistics.dump(2); },
-                        [](const std::string& name, const std::string&) { return no_files(name); },
-                        [](const std::string& name) { return preset(name); },
-                        [this] { is_stopped = true; }};
+    nlohmann::ordered_json statistics{
+        {"up", {{"received", 0}, {"lateness_us", {{"p50", nullptr}}}}},
+        {"down", {{"received", 0}}},
+        {"program", "fake"},
+        {"valid", true}};
+    Emulation emulation{.paths = paths,
+                        .statistics = [this](const control::DoWork&) { return statistics; },
+                        .stop = [this] { is_stopped = true; },
+                        .preset = [](const std::string& name) { return preset(name); }};
     control::Subject subject = subject_of(emulation);
 };
 

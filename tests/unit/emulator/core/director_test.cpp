@@ -185,7 +185,7 @@ TEST(Director, KeepsTheSeedOfTheRunWhateverIsApplied)
     Profile other = stepped();
     other.seed = base::Seed{7};
     ASSERT_TRUE(director.apply(Apply{other}, start));
-    EXPECT_EQ(director.profile().seed, plain().seed);
+    EXPECT_EQ(director.remaining().seed, plain().seed);
 }
 
 TEST(Director, ChangesNothingWhenTheSameProfileIsAppliedAgain)
@@ -208,7 +208,7 @@ TEST(Director, ReturnsOnResetToWhatWouldHoldIfNobodyHadChangedAnything)
     untouched.advance(start + 12s);
     EXPECT_EQ(director.path(), untouched.path());
     EXPECT_EQ(director.next_change(), start + 20s);
-    EXPECT_EQ(director.profile(), stepped());
+    EXPECT_EQ(director.script().profile(), stepped());
 }
 
 TEST(Director, FollowsARampInSmallSteps)

@@ -67,8 +67,8 @@ TEST(EmulatedPath, NotesAStepOfTheTimelineWithTheFirstDatagramThatMeetsIt)
     EXPECT_EQ(change.effective_up, 2U);
     EXPECT_EQ(change.effective_down, 0U);
     EXPECT_EQ(change.by, ChangeCause::timeline);
-    EXPECT_EQ(delay_in(change.up), 20ms);
-    EXPECT_EQ(change.down, Patch{});
+    EXPECT_EQ(delay_in(change.patch(Direction::up)), 20ms);
+    EXPECT_EQ(change.patch(Direction::down), Patch{});
 }
 
 TEST(EmulatedPath, NotesTheFirstAndTheLastStepOfARamp)
@@ -81,7 +81,7 @@ TEST(EmulatedPath, NotesTheFirstAndTheLastStepOfARamp)
     EXPECT_EQ(changes[1].generation, 3U);
     EXPECT_EQ(changes[2].elapsed, 3s);
     EXPECT_EQ(changes[2].generation, path.director().generation());
-    EXPECT_EQ(delay_in(changes[2].up), 50ms);
+    EXPECT_EQ(delay_in(changes[2].patch(Direction::up)), 50ms);
     EXPECT_EQ(changes[2].by, ChangeCause::timeline);
 }
 
@@ -93,10 +93,10 @@ TEST(EmulatedPath, NotesWhatIsSetByHandAndItsEnd)
     const auto& changes = path.changes().entries();
     ASSERT_EQ(changes.size(), 2U);
     EXPECT_EQ(changes[0].by, ChangeCause::hand);
-    EXPECT_EQ(delay_in(changes[0].down), 5ms);
+    EXPECT_EQ(delay_in(changes[0].patch(Direction::down)), 5ms);
     EXPECT_EQ(changes[1].by, ChangeCause::hand);
-    EXPECT_EQ(delay_in(changes[1].down), 0ms);
-    EXPECT_FALSE(changes[1].up.delay);
+    EXPECT_EQ(delay_in(changes[1].patch(Direction::down)), 0ms);
+    EXPECT_FALSE(changes[1].patch(Direction::up).delay);
 }
 
 TEST(EmulatedPath, NotesAStepThatIsDueWhenSomethingIsSetAsTheTimelinesOwn)
@@ -117,7 +117,7 @@ TEST(EmulatedPath, NotesAProfileThatWasReadAgain)
     ASSERT_TRUE(path.apply(Apply{other}, start + 500ms, ChangeCause::reload));
     ASSERT_EQ(path.changes().entries().size(), 1U);
     EXPECT_EQ(path.changes().entries().front().by, ChangeCause::reload);
-    EXPECT_EQ(delay_in(path.changes().entries().front().up), 70ms);
+    EXPECT_EQ(delay_in(path.changes().entries().front().patch(Direction::up)), 70ms);
 }
 
 TEST(ChangeLog, CountsWhatFindsNoRoom)

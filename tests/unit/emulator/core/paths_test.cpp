@@ -139,7 +139,7 @@ TEST(Paths, KeepTheirOwnChanges)
     paths.advance(start + 1s);
     ASSERT_EQ(first.changes().entries().size(), 1U);
     EXPECT_EQ(first.changes().entries().front().by, ChangeCause::timeline);
-    EXPECT_TRUE(first.changes().entries().front().up.delay);
+    EXPECT_TRUE(first.changes().entries().front().patch(Direction::up).delay);
     EXPECT_TRUE(second.changes().entries().empty());
     ASSERT_TRUE(set(paths, "1-3", 30ms, start + 2s));
     EXPECT_EQ(first.changes().entries().size(), 1U);
@@ -147,7 +147,7 @@ TEST(Paths, KeepTheirOwnChanges)
     EXPECT_EQ(second.changes().entries().front().elapsed, 2s);
     EXPECT_EQ(second.changes().entries().front().by, ChangeCause::hand);
     const auto again = [](std::string_view, const Path&) -> base::Result<Command> {
-        return Apply{};
+        return Apply{Profile{}};
     };
     ASSERT_TRUE(paths.apply(again, {}, start + 3s, ChangeCause::reload));
     ASSERT_EQ(second.changes().entries().size(), 2U);
@@ -169,7 +169,8 @@ TEST(Paths, AreToldAllOrNone)
         patch.delay = Variation{ConstantLaw{1s}, {}};
         return Set{patch, patch};
     };
-    EXPECT_FALSE(paths.apply(command, {}, start + 1s));
+    const std::vector<std::string> mentioned{"1-3"};
+    EXPECT_FALSE(paths.apply(command, mentioned, start + 1s));
     EXPECT_EQ(delay_of(first, Direction::up), 0s);
     EXPECT_EQ(paths.generation(), 1U);
     for (std::size_t i = 0; i <= Director::overrides_max; ++i) { // 1-3 takes no more of them
@@ -180,7 +181,7 @@ TEST(Paths, AreToldAllOrNone)
                 if (name == "1-3") patch.delay = Variation{ConstantLaw{delay}, {}};
                 return Set{patch, patch, 1h - i * 1s};
             },
-            {}, start + 2s);
+            mentioned, start + 2s);
         EXPECT_EQ(full.has_value(), i < Director::overrides_max);
     }
 }

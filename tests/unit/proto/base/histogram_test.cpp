@@ -47,6 +47,32 @@ TEST(Histogram, CountsWhatIsLongerThanALimit)
     EXPECT_EQ(histogram.count_above(5'000'000ns), 0U);
 }
 
+TEST(Histogram, IsAssignedWhole)
+{
+    DurationHistogram low;
+    DurationHistogram high;
+    for (int i = 1; i < 100; ++i) {
+        low.add(i * 1us);
+        high.add(i * 1s);
+    }
+    SnapshotHistogram copy;
+    copy.assign(low);
+    EXPECT_EQ(copy.quantile(0.5), low.quantile(0.5));
+    EXPECT_EQ(copy.count(), low.count());
+    EXPECT_LT(copy.filled_bytes(), 4000U);
+    copy.assign(high); // over what was there
+    EXPECT_EQ(copy.quantile(0.01), high.quantile(0.01));
+    EXPECT_EQ(copy.filled_bins().size(), high.filled_bins().size());
+    copy.add(low);
+    EXPECT_EQ(copy.count(), low.count() + high.count());
+    EXPECT_EQ(copy.quantile(0.01), low.quantile(0.02));
+    copy = SnapshotHistogram{};
+    EXPECT_EQ(copy.count(), 0U);
+    EXPECT_TRUE(copy.filled_bins().empty());
+    copy.add(3ms);
+    EXPECT_EQ(copy.quantile(0.5), 3ms);
+}
+
 TEST(Histogram, CountsNegativeDurationsAsZero)
 {
     DurationHistogram histogram;

@@ -32,7 +32,7 @@ protected:
 
     void serve(int times)
     {
-        for (int i = 0; i < times; ++i) server.serve(talker.subject, now += 1ms, std::nullopt);
+        for (int i = 0; i < times; ++i) server.serve(talker.subject, now += 1ms);
     }
 
     std::string path = (std::filesystem::temp_directory_path() /

@@ -115,6 +115,13 @@ private:
         }
     }
     template <typename T>
+    void draw(base::SharedVector<T>& value)
+    {
+        std::vector<T> elements;
+        draw(elements);
+        value = std::move(elements);
+    }
+    template <typename T>
     void draw(std::optional<T>& value)
     {
         if (below(2) == 0) draw(value.emplace());

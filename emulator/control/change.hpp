@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/emulation.hpp"
+#include "emulator/core/change_log.hpp"
+#include "emulator/core/paths.hpp"
+#include "emulator/core/profile/script.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What a profile of several paths is to each of them, made before they are told of it.
+class Scripts {
+public:
+    explicit Scripts(const Profile& profile);
+
+    /// Of those that have nothing of their own in it, it is the same.
+    [[nodiscard]] const std::shared_ptr<const Script>& of(std::string_view path) const;
+    /// The paths that have.
+    [[nodiscard]] const std::vector<std::string>& mentioned() const { return mentioned_; }
+
+    /// To follow it.
+    [[nodiscard]] Paths::CommandFor command() const;
+
+private:
+    std::shared_ptr<const Script> usual_;
+    std::map<std::string, std::shared_ptr<const Script>, std::less<>> own_;
+    std::vector<std::string> mentioned_;
+};
+
+/// The numbers of the next datagrams of a path.
+struct NextNumbers {
+    std::string name;
+    std::uint64_t up = 0;
+    std::uint64_t down = 0;
+};
+
+/// What a command has done.
+struct Effect {
+    std::uint64_t generation = 0;
+    bool has_changed = false;
+    base::TimePoint at{}; // since when
+    base::Duration elapsed{};
+    std::vector<NextNumbers> next; // of each path: for these it holds
+};
+
+/// Tells all paths at once, in one step of the emulation's work; see Paths::apply(). What the
+/// command takes the place of is freed by the thread that calls this.
+[[nodiscard]] base::Result<Effect> change(Emulation& emulation, const Paths::CommandFor& command,
+                                          std::span<const std::string> mentioned,
+                                          base::TimePoint now, ChangeCause by = ChangeCause::hand);
+
+} // namespace hapnet::emulator

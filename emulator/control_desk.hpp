@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/emulation.hpp"
+#include "proto/base/time.hpp"
+#include "proto/control/core/conversation.hpp"
+#include "proto/control/server.hpp"
+#include "proto/control/turns.hpp"
+#include "proto/net/text_file.hpp"
+#include "proto/net/wake_event.hpp"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace hapnet::emulator {
+
+/// All of a run that takes time and is no hurry, on a thread of its own beside the one that relays:
+/// it answers the clients of the control socket, reads the profile again, and tells a terminal how
+/// the run goes. What it needs of the paths, it orders of the thread that relays, in Turns.
+class ControlDesk {
+public:
+    struct Setup {
+        std::optional<std::string> socket{}; // its path
+        std::optional<std::string> files{};  // the folder whose files clients may name
+        /// Without its work and its folder, which the desk adds.
+        Emulation emulation;
+        /// Reads the profile again; null: there is none.
+        std::function<void(Emulation&)> reload{};
+        /// Something that is done from time to time; gives when the next time is.
+        std::function<std::optional<base::TimePoint>(base::TimePoint now,
+                                                     const control::DoWork& work)>
+            look{};
+    };
+
+    /// Begins: what `setup` refers to outlives it. Throws std::system_error when the socket cannot
+    /// be made or the folder not be opened. The signals that are to reach the calling thread alone
+    /// are blocked already. Without anything to do there is no thread.
+    explicit ControlDesk(Setup setup);
+    /// Ends the thread. What clients have asked is given up.
+    ~ControlDesk();
+    ControlDesk(const ControlDesk&) = delete;
+    ControlDesk& operator=(const ControlDesk&) = delete;
+
+    // By the thread that relays.
+
+    /// The work that it is to do.
+    [[nodiscard]] control::Turns& turns() { return turns_; }
+    [[nodiscard]] const control::Turns& turns() const { return turns_; }
+    /// Orders the profile to be read again.
+    void reload();
+    /// No more is answered; returns once the thread has ended.
+    void close();
+
+private:
+    void run();
+
+    Setup setup_;
+    control::Turns turns_;
+    std::unique_ptr<net::Folder> folder_;
+    control::Subject subject_;
+    std::unique_ptr<control::Server> server_;
+    net::WakeEvent wake_;
+    std::atomic<bool> wants_reload_{false};
+    std::atomic<bool> is_closing_{false};
+    std::thread thread_; // last: it uses the others
+};
+
+} // namespace hapnet::emulator

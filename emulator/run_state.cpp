@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/run_state.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+/// What a step copies until it leaves the rest to the next one.
+constexpr std::size_t step_bytes = 64 << 10;
+
+/// Gives how many bytes that took, about.
+std::size_t look_at(const Link& link, WayState& state)
+{
+    state.statistics = link.statistics();
+    state.stream = link.stream_statistics().totals();
+    const StreamTotals& stream = state.stream;
+    return sizeof(WayState) / 50 + state.statistics.lateness.filled_bytes() +
+           state.statistics.sojourn.filled_bytes() + stream.delays.filled_bytes() +
+           stream.variations.filled_bytes() + stream.gaps.filled_bytes();
+}
+
+/// With the last `changes_max` changes.
+std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState& state)
+{
+    const std::span all{path.changes().entries()};
+    const auto last = all.last(std::min(all.size(), changes_max));
+    state.changes.assign(last.begin(), last.end());
+    state.changes_omitted = path.changes().omitted() + (all.size() - last.size());
+    state.conditions = path.director().shared_path();
+    return look_at(path.link(Direction::up), state.up) +
+           look_at(path.link(Direction::down), state.down) + last.size() * sizeof(ConditionChange);
+}
+
+/// How many changes of a path are told: all, once the run is over.
+std::size_t told_changes(const RunState& state, std::size_t paths)
+{
+    // Clients may ask for them many times a second.
+    constexpr std::size_t while_it_runs = 20;
+    if (state.is_over) return ChangeLog::entries_max;
+    return std::max(while_it_runs / std::max(paths, std::size_t{1}), std::size_t{1});
+}
+
+void end_look(const AnyRun& run, RunState& state)
+{
+    state.elapsed = run.elapsed;
+    state.generation = run.paths.generation();
+}
+
+std::size_t look_at(const ports::Relay& relay, std::size_t changes_max, PathState& state)
+{
+    const auto bytes = look_at(relay.path(), changes_max, state);
+    state.end_a = relay.a().filter.address();
+    state.end_b = relay.b().filter.address();
+    state.up.strangers = relay.a().strangers;
+    state.up.overflowed = relay.a().socket.overflowed();
+    state.down.strangers = relay.b().strangers;
+    state.down.overflowed = relay.b().socket.overflowed();
+    return bytes;
+}
+
+std::size_t look_at(const ports::Upstream::Client& client, std::size_t changes_max,
+                    PathState& state)
+{
+    const auto bytes = look_at(*client.path, changes_max, state);
+    state.name = client.name;
+    state.client = client.number;
+    state.end_a = client.address;
+    state.down.strangers = client.strangers;
+    state.down.overflowed = client.socket.overflowed();
+    return bytes;
+}
+
+InterfaceState state_of(const ports::Frames::Side& side)
+{
+    return {side.undisturbed, side.not_ip, side.oversized, side.lost_undisturbed,
+            side.told_too_big};
+}
+
+/// Takes those out that are none of `present`; the others stay in their order.
+void keep_present(const std::vector<std::uint64_t>& present, RunState& state)
+{
+    const auto end = state.paths.begin() + static_cast<std::ptrdiff_t>(state.count);
+    const auto last = std::stable_partition(state.paths.begin(), end, [&](const PathState& one) {
+        return std::ranges::find(present, one.client) != present.end();
+    });
+    state.count = static_cast<std::size_t>(last - state.paths.begin());
+}
+
+} // namespace
+
+void look_at(const AnyRun& run, const ports::Links& port, const control::DoWork& work,
+             RunState& state)
+{
+    const auto& relays = port.relays();
+    state.paths.resize(relays.size());
+    state.count = 0;
+    work([&] {
+        for (std::size_t bytes = 0; state.count < relays.size() && bytes < step_bytes;) {
+            PathState& path = state.paths[state.count];
+            const ports::Relay& relay = *relays[state.count++];
+            bytes += look_at(relay, told_changes(state, relays.size()), path);
+        }
+        if (state.count < relays.size()) return false;
+        end_look(run, state);
+        return true;
+    });
+    for (std::size_t i = 0; i < relays.size(); ++i) state.paths[i].name = relays[i]->name();
+}
+
+void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWork& work,
+             RunState& state)
+{
+    state.count = 0;
+    std::size_t wanted = 1;
+    std::vector<std::uint64_t> present;
+    const auto step = [&] {
+        const auto clients = port.clients(); // by their numbers, which only grow
+        std::size_t bytes = 0;
+        for (const auto* client : clients) {
+            if (state.count > 0 && client->number <= state.paths[state.count - 1].client) continue;
+            if (bytes >= step_bytes) return false;
+            if (state.count == state.paths.size()) {
+                wanted = clients.size() + 8;
+                return true;
+            }
+            bytes +=
+                look_at(*client, told_changes(state, clients.size()), state.paths[state.count++]);
+        }
+        for (const auto* client : clients) present.push_back(client->number);
+        state.server = {port.clients_seen(), port.refused(),  port.strangers(),
+                        port.overflowed(),   port.departed(), {}};
+        state.server.newcomers = run.paths.deciders().back().director->shared_path();
+        end_look(run, state);
+        wanted = 0;
+        return true;
+    };
+    // Room is made here: whoever relays must not wait for memory.
+    while (wanted > 0) {
+        state.paths.resize(std::max(state.paths.size(), wanted));
+        present.reserve(state.paths.size());
+        work(step);
+    }
+    // Whoever has gone since is among those that have departed.
+    keep_present(present, state);
+}
+
+void look_at(const AnyRun& run, const ports::Frames& port, const control::DoWork& work,
+             RunState& state)
+{
+    state.paths.resize(1);
+    state.count = 1;
+    work([&] {
+        PathState& path = state.paths.front();
+        look_at(port.path(), told_changes(state, 1), path);
+        path.up.overflowed = port.a().socket.overflowed();
+        path.down.overflowed = port.b().socket.overflowed();
+        state.a = state_of(port.a());
+        state.b = state_of(port.b());
+        end_look(run, state);
+        return true;
+    });
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/change_log.hpp"
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/emulated_path.hpp"
+#include "emulator/core/statistics.hpp"
+#include "emulator/core/stream_statistics.hpp"
+#include "emulator/direction_report.hpp"
+#include "emulator/ports/frames.hpp"
+#include "emulator/ports/links.hpp"
+#include "emulator/ports/upstream.hpp"
+#include "emulator/report.hpp"
+#include "proto/base/time.hpp"
+#include "proto/control/core/work.hpp"
+#include "proto/net/endpoint.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// One way of a path as it was at a moment.
+struct WayState {
+    Statistics statistics{};
+    StreamTotals stream{};
+    std::uint64_t strangers = 0;
+    std::uint64_t overflowed = 0;
+
+    [[nodiscard]] DirectionOfRun view() const
+    {
+        return {statistics, &stream, strangers, overflowed};
+    }
+};
+
+/// A path as it was at a moment, and how its conditions have changed until then.
+struct PathState {
+    std::string name;
+    std::uint64_t client = 0; // its number; 0 where there are none
+    std::optional<net::Endpoint> end_a;
+    std::optional<net::Endpoint> end_b;
+    std::shared_ptr<const Path> conditions;
+    std::vector<ConditionChange> changes; // the last
+    std::uint64_t changes_omitted = 0;    // before them, or for want of room
+    WayState up;
+    WayState down;
+};
+
+/// What an interface passed on, apart from what its path did.
+struct InterfaceState {
+    std::uint64_t undisturbed = 0;
+    std::uint64_t not_ip = 0;
+    std::uint64_t oversized = 0;
+    std::uint64_t lost_undisturbed = 0;
+    std::uint64_t told_too_big = 0;
+};
+
+/// A run as it was at a moment: all that its reports are made from, apart from what never changes.
+/// Where there are many paths, each was looked at on its own, some hundred microseconds apart.
+struct RunState {
+    base::Duration elapsed{}; // since the sockets were bound
+    std::uint64_t generation = 1;
+    bool is_over = false;
+    std::size_t count = 0;        // of the paths that there are
+    std::vector<PathState> paths; // as many at least: they are large, and used again
+
+    /// Of a server and its clients.
+    struct Server {
+        std::uint64_t clients_seen = 0;
+        std::uint64_t refused = 0;
+        std::uint64_t strangers = 0;
+        std::uint64_t overflowed = 0;
+        ports::Upstream::Departed departed{};
+        std::shared_ptr<const Path> newcomers; // what holds for whoever comes
+    };
+    Server server{};
+    InterfaceState a{}; // of a run between two interfaces
+    InterfaceState b{};
+};
+
+// Looks at a run by steps of `work`, of which none copies more than some 100 KiB. `state` is one
+// of the same run, or an empty one.
+
+void look_at(const AnyRun& run, const ports::Links& port, const control::DoWork& work,
+             RunState& state);
+void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWork& work,
+             RunState& state);
+void look_at(const AnyRun& run, const ports::Frames& port, const control::DoWork& work,
+             RunState& state);
+
+} // namespace hapnet::emulator
