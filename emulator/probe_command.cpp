@@ -6,9 +6,9 @@
 #include "emulator/tools/probe_message.hpp"
 #include "emulator/tools/probe_statistics.hpp"
 #include "proto/base/version.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/udp_socket.hpp"
 #include "proto/net/wait.hpp"
@@ -204,7 +204,7 @@ private:
     net::UdpSocket socket_;
     tools::ProbeStatistics statistics_;
     std::vector<std::byte> bytes_;
-    std::optional<net::ResultFile> csv_;
+    std::optional<disk::ResultFile> csv_;
     base::TimePoint next_{};
     base::TimePoint last_{};
     bool has_told_ = false;

@@ -7,9 +7,9 @@
 #include "emulator/core/fate.hpp"
 #include "proto/base/rolling_bytes.hpp"
 #include "proto/base/time.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/keeper.hpp"
-#include "proto/net/result_file.hpp"
 
 #include <array>
 #include <atomic>
@@ -134,7 +134,7 @@ private:
         void set_aside(Way& way);
         void copy(const Piece& piece, std::string& buffer);
 
-        net::ResultFile file;
+        disk::ResultFile file;
         bool has_several_paths;
         int aside; // the file without a name
         std::uint64_t aside_bytes = 0;
@@ -158,8 +158,8 @@ private:
         void flush();
         void save_ordered();
 
-        std::optional<net::ResultFile> file; // of the whole run
-        std::string section;                 // that every capture begins with
+        std::optional<disk::ResultFile> file; // of the whole run
+        std::string section;                  // that every capture begins with
         std::optional<base::Duration> span;
         std::optional<base::RollingBytes> held; // of so much
         net::Keeper keeper;

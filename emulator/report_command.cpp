@@ -4,8 +4,8 @@
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/run_files.hpp"
 #include "emulator/tools/run_page/run_page.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -70,7 +70,7 @@ base::Result<int> run(const ReportOptions& options)
         fmt::print("{}", page);
         return 0;
     }
-    net::ResultFile{options.out, "--out"}.commit(page);
+    disk::ResultFile{options.out, "--out"}.commit(page);
     net::say("hapnet-emulator", fmt::format("wrote {}", options.out));
     return 0;
 }

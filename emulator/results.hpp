@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emulator/report.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool finish(AnyRun& run, Recorder& recorder, const Reports& reports);
 
 private:
-    std::optional<net::ResultFile> stats_;
+    std::optional<disk::ResultFile> stats_;
 };
 
 } // namespace hapnet::emulator

@@ -16,10 +16,10 @@
 #include "peer/monitor/event_log.hpp"
 #include "peer/monitor/monitor.hpp"
 #include "peer/monitor/report.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/service_manager.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/text_queue.hpp"
@@ -60,7 +60,7 @@ struct Outlets {
     }
 
     std::optional<control::Server> server;
-    std::optional<net::ResultFile> statistics;
+    std::optional<disk::ResultFile> statistics;
 };
 
 struct Endpoints {
@@ -317,7 +317,8 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
-void write_statistics(const monitor::Run& run, std::optional<net::ResultFile>& file, Screen& screen)
+void write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& file,
+                      Screen& screen)
 {
     const std::string statistics = statistics_json(run).dump(2) + "\n";
     if (file) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/service_manager.hpp"
 #include "proto/net/standard_streams.hpp"
 #include "proto/net/stop_signal.hpp"
@@ -221,7 +221,7 @@ base::Result<int> run(const Options& options)
     server.accept_from(std::move(acceptor));
     listen_besides(io, options, port, server);
     const std::string url = fmt::format("http://127.0.0.1:{}/#t={}", port, *token);
-    if (!options.url_file.empty()) net::ResultFile{options.url_file, "", 0600}.commit(url + "\n");
+    if (!options.url_file.empty()) disk::ResultFile{options.url_file, "", 0600}.commit(url + "\n");
     fmt::print("open {}\n", url);
     net::require_stdout();
     manager.tell_ready();

@@ -6,7 +6,7 @@
 #include "lab/cli/host.hpp"
 #include "lab/cli/report_command.hpp"
 #include "lab/results/demo.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@ bool is_analysed(const std::string& task_folder)
 
 void write_manifest(const DemoReportCommand& command, const nlohmann::ordered_json& manifest)
 {
-    net::ResultFile{command.folder + "/manifest.json"}.commit(manifest.dump(2) + '\n');
+    disk::ResultFile{command.folder + "/manifest.json"}.commit(manifest.dump(2) + '\n');
 }
 
 /// Of --peers and of --scene, whose page and table are those of its one session.

@@ -14,9 +14,9 @@
 #include "lab/runner/result_tables.hpp"
 #include "lab/runner/runner.hpp"
 #include "proto/base/version.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/record/writer.hpp"
 
@@ -46,7 +46,7 @@ runner::FolderIdentity identity_of(const LoadedExperiment& experiment)
 void write_text(const fs::path& path, const std::string& text)
 {
     create_folder(path.parent_path().string());
-    net::ResultFile{path.string()}.commit(text);
+    disk::ResultFile{path.string()}.commit(text);
 }
 
 void tell_of_damage(const runner::SessionStore& store, const std::string& where)

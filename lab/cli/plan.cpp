@@ -3,7 +3,7 @@
 #include "lab/cli/plan.hpp"
 
 #include "lab/cli/files.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <filesystem>
@@ -47,7 +47,7 @@ void write_plan(const Plan& plan, const std::string& path)
         {"quick", plan.overrides.quick}, {"settings", plan.overrides.settings},
         {"criteria", plan.criteria},     {"files", plan.files},
         {"program", plan.program}};
-    net::ResultFile{path}.commit(json.dump(2) + '\n');
+    disk::ResultFile{path}.commit(json.dump(2) + '\n');
 }
 
 base::OpenFile opener_of(const Plan& plan)

@@ -13,9 +13,9 @@
 #include "proto/base/built_in.hpp"
 #include "proto/base/text.hpp"
 #include "proto/control/server.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/net/wait.hpp"
@@ -141,7 +141,7 @@ public:
         do {
             path = fmt::format("{}/experiment-{}.toml", folder_, ++count_);
         } while (std::filesystem::exists(path));
-        net::ResultFile{path}.commit(text);
+        disk::ResultFile{path}.commit(text);
         return path;
     }
 

@@ -9,8 +9,8 @@
 #include "lab/results/results.hpp"
 #include "lab/results/several.hpp"
 #include "proto/base/version.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
@@ -230,8 +230,8 @@ void write_manifest(const Source& source)
                                                .start = {},
                                                .host = host(),
                                                .program = base::version_line("hapnet-lab")};
-    net::ResultFile{path}.commit(several_manifest(source.results, root, circumstances).dump(2) +
-                                 '\n');
+    disk::ResultFile{path}.commit(several_manifest(source.results, root, circumstances).dump(2) +
+                                  '\n');
 }
 
 } // namespace
@@ -244,7 +244,7 @@ base::Result<std::string> write_report(const ReportCommand& command)
         const fs::path path = source->folder / file.path;
         create_folder(path.parent_path().string());
         if (file.path == "report.html") say_what_is_replaced(path, file.text);
-        net::ResultFile{path.string()}.commit(file.text);
+        disk::ResultFile{path.string()}.commit(file.text);
     }
     if (command.record_b.empty()) write_manifest(*source);
     return (source->folder / "report.html").string();

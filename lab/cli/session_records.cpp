@@ -4,7 +4,7 @@
 
 #include "lab/cli/files.hpp"
 #include "lab/records/tick_times.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
@@ -58,7 +58,7 @@ base::Result<void> note_in_manifest(const std::string& folder, Json real_time)
         if (there->value("kind", "") != "real-time") manifest = *std::move(there);
     }
     manifest["real_time"] = std::move(real_time);
-    net::ResultFile{path}.commit(manifest.dump(2) + '\n');
+    disk::ResultFile{path}.commit(manifest.dump(2) + '\n');
     return {};
 }
 

@@ -4,7 +4,7 @@
 
 #include "proto/base/csv.hpp"
 #include "proto/base/ensure.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -67,7 +67,7 @@ std::vector<std::string> ResultTables::commit()
     constexpr std::size_t block = 1 << 20;
     std::vector<std::string> names;
     for (const Table& table : tables_) {
-        net::ResultFile file{(folder_ / table.name).string()};
+        disk::ResultFile file{(folder_ / table.name).string()};
         std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
         std::ifstream in{waiting(table), std::ios::binary};
         auto width = table.widths.begin();

@@ -9,10 +9,10 @@
 #include "peer/loop/zero_force.hpp"
 #include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
 #include "proto/net/real_time.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/wait.hpp"
 #include "scene/description.hpp"
@@ -137,7 +137,7 @@ std::string stiffness_of_a_session(const DeviceChoice& choice,
 
 base::Result<int> run(const SelfTestCommand& command)
 {
-    std::optional<net::ResultFile> file;
+    std::optional<disk::ResultFile> file;
     if (command.json) file.emplace(*command.json);
     const net::StopSignal stop; // before any thread
     stop.enforce(gone_after_a_stop, net::exit_environment);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <sys/types.h>
 
-namespace hapnet::net {
+namespace hapnet::disk {
 
 /// A file that appears whole or not at all: it is written beside its place under a temporary
 /// name, which is taken at construction, so that a place that cannot be written is found before
@@ -44,4 +44,4 @@ private:
     int descriptor_ = -1;
 };
 
-} // namespace hapnet::net
+} // namespace hapnet::disk

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include "proto/base/text.hpp"
 
@@ -17,7 +17,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace hapnet::net {
+namespace hapnet::disk {
 
 namespace {
 
@@ -121,4 +121,4 @@ void ResultFile::commit(std::string_view text)
     close(std::exchange(descriptor_, -1));
 }
 
-} // namespace hapnet::net
+} // namespace hapnet::disk

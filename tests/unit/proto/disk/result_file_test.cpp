@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <array>
 #include <csignal>
@@ -16,7 +16,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace hapnet::net {
+namespace hapnet::disk {
 namespace {
 
 class ResultFileTest : public testing::Test {
@@ -133,4 +133,4 @@ TEST_F(ResultFileTest, RefusesAFolderAndAPlaceThatIsNotThere)
 }
 
 } // namespace
-} // namespace hapnet::net
+} // namespace hapnet::disk
