@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <system_error>
@@ -55,9 +54,8 @@ base::Result<int> relay_frames(const BridgeOptions& options, const Scenario& sce
     const PlainReception plain_b{options.b};
     if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
-    fmt::print("ready a={} b={} seed={} timing={}\n", options.a, options.b, scenario.seed.value(),
-               to_text(options.run.timing));
-    std::fflush(stdout);
+    net::print_now(fmt::format("ready a={} b={} seed={} timing={}\n", options.a, options.b,
+                               scenario.seed.value(), to_text(options.run.timing)));
     const std::array descriptors{stop.descriptor()};
     auto now = net::monotonic_now();
     while (!stop.requested() && !session.is_stopped() && !session.failure() &&

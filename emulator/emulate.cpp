@@ -29,7 +29,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -106,8 +105,7 @@ public:
                                     paths_.size(), processors));
         }
         for (const std::string& warning : run_.scenario.warnings) status_.say(warning);
-        fmt::print("{}", ready_line(run_));
-        std::fflush(stdout);
+        net::print_now(ready_line(run_));
     }
 
     /// The manager hears that this loop moves.

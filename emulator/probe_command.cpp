@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -194,8 +193,7 @@ private:
                 fmt::print(" (there {:.3f}, back {:.3f})", probe_ms(reply->there),
                            probe_ms(reply->back));
             }
-            fmt::print("{}\n", reply->is_copy ? " (copy)" : "");
-            std::fflush(stdout);
+            net::print_now(reply->is_copy ? " (copy)\n" : "\n");
         }
     }
 
@@ -214,8 +212,7 @@ int answer_until_stopped(const net::HostPort& where, const net::StopSignal& stop
 {
     net::UdpSocket socket{net::resolve(where), net::Load::bulk};
     tools::ProbeAnswerer answerer{tools::boot_number(net::boot_id())};
-    fmt::print("ready answer={}\n", socket.local().to_text());
-    std::fflush(stdout);
+    net::print_now(fmt::format("ready answer={}\n", socket.local().to_text()));
     const std::array descriptors{socket.descriptor(), stop.descriptor()};
     std::vector<std::byte> bytes(tools::ProbeMessage::bytes_max);
     while (!stop.requested()) {

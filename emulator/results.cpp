@@ -32,15 +32,17 @@ bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
     run.is_over = true;
     const auto statistics = reports.statistics();
     const std::string text = statistics.dump(2) + "\n";
-    if (stats_) {
-        try {
-            stats_->commit(text);
-        } catch (const std::system_error&) { // they are worth more than their place
-            failure = std::current_exception();
-            fmt::print("{}", text);
-        }
-    } else if (run.options.stats) {
-        fmt::print("{}", text);
+    bool is_written = !run.options.stats;
+    try {
+        if (stats_) stats_->commit(text);
+        is_written = is_written || stats_.has_value();
+    } catch (const std::system_error&) { // they are worth more than their place
+        failure = std::current_exception();
+    }
+    try {
+        if (!is_written) net::print_now(text);
+    } catch (const std::system_error&) {
+        failure = std::current_exception();
     }
     const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
     net::tell(reports.summary() + failed);

@@ -21,7 +21,6 @@
 #include "proto/net/wait.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
@@ -181,8 +180,7 @@ int play_live(const PlayCommand& command, Played& session, base::Duration tick)
     }
     std::vector<int> descriptors{stop.descriptor()};
     for (const Served& one : all) descriptors.push_back(one.server->descriptor());
-    fmt::print("ready control={} peers={}\n", command.control, session.peers());
-    std::fflush(stdout);
+    net::print_now(fmt::format("ready control={} peers={}\n", command.control, session.peers()));
     auto last = net::monotonic_now();
     while (!stop.requested() && !is_over) {
         const auto now = net::monotonic_now();

@@ -32,9 +32,9 @@ public:
 
     static constexpr base::Duration patience{std::chrono::milliseconds{20}};
     // What a program dies of by itself, then what it dies of when it is sent by mistake.
-    static constexpr std::array signals{SIGABRT, SIGSEGV, SIGBUS,    SIGFPE,  SIGILL,  SIGSYS,
-                                        SIGTRAP, SIGXCPU, SIGXFSZ,   SIGQUIT, SIGUSR1, SIGUSR2,
-                                        SIGALRM, SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGSTKFLT};
+    static constexpr std::array signals{SIGABRT, SIGSEGV,   SIGBUS,  SIGFPE,  SIGILL,   SIGSYS,
+                                        SIGTRAP, SIGXCPU,   SIGQUIT, SIGUSR1, SIGUSR2,  SIGALRM,
+                                        SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGSTKFLT};
 
 private:
     int dying_ = -1;

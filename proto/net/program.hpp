@@ -4,6 +4,7 @@
 
 #include "proto/base/result.hpp"
 #include "proto/net/cure.hpp"
+#include "proto/net/file_limit.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -58,8 +59,18 @@ inline void say(std::string_view program, std::string_view text)
 /// Throws std::system_error when what was printed could not be written: a full disk, say.
 inline void require_stdout()
 {
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    throw std::system_error{errno, std::generic_category(), "cannot write the output"};
+    if (std::fflush(stdout) != 0)
+        throw std::system_error{errno, std::generic_category(), "cannot write the output"};
+    // An earlier attempt failed, and its reason is gone.
+    if (std::ferror(stdout) != 0)
+        throw std::system_error{EIO, std::generic_category(), "cannot write the output"};
+}
+
+/// Prints a text that somebody waits for, at once. Throws std::system_error as above.
+inline void print_now(std::string_view text)
+{
+    fmt::print("{}", text);
+    require_stdout();
 }
 
 /// The life of every program: prints what is to be printed, runs, and turns each kind of trouble
@@ -68,6 +79,7 @@ inline void require_stdout()
 template <typename Options, typename Run>
 [[nodiscard]] int run_program(std::string_view program, const CommandLine<Options>& line, Run run)
 {
+    survive_file_limit();
     try {
         if (!line) {
             say(program, line.error().message);

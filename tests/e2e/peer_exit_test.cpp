@@ -278,7 +278,7 @@ TEST(PeerExit, ByADeathOfTheWatchdogItselfEndsInZeroForceThatTheServoGives)
 
 TEST(PeerExit, ByADeadlySignalFromElsewhereEndsInZeroForceAlthoughTheServoStillRuns)
 {
-    for (const int signal : {SIGQUIT, SIGXFSZ, SIGUSR1}) {
+    for (const int signal : {SIGQUIT, SIGXCPU, SIGUSR1}) {
         Push push{{}};
         push.recorded.signal(signal);
         EXPECT_EQ(push.recorded.wait_end(), 128 + signal);
