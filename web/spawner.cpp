@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "web/spawner.hpp"
 
+#include "proto/disk/create.hpp"
+
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
@@ -40,8 +42,8 @@ namespace {
 
 Child start_now(const Command& command)
 {
-    const int log = open(command.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
-    if (log < 0) refuse(command.log.c_str());
+    const auto log = disk::open_to_write(command.log, O_WRONLY | O_APPEND, 0600);
+    if (!log) throw std::system_error{log.error(), command.log};
     int pipe_ends[2] = {-1, -1};
     if (command.wants_output && pipe2(pipe_ends, O_CLOEXEC) != 0) refuse("pipe");
     std::vector<std::string> words = command.words;
@@ -50,9 +52,8 @@ Child start_now(const Command& command)
     pointers.push_back(nullptr);
     const pid_t parent = getpid();
     const pid_t pid = fork();
-    if (pid == 0) become(pointers.data(), log, pipe_ends[1], parent);
+    if (pid == 0) become(pointers.data(), log->number(), pipe_ends[1], parent);
     const int error = errno;
-    close(log);
     if (pipe_ends[1] >= 0) close(pipe_ends[1]);
     errno = error;
     if (pid < 0) refuse("fork");

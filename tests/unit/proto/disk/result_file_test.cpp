@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "proto/disk/result_file.hpp"
 
+#include "tests/support/another_user.hpp"
+
 #include <array>
 #include <csignal>
 #include <fcntl.h>
@@ -15,6 +17,7 @@
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace hapnet::disk {
 namespace {
@@ -79,7 +82,8 @@ TEST_F(ResultFileTest, KeepsWhatWasWrittenBeforeTheDiskWasFull)
         file.append(std::string(600, 'a'));
         EXPECT_THROW(file.append(std::string(600, 'b')), std::system_error);
         EXPECT_FALSE(std::filesystem::exists(path));
-        file.keep();
+        EXPECT_TRUE(file.keep());
+        EXPECT_FALSE(file.keep());
     }
     EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     EXPECT_EQ(text_of(path), std::string(600, 'a')); // no part of what did not fit
@@ -93,14 +97,103 @@ TEST_F(ResultFileTest, RemovesWhatAKilledProcessLeftOfItsFileAndNothingElse)
     ASSERT_EQ(waitpid(child, nullptr, 0), child);
     const auto dead = std::to_string(child);
     const auto alive = std::to_string(getppid());
-    for (const std::string& name : {"result." + dead + ".partial", "result." + alive + ".partial",
-                                    "results." + dead + ".partial", "result." + dead + ".part",
-                                    std::string{"result.x.partial"}}) {
-        std::ofstream{folder / name} << "part";
+    const std::vector<std::string> leftovers{"result." + dead + ".partial", // of version 0.2
+                                             "result." + dead + ".abc012.partial"};
+    const std::vector<std::string> others{"result." + alive + ".abc012.partial",
+                                          "results." + dead + ".abc012.partial",
+                                          "result." + dead + ".abc012.part", "result.x.partial"};
+    for (const auto& names : {leftovers, others}) {
+        for (const std::string& name : names) std::ofstream{folder / name} << "part";
     }
+    const auto pipe = folder / ("result." + dead + ".pipe.partial"); // opening it waits for ever
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     ResultFile{folder / "result"}.commit("whole");
-    EXPECT_FALSE(std::filesystem::exists(folder / ("result." + dead + ".partial")));
-    EXPECT_EQ(files(), 5U);
+    for (const std::string& name : leftovers)
+        EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+    EXPECT_EQ(files(), others.size() + 2);
+}
+
+TEST_F(ResultFileTest, IsWrittenUnderANameThatNobodyCanGuess)
+{
+    // What another user puts there before: links from the names that a process may take.
+    std::ofstream{folder / "victim"} << "old";
+    const auto pid = std::to_string(getpid());
+    for (const std::string& name : {"result." + pid + ".partial", "result." + pid + "..partial"})
+        std::filesystem::create_symlink("victim", folder / name);
+    ResultFile{folder / "result"}.commit("new");
+    EXPECT_EQ(text_of(folder / "victim"), "old");
+    EXPECT_EQ(text_of(folder / "result"), "new");
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "result"));
+    std::string name;
+    {
+        const ResultFile file{folder / "other"};
+        for (const auto& entry : std::filesystem::directory_iterator{folder}) {
+            const auto one = entry.path().filename().string();
+            if (one.starts_with("other.")) name = one;
+        }
+    }
+    EXPECT_GT(name.size(), ("other." + pid + ".partial").size() + 10) << name;
+}
+
+TEST_F(ResultFileTest, GivesNothingToTheFileOfAnotherUserThatHadItsName)
+{
+    if (!test::is_root()) GTEST_SKIP() << "only root can make a file of another user";
+    const auto path = folder / "url";
+    std::ofstream{path} << "theirs";
+    ASSERT_EQ(chmod(path.c_str(), 0666), 0);
+    ASSERT_EQ(chown(path.c_str(), test::another_user, test::another_user), 0);
+    const int theirs = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    ResultFile{path, "", 0600}.commit("the token");
+    std::array<char, 16> text{};
+    EXPECT_EQ(read(theirs, text.data(), text.size()), 6);
+    EXPECT_STREQ(text.data(), "theirs");
+    close(theirs);
+    struct stat now {};
+    ASSERT_EQ(stat(path.c_str(), &now), 0);
+    EXPECT_EQ(now.st_uid, geteuid());
+    EXPECT_EQ(now.st_mode & 0777U, 0600U);
+    EXPECT_EQ(text_of(path), "the token");
+}
+
+TEST_F(ResultFileTest, IsRefusedBeforeTheRunWhereAnotherUserDecidesWhatItIs)
+{
+    if (!test::is_root()) GTEST_SKIP() << "only root can make files and links of another user";
+    ASSERT_EQ(chmod(folder.c_str(), 01777), 0);
+    std::ofstream{folder / "victim"} << "old";
+    std::filesystem::create_symlink("victim", folder / "link");
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0666), 0);
+    for (const char* name : {"link", "pipe"}) {
+        const auto path = folder / name;
+        ASSERT_EQ(lchown(path.c_str(), test::another_user, test::another_user), 0);
+        try {
+            const ResultFile file{path, "--stats"};
+            ADD_FAILURE() << name;
+        } catch (const std::system_error& error) {
+            const std::string said = error.what();
+            EXPECT_TRUE(said.starts_with("--stats: cannot write " + path.string() + ": ")) << said;
+            EXPECT_NE(said.find("another user"), std::string::npos) << said;
+        }
+    }
+    EXPECT_EQ(text_of(folder / "victim"), "old");
+    std::ofstream{folder / "theirs"} << "old";
+    ASSERT_EQ(chown((folder / "theirs").c_str(), test::another_user, test::another_user), 0);
+    const auto refused = test::as_user(test::another_user + 1, [&] {
+        try {
+            const ResultFile file{folder / "theirs"};
+            return 0;
+        } catch (const std::system_error&) {
+            return 1;
+        }
+    });
+    EXPECT_EQ(refused, 1);
+}
+
+TEST_F(ResultFileTest, IsOnTheDiskBeforeItReplacesTheOld)
+{
+    std::ofstream{folder / "result"} << "old";
+    ResultFile{folder / "result"}.commit_to_disk("new");
+    EXPECT_EQ(text_of(folder / "result"), "new");
+    EXPECT_EQ(files(), 1U);
 }
 
 TEST_F(ResultFileTest, FollowsASymbolicLinkInsteadOfReplacingIt)
