@@ -135,8 +135,7 @@ nlohmann::ordered_json FrameSession::statistics() const
     json["generation"] = paths_.generation();
     add_course(json, run_, frames_.path(), "");
     add_files(json, run_);
-    json["valid"] = reasons.empty();
-    json["invalid_because"] = reasons;
+    add_validity(json, run_, std::move(reasons));
     json["up"] = json_of_way(up, run_);
     json["down"] = json_of_way(down, run_);
     add_checks(json, run_);

@@ -105,16 +105,16 @@ Json json_of(const ports::Relay& relay, const LinksRun& run)
 }
 
 /// `reasons`: what is against it apart from the sums.
-void add_sums(Json& json, const Sums& sums, base::Duration budget, std::vector<std::string> reasons)
+void add_sums(Json& json, const AnyRun& run, const Sums& sums, std::vector<std::string> reasons)
 {
+    const auto budget = run.options.budget;
     for (const auto& [way, direction] :
          {std::pair{"up", sums.of_up()}, std::pair{"down", sums.of_down()}}) {
         for (const std::string& reason : reasons_against(direction, budget)) {
             reasons.push_back(fmt::format("{}: {}", way, reason));
         }
     }
-    json["valid"] = reasons.empty();
-    json["invalid_because"] = reasons;
+    add_validity(json, run, std::move(reasons));
     json["up"] = json_of(sums.of_up(), budget);
     json["down"] = json_of(sums.of_down(), budget);
 }
@@ -164,12 +164,11 @@ std::string ready_line(const UpstreamRun& run)
 
 nlohmann::ordered_json statistics_of(const LinksRun& run)
 {
-    const auto budget = run.options.budget;
     Json json = head_of(run);
     json["generation"] = run.paths.generation();
     json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
     add_files(json, run);
-    add_sums(json, sums_of(run.port), budget, reasons_of_links(run.port, budget));
+    add_sums(json, run, sums_of(run.port), reasons_of_links(run.port, run.options.budget));
     Json links = Json::object();
     for (const auto& relay : run.port.relays()) links[relay->name()] = json_of(*relay, run);
     json["links"] = std::move(links);
@@ -190,7 +189,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run)
     // Of whoever comes now.
     json["configuration_at_end"] = configuration_json(run.paths.deciders().back().director->path());
     add_files(json, run);
-    add_sums(json, sums_of(run.port), run.options.budget, {});
+    add_sums(json, run, sums_of(run.port), {});
     Json clients = Json::array();
     for (const auto* client : run.port.clients()) clients.push_back(json_of(*client, run));
     json["clients"] = std::move(clients);

@@ -59,6 +59,18 @@ Json changes_json(const ChangeLog& changes, std::size_t count_max, std::string_v
     return list;
 }
 
+/// What is missing in the files that were asked for.
+std::vector<std::string> lacks_of(const Recorder& recorder)
+{
+    std::vector<std::string> lacks;
+    if (recorder.has_failed()) lacks.emplace_back("a file of this run could not be written");
+    if (const auto lost = recorder.fates_lost(); lost > 0)
+        lacks.push_back(fmt::format("the fates lack {} datagrams", lost));
+    if (const auto lost = recorder.capture_lost(); lost > 0)
+        lacks.push_back(fmt::format("the capture lacks {} packets", lost));
+    return lacks;
+}
+
 } // namespace
 
 DirectionOfRun direction_of(const ports::Relay::Side& side)
@@ -70,14 +82,17 @@ DirectionOfRun direction_of(const ports::Relay::Side& side)
 std::string incomplete(const Recorder& recorder)
 {
     std::string text;
-    if (recorder.has_failed()) text += "NOT COMPLETE: a file of this run could not be written\n";
-    if (const auto lost = recorder.fates_lost(); lost > 0) {
-        text += fmt::format("NOT COMPLETE: the fates lack {} datagrams\n", lost);
-    }
-    if (const auto lost = recorder.capture_lost(); lost > 0) {
-        text += fmt::format("NOT COMPLETE: the capture lacks {} packets\n", lost);
-    }
+    for (const std::string& lack : lacks_of(recorder))
+        text += fmt::format("NOT COMPLETE: {}\n", lack);
     return text;
+}
+
+void add_validity(nlohmann::ordered_json& json, const AnyRun& run, std::vector<std::string> reasons)
+{
+    for (const std::string& lack : lacks_of(run.recorder))
+        reasons.push_back(fmt::format("files: {}", lack));
+    json["valid"] = reasons.empty();
+    json["invalid_because"] = std::move(reasons);
 }
 
 nlohmann::ordered_json configuration_json(const Path& path)
@@ -172,8 +187,7 @@ nlohmann::ordered_json statistics_of(const Run& run)
     json["generation"] = run.paths.generation();
     add_course(json, run, *run.paths.all().front()->path, "");
     add_files(json, run);
-    json["valid"] = reasons.empty();
-    json["invalid_because"] = reasons;
+    add_validity(json, run, std::move(reasons));
     json["up"] = json_of_way(direction_of(a), run);
     json["down"] = json_of_way(direction_of(b), run);
     add_checks(json, run);

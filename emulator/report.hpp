@@ -14,6 +14,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -60,6 +61,11 @@ void add_course(nlohmann::ordered_json& json, const AnyRun& run, const EmulatedP
 
 /// The profile and the files of the run.
 void add_files(nlohmann::ordered_json& json, const AnyRun& run);
+
+/// Whether the run counts: it does when nothing is against its timing (`reasons`), and its files
+/// lack nothing.
+void add_validity(nlohmann::ordered_json& json, const AnyRun& run,
+                  std::vector<std::string> reasons);
 
 /// A direction of one path. A run that keeps each fate keeps whole distributions, too.
 [[nodiscard]] nlohmann::ordered_json json_of_way(DirectionOfRun direction, const AnyRun& run);

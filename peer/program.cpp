@@ -29,6 +29,7 @@
 #include <cstring>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -56,7 +57,7 @@ struct Outlets {
     explicit Outlets(const Options& options)
     {
         if (options.control) server.emplace(*options.control, monitor::ControlSession::limits);
-        if (options.stats && *options.stats != "-") statistics.emplace(*options.stats);
+        if (options.stats && *options.stats != "-") statistics.emplace(*options.stats, "--stats");
     }
 
     std::optional<control::Server> server;
@@ -317,15 +318,21 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
-void write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& file,
-                      Screen& screen)
+/// Statistics that find no room in their file go to stdout: they are worth more than their place.
+/// Gives the exit code.
+int write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& file, Screen& screen)
 {
+    if (!run.options.stats) return 0;
     const std::string statistics = statistics_json(run).dump(2) + "\n";
-    if (file) {
-        file->commit(statistics);
-    } else if (run.options.stats) {
-        screen.out.put(statistics);
+    int code = 0;
+    try {
+        if (file) file->commit(statistics);
+    } catch (const std::system_error& error) {
+        screen.say(net::explained(error));
+        code = net::exit_environment;
     }
+    if (!file || code != 0) screen.out.put(statistics);
+    return code;
 }
 
 /// Tells how the run went; its exit code.
@@ -443,8 +450,8 @@ base::Result<int> run(const Options& options)
     const loop::ServoStatus status = servo.status();
     const monitor::Run run{
         options, status, device, monitor.is_record_whole(), monitor.rows_lost(), screen.lost()};
-    write_statistics(run, outlets.statistics, screen);
-    const int code = conclude(run, rig.governor(), screen);
+    const int written = write_statistics(run, outlets.statistics, screen);
+    const int code = std::max(written, conclude(run, rig.governor(), screen));
     return finish(finish_events(code, events, screen, stop), screen, stop);
 }
 
