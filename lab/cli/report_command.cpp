@@ -8,6 +8,7 @@
 #include "lab/report/report.hpp"
 #include "lab/results/results.hpp"
 #include "lab/results/several.hpp"
+#include "lab/runner/checksums.hpp"
 #include "proto/base/version.hpp"
 #include "proto/disk/result_file.hpp"
 #include "proto/net/program.hpp"
@@ -134,6 +135,9 @@ base::Result<void> add_demo(results::Results& results, const fs::path& root)
 base::Result<results::Results> results_in(const fs::path& root)
 {
     const auto places = places_in(root);
+    for (const fs::path& place : places) {
+        if (auto fine = runner::verify_checksums(place); !fine) return tl::unexpected{fine.error()};
+    }
     const auto files = read_files(places);
     if (!files) return tl::unexpected{files.error()};
     auto results = read_results(*files);
