@@ -46,9 +46,7 @@ base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options
     return {};
 }
 
-} // namespace
-
-base::Result<int> run(const ReportOptions& options)
+base::Result<int> write_page(const ReportOptions& options)
 {
     const auto text = net::text_of_file(options.run);
     if (!text) return tl::unexpected{text.error()};
@@ -73,6 +71,13 @@ base::Result<int> run(const ReportOptions& options)
     disk::ResultFile{options.out, "--out"}.commit(page);
     net::say("hapnet-emulator", fmt::format("wrote {}", options.out));
     return 0;
+}
+
+} // namespace
+
+base::Result<int> run(const ReportOptions& options)
+{
+    return with_statistics(options.run, [&] { return write_page(options); });
 }
 
 } // namespace hapnet::emulator

@@ -71,7 +71,10 @@ base::Result<void> read_attempts(Cell& cell)
         const auto json = read_json(path);
         if (!json) return tl::unexpected{json.error()};
         auto played = results::played_cell_from(*json);
-        if (!played) return base::fail(path + ": not what `hapnet-lab real-time --played` writes");
+        if (!played) {
+            return base::fail(fmt::format("{}: not what `hapnet-lab real-time --played` writes: {}",
+                                          path, played.error().message));
+        }
         cell.attempts.push_back(*std::move(played));
     }
 }

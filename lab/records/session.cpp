@@ -38,9 +38,12 @@ base::Result<Peer> peer_of(const record::Record& record)
     if (!boot_id.is_string()) return base::fail("its config has no text \"boot_id\"");
     const bool sane = tick.is_number_integer() && tick >= 1 && tick <= 1'000'000'000;
     if (!sane) return base::fail("its config has no whole number \"tick_ns\" up to a second");
-    return Peer{id.get<std::int64_t>(), boot_id.get<std::string>(),
-                base::Duration{tick.get<std::int64_t>()},
-                find("/task").is_string() ? find("/task").get<std::string>() : ""};
+    Peer peer;
+    peer.id = id.get<std::int64_t>();
+    peer.boot_id = boot_id.get<std::string>();
+    peer.tick = base::Duration{tick.get<std::int64_t>()};
+    if (const auto task = find("/task"); task.is_string()) peer.task = task.get<std::string>();
+    return peer;
 }
 
 bool knows(const record::Record& record, std::uint32_t session)
