@@ -85,6 +85,7 @@ json secure_json(const std::optional<line::Status::Key>& key)
              {"unknown_key", c.unknown_key},
              {"other_circle", c.other_circle},
              {"refused", c.refused},
+             {"unread", c.unread},
              {"misnamed", key->misnamed},
              {"cookies", c.cookies},
              {"roamed", c.roamed},
