@@ -3,6 +3,7 @@
 #include "emulator/results.hpp"
 
 #include "emulator/checks.hpp"
+#include "proto/base/visible.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
 
@@ -43,7 +44,7 @@ bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
         fmt::print("{}", text);
     }
     const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
-    net::tell(reports.summary() + failed);
+    net::tell(base::visible_lines(reports.summary() + failed));
     if (failure) std::rethrow_exception(failure);
     return recorder.fates_lost() == 0 && recorder.capture_lost() == 0 && failed.empty();
 }

@@ -16,6 +16,7 @@
 #include "peer/monitor/event_log.hpp"
 #include "peer/monitor/monitor.hpp"
 #include "peer/monitor/report.hpp"
+#include "proto/base/visible.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
 #include "proto/net/program.hpp"
@@ -47,7 +48,10 @@ struct Screen {
     net::TextQueue out{STDOUT_FILENO};
     net::TextQueue err{STDERR_FILENO};
 
-    void say(std::string_view text) { err.put(fmt::format("{}: {}\n", program, text)); }
+    void say(std::string_view text)
+    {
+        err.put(fmt::format("{}: {}\n", program, base::visible_lines(text)));
+    }
     [[nodiscard]] std::uint64_t lost() const { return err.lost() + out.lost(); }
 };
 
@@ -330,7 +334,7 @@ void write_statistics(const monitor::Run& run, std::optional<net::ResultFile>& f
 /// Tells how the run went; its exit code.
 int conclude(const monitor::Run& run, const device::Governor& governor, Screen& screen)
 {
-    screen.err.put(summary(run));
+    screen.err.put(base::visible_lines(summary(run)));
     if (const auto reason = run.status.refusal) {
         screen.say(
             fmt::format("refused: the two peers do not match: {}", monitor::describe(*reason)));

@@ -6,6 +6,7 @@
 #include "lab/cli/host.hpp"
 #include "lab/cli/report_command.hpp"
 #include "lab/results/demo.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
 
 #include <filesystem>
@@ -34,7 +35,7 @@ base::Result<bool> conclude_circle(const DemoReportCommand& command, const std::
     if (!files) return tl::unexpected{files.error()};
     const results::CircleDemo demo{task, *std::move(files)};
     write_manifest(command, circle_demo_manifest(demo, circumstances));
-    fmt::print("{}", circle_demo_verdict(demo));
+    net::print(circle_demo_verdict(demo));
     return circle_demo_is_valid(demo);
 }
 
@@ -62,7 +63,7 @@ base::Result<bool> conclude_demo(const DemoReportCommand& command)
     write_manifest(command, demo_manifest(run, circumstances));
     const auto page = write_report({command.folder, {}});
     if (!page) return tl::unexpected{page.error()};
-    fmt::print("{}", demo_table(run));
+    net::print(demo_table(run));
     return demo_is_met(run) && demo_is_valid(run);
 }
 

@@ -270,7 +270,7 @@ private:
         if (!is_short) return;
         const auto text = net::text_of_file((out_ / name).string());
         if (!text) throw std::runtime_error{text.error().message};
-        fmt::print("{}\n", name.ends_with(".csv") ? records::aligned(*text) : *text);
+        net::print((name.ends_with(".csv") ? records::aligned(*text) : *text) + "\n");
     }
 
     const LoadedExperiment& experiment_;
@@ -353,8 +353,9 @@ base::Result<int> run_whole(const LoadedExperiment& experiment, const RunPlace& 
         return net::exit_failed;
     }
     const auto digest = folder.finish(counts);
-    fmt::print("{}: {} sessions played, {} reused; results in {}\ndigest {}\n",
-               experiment.whole.title, counts.played, counts.reused, place.out, digest);
+    net::print(fmt::format("{}: {} sessions played, {} reused; results in {}\ndigest {}\n",
+                           experiment.whole.title, counts.played, counts.reused, place.out,
+                           digest));
     return 0;
 }
 
@@ -411,8 +412,8 @@ base::Result<int> merge_shards(const LoadedExperiment& experiment,
     if (!*done) return net::exit_failed;
     const auto counts = (*store)->counts();
     const auto digest = folder.finish(counts);
-    fmt::print("{}: {} sessions of {} files; results in {}\ndigest {}\n", experiment.whole.title,
-               counts.reused, files.size(), place.out, digest);
+    net::print(fmt::format("{}: {} sessions of {} files; results in {}\ndigest {}\n",
+                           experiment.whole.title, counts.reused, files.size(), place.out, digest));
     return 0;
 }
 

@@ -112,13 +112,13 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
     }
     for (const Json& one : json["sessions"]) {
         const Json& apart = one["metrics"]["discrepancy_m"];
-        fmt::print("{}, {}, seed {}: {}\n", one["algorithm"].get<std::string>(),
-                   json["task"].get<std::string>(), experiment.first_seed,
-                   apart.is_object()
-                       ? fmt::format("copies {:.2f} mm apart in the mean, {:.2f} mm at most",
-                                     apart["mean"].get<double>() * 1e3,
-                                     apart["max"].get<double>() * 1e3)
-                       : "no session began");
+        net::print(fmt::format(
+            "{}, {}, seed {}: {}\n", one["algorithm"].get<std::string>(),
+            json["task"].get<std::string>(), experiment.first_seed,
+            apart.is_object()
+                ? fmt::format("copies {:.2f} mm apart in the mean, {:.2f} mm at most",
+                              apart["mean"].get<double>() * 1e3, apart["max"].get<double>() * 1e3)
+                : "no session began"));
     }
     return 0;
 }

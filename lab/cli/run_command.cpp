@@ -9,6 +9,7 @@
 #include "lab/experiment/parts.hpp"
 #include "lab/experiment/text.hpp"
 #include "proto/base/version.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
@@ -141,8 +142,8 @@ base::Result<int> plan_experiment(const PlanCommand& planned)
     create_folder(command.out);
     const auto path = (std::filesystem::path{command.out} / plan_name).string();
     write_plan(plan, path);
-    fmt::print("{}: {} jobs in {} parts; {}\n", experiment->whole.title, experiment->jobs,
-               experiment->parts.size(), path);
+    net::print(fmt::format("{}: {} jobs in {} parts; {}\n", experiment->whole.title,
+                           experiment->jobs, experiment->parts.size(), path));
     return 0;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/result.hpp"
+#include "proto/base/visible.hpp"
 #include "proto/net/cure.hpp"
 
 #include <cerrno>
@@ -52,8 +53,11 @@ inline void tell(const std::string& text)
 /// One line of it: "hapnet-peer: ...".
 inline void say(std::string_view program, std::string_view text)
 {
-    tell(fmt::format("{}: {}\n", program, text));
+    tell(fmt::format("{}: {}\n", program, base::visible_lines(text)));
 }
+
+/// Text for a person, on stdout. Names in it may come from a file or another program.
+inline void print(std::string_view text) { fmt::print("{}", base::visible_lines(text)); }
 
 /// Throws std::system_error when what was printed could not be written: a full disk, say.
 inline void require_stdout()
