@@ -9,6 +9,7 @@
 #include <string_view>
 #include <sys/stat.h>
 #include <system_error>
+#include <type_traits>
 #include <unistd.h>
 #include <utility>
 
@@ -63,7 +64,7 @@ std::string complaint(const struct stat& status, const std::string& path)
     return {};
 }
 
-void write_new(const std::string& path, const KeyFile& file)
+void write_new(const std::string& path, std::string text)
 {
     const auto fail = [&path] {
         throw std::system_error{errno, std::generic_category(), fmt::format("write {}", path)};
@@ -71,7 +72,7 @@ void write_new(const std::string& path, const KeyFile& file)
     const Descriptor descriptor{
         ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600)};
     if (!descriptor.is_open()) fail();
-    SecretText secret{print_key_file(file)};
+    SecretText secret{std::move(text)};
     std::string_view left = secret.text();
     while (!left.empty()) {
         const ssize_t written = ::write(descriptor.number(), left.data(), left.size());
@@ -87,9 +88,9 @@ void write_new(const std::string& path, const KeyFile& file)
     if (::fsync(descriptor.number()) != 0) fail();
 }
 
-} // namespace
-
-base::Result<KeyFile> read_key_file(const std::string& path)
+/// What `parse` makes of the text of a file that only its owner can read.
+template <typename Parse>
+std::invoke_result_t<Parse, std::string_view> read_secret(const std::string& path, Parse parse)
 {
     const Descriptor descriptor{
         ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK)};
@@ -113,16 +114,36 @@ base::Result<KeyFile> read_key_file(const std::string& path)
         if (got == 0) break;
         size += static_cast<std::size_t>(got);
     }
-    return parse_key_file(std::string_view{text.text()}.substr(0, size), path);
+    return parse(std::string_view{text.text()}.substr(0, size));
 }
 
-void write_key_file(const std::string& path, const KeyFile& file) { write_new(path, file); }
+} // namespace
+
+base::Result<KeyFile> read_key_file(const std::string& path)
+{
+    return read_secret(path, [&](std::string_view text) { return parse_key_file(text, path); });
+}
+
+base::Result<Secret> read_shared_key(const std::string& path)
+{
+    return read_secret(path, [&](std::string_view text) { return parse_shared_key(text, path); });
+}
+
+void write_key_file(const std::string& path, const KeyFile& file)
+{
+    write_new(path, print_key_file(file));
+}
+
+void write_shared_key(const std::string& path, const Secret& key)
+{
+    write_new(path, print_shared_key(key));
+}
 
 void replace_key_file(const std::string& path, const KeyFile& file)
 {
     const std::string beside = fmt::format("{}.{}.partial", path, ::getpid());
     ::unlink(beside.c_str());
-    write_new(beside, file);
+    write_new(beside, print_key_file(file));
     if (::rename(beside.c_str(), path.c_str()) == 0) return;
     const int reason = errno;
     ::unlink(beside.c_str());

@@ -20,4 +20,9 @@ void write_key_file(const std::string& path, const KeyFile& file);
 /// Exchanges one that is there, whole or not at all.
 void replace_key_file(const std::string& path, const KeyFile& file);
 
+/// A file that holds a circle's shared key alone, and travels to the hosts that do not have it yet.
+/// Read and written as key files are.
+[[nodiscard]] base::Result<Secret> read_shared_key(const std::string& path);
+void write_shared_key(const std::string& path, const Secret& key);
+
 } // namespace hapnet::secure::keys
