@@ -568,7 +568,11 @@ void Hub::answer_mark(const Json& request, const OnReply& on_reply)
 std::vector<PeerState> Hub::peer_states() const
 {
     std::vector<PeerState> states;
-    for (const auto& peer : peers_) states.push_back(peer->state);
+    for (const auto& peer : peers_) {
+        states.push_back(peer->state);
+        states.back().shares_clock =
+            peer->place < feed_.peers().size() && feed_.share_clock(0, peer->place);
+    }
     return states;
 }
 

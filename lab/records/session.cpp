@@ -3,6 +3,7 @@
 #include "lab/records/session.hpp"
 
 #include "lab/records/bodies.hpp"
+#include "proto/base/clock_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +98,10 @@ Side side_of(const record::Record& record, std::uint32_t session, std::int64_t p
 
 Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& terms_of_a)
 {
-    if (!a.boot_id.empty() && a.boot_id == b.boot_id) return {};
+    const bool is_one_boot = !a.boot_id.empty() && a.boot_id == b.boot_id;
+    const bool is_ruled_out =
+        base::are_two_clocks(terms_of_a.remote_offset, terms_of_a.offset_uncertainty);
+    if (is_one_boot && !is_ruled_out) return {};
     return clock_of(terms_of_a);
 }
 
