@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/command_run.hpp"
 
+#include "proto/net/own_network.hpp"
 #include "proto/net/program.hpp"
 
 #include <chrono>

@@ -5,6 +5,7 @@
 #include "emulator/scenario.hpp"
 #include "emulator/wire_end.hpp"
 #include "emulator/world.hpp"
+#include "proto/net/child_command.hpp"
 #include "proto/net/own_network.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/stop_signal.hpp"
