@@ -10,26 +10,35 @@
 
 namespace hapnet::net {
 
-/// A command as a child process. Killed with SIGKILL when it goes out of scope; dies with this
-/// process, too.
+/// A command as a child process, with all processes that it starts. They belong to a process of
+/// this program, the init of the command, and none of them outlives this object or this program,
+/// whatever ends it:
+///
+/// - A command with its own network has its own PID namespace, in which the init is process 1. The
+///   kernel kills all processes in it when the init ends.
+/// - Where the system refuses that, and for other commands, the init is a subreaper
+///   (PR_SET_CHILD_SUBREAPER): it kills its descendants when this program has ended.
 class ChildCommand {
 public:
     struct Setup {
-        std::vector<std::string> words;         // the command and its arguments
-        bool has_own_network = false;           // in a network namespace of its own
+        std::vector<std::string> words; // the command and its arguments
+        /// In a network namespace of its own and, where the system grants it, in a PID namespace
+        /// of its own with a /proc that shows it.
+        bool has_own_network = false;
         bool has_own_group = false;             // a process group, and /dev/null as its stdin
         int output = -1;                        // its stdout and stderr; -1: those of this process
         std::vector<std::string> environment{}; // "NAME=value", besides the environment of this one
         std::string hosts{};                    // lines that it reads after those of /etc/hosts
         std::string name_servers{};             // the text of its /etc/resolv.conf; "": as it is
-        /// What it does in its network once go() says so, before it runs the command. Throws
+        /// What it does in its network once prepare() says so, before it runs the command. Throws
         /// std::system_error.
         std::function<void()> prepare{};
     };
 
-    /// Starts the process, which waits for go(). Throws std::system_error when it cannot have what
-    /// the setup asks for.
+    /// Starts the init, which waits for prepare() and go(). The process must have one thread.
+    /// Throws std::system_error when it cannot have what the setup asks for.
     explicit ChildCommand(const Setup& setup);
+    /// Kills the command and all processes that it has started, and waits for their end.
     ~ChildCommand();
     ChildCommand(const ChildCommand&) = delete;
     ChildCommand& operator=(const ChildCommand&) = delete;
@@ -39,23 +48,26 @@ public:
     /// Runs the command. Throws std::system_error when there is no such command.
     void go();
 
+    /// The init, which is in the network of the command as long as this object lives.
     [[nodiscard]] pid_t pid() const { return pid_; }
-    /// Readable once it has ended.
+    /// Readable or hung up once the command has ended.
     [[nodiscard]] int descriptor() const { return ended_; }
-    /// Its exit code, 128 + n when signal n killed it; nullopt while it runs.
+    /// Its exit code, 128 + n when signal n killed it; nullopt while it runs. Processes that it has
+    /// left in the background may still run then.
     [[nodiscard]] std::optional<int> exit_code();
     /// To it, and to its group if it has one of its own. Nothing when it has ended.
     void signal(int number);
 
 private:
-    [[noreturn]] void be_child(const Setup& setup, int orders, int reports) const;
-    void await_report();
+    bool start(const Setup& setup, bool has_own_processes);
+    bool await_report();
+    void give_terminal_back() const;
 
     pid_t pid_ = -1;
-    int ended_ = -1;   // a pidfd
-    int orders_ = -1;  // to the child: a byte for each step
-    int reports_ = -1; // from it: a byte when a step is done, or an errno and what failed
-    bool has_own_group_ = false;
+    int init_ = -1;     // a socket: orders to the init, and a report of each step
+    int ended_ = -1;    // a pipe from the init: the exit code of the command
+    int terminal_ = -1; // whose keys went to this process and the command when that started
+    bool has_own_processes_ = false;
     std::optional<int> exit_code_;
 };
 
