@@ -145,7 +145,7 @@ show_page() {
     mkdir -p "$1"
     rm -f "$opened"
     # shellcheck disable=SC2086 # $virtual is one word, or none
-    "$bin/hapnet-web" --stage $virtual --out "$1" --url-file "$opened" >/dev/null &
+    with_script "$bin/hapnet-web" --stage $virtual --out "$1" --url-file "$opened" >/dev/null &
     page=$!
     trap 'kill -TERM "$page" 2>/dev/null || true' INT TERM
     for _ in {1..100}; do
