@@ -64,10 +64,7 @@ base::Result<int> relay_frames(const BridgeOptions& options, const Scenario& sce
            !base::is_due(session.end(), now)) {
         now = session.turn(descriptors, session.end());
     }
-    const bool is_complete = session.finish();
-    if (!session.failure()) return is_complete ? 0 : net::exit_failed;
-    net::say("hapnet-emulator", *session.failure());
-    return net::exit_failed;
+    return session.finish() ? 0 : net::exit_failed;
 }
 
 } // namespace

@@ -20,6 +20,7 @@
 #include "emulator/status.hpp"
 #include "emulator/workers.hpp"
 #include "proto/control/server.hpp"
+#include "proto/net/address_watch.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
@@ -83,6 +84,7 @@ public:
           recorder_{plan.files},
           paths_{paths_of(plan)},
           port_{make(paths_, recorder_)},
+          addresses_{port_->locals()},
           run_{{plan.options, plan.scenario, together(paths_), recorder_}, *port_},
           results_{plan.options},
           status_{start_}
@@ -119,6 +121,7 @@ public:
         descriptors.push_back(stop.descriptor());
         if (control_) descriptors.push_back(control_->descriptor());
         if (!workers.empty()) descriptors.push_back(workers.descriptor());
+        if (addresses_.descriptor() >= 0) descriptors.push_back(addresses_.descriptor());
         Emulation emulation = controlled();
         const control::Subject subject = at_rest(subject_of(emulation), workers);
         Pacer pacer{run_.options.timing, start_};
@@ -134,6 +137,7 @@ public:
             run_.elapsed = now - start_;
             if (control_) control_->serve(subject, now, paths_.front()->next_due());
             tell_of_kept();
+            tell_of_addresses();
             status_.show(
                 [&] {
                     const Workers::Rest rest{workers};
@@ -273,6 +277,27 @@ private:
             "on, but its files will end here");
     }
 
+    /// The relay goes on, as an address may come back. Looking takes a system call, so it looks in
+    /// one round of many; until it does, a change ends every wait.
+    void tell_of_addresses()
+    {
+        constexpr unsigned rounds = 64;
+        if (++rounds_since_look_ < rounds) return;
+        rounds_since_look_ = 0;
+        for (const auto& [local, is_lost] : addresses_.news()) {
+            const auto what =
+                is_lost ? fmt::format("this machine has lost the address of {}, so nothing passes "
+                                      "there: give it to an interface again, or listen elsewhere",
+                                      local.to_text())
+                        : fmt::format("the address of {} is back", local.to_text());
+            status_.say(what);
+            auto& failures = run_.failures;
+            const bool is_known =
+                std::find(failures.begin(), failures.end(), what) != failures.end();
+            if (is_lost && !is_known) failures.push_back(what);
+        }
+    }
+
     void tell_of_kept()
     {
         if (const auto trouble = recorder_.keep_trouble()) status_.say(*trouble);
@@ -282,6 +307,8 @@ private:
     Recorder recorder_;
     std::vector<std::unique_ptr<Paths>> paths_;
     std::unique_ptr<Port> port_;
+    net::AddressWatch addresses_;
+    unsigned rounds_since_look_ = 0;
     std::optional<control::Server> control_;
     std::optional<base::TimePoint> end_;
     std::atomic<bool> has_told_of_files_{false};

@@ -108,6 +108,9 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
     paths_.advance(now);
     frames_.release(now);
     run_.elapsed = now - start_;
+    if (const auto& failure = frames_.failure(); failure && run_.failures.empty()) {
+        run_.failures.push_back(*failure);
+    }
     if (const auto notice = frames_.next_notice()) say_of_frames(*notice);
     if (control_) control_->serve(subject_, now, paths_.next_due());
     if (!has_told_of_files_ && recorder_.has_failed()) {
@@ -122,7 +125,7 @@ nlohmann::ordered_json FrameSession::statistics() const
 {
     const auto up = way_of(frames_.path(), frames_.a());
     const auto down = way_of(frames_.path(), frames_.b());
-    std::vector<std::string> reasons;
+    std::vector<std::string> reasons = run_.failures;
     for (const auto& [way, direction] : {std::pair{"up", &up}, std::pair{"down", &down}}) {
         for (const std::string& reason : reasons_against(*direction, run_.options.budget)) {
             reasons.push_back(fmt::format("{}: {}", way, reason));
@@ -151,7 +154,7 @@ std::string FrameSession::summary() const
            in_words("up   (A to B)", way_of(frames_.path(), frames_.a()), budget) +
            in_words("down (B to A)", way_of(frames_.path(), frames_.b()), budget) +
            frames_in_words("A", frames_.a()) + frames_in_words("B", frames_.b()) +
-           incomplete(recorder_);
+           incomplete(recorder_) + failures_in_words(run_);
 }
 
 bool FrameSession::finish()

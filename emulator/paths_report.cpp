@@ -120,10 +120,11 @@ void add_sums(Json& json, const Sums& sums, base::Duration budget, std::vector<s
 }
 
 /// Each link has to be on time, not only all together.
-std::vector<std::string> reasons_of_links(const ports::Links& port, base::Duration budget)
+std::vector<std::string> reasons_of_links(const LinksRun& run)
 {
-    std::vector<std::string> reasons;
-    for (const auto& relay : port.relays()) {
+    const auto budget = run.options.budget;
+    std::vector<std::string> reasons = run.failures;
+    for (const auto& relay : run.port.relays()) {
         for (const auto* side : {&relay->a(), &relay->b()}) {
             for (const std::string& reason : reasons_against(direction_of(*side), budget)) {
                 reasons.push_back(
@@ -169,7 +170,7 @@ nlohmann::ordered_json statistics_of(const LinksRun& run)
     json["generation"] = run.paths.generation();
     json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
     add_files(json, run);
-    add_sums(json, sums_of(run.port), budget, reasons_of_links(run.port, budget));
+    add_sums(json, sums_of(run.port), budget, reasons_of_links(run));
     Json links = Json::object();
     for (const auto& relay : run.port.relays()) links[relay->name()] = json_of(*relay, run);
     json["links"] = std::move(links);
@@ -190,7 +191,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run)
     // Of whoever comes now.
     json["configuration_at_end"] = configuration_json(run.paths.deciders().back().director->path());
     add_files(json, run);
-    add_sums(json, sums_of(run.port), run.options.budget, {});
+    add_sums(json, sums_of(run.port), run.options.budget, run.failures);
     Json clients = Json::array();
     for (const auto* client : run.port.clients()) clients.push_back(json_of(*client, run));
     json["clients"] = std::move(clients);
@@ -208,7 +209,7 @@ std::string summary(const LinksRun& run)
             text += in_words(title.c_str(), direction_of(*side), run.options.budget);
         }
     }
-    return text + incomplete(run.recorder);
+    return text + incomplete(run.recorder) + failures_in_words(run);
 }
 
 std::string summary(const UpstreamRun& run)
@@ -223,7 +224,7 @@ std::string summary(const UpstreamRun& run)
     }
     return text + in_words("up   (to the server)", sums.of_up(), run.options.budget) +
            in_words("down (to the clients)", sums.of_down(), run.options.budget) +
-           incomplete(run.recorder);
+           incomplete(run.recorder) + failures_in_words(run);
 }
 
 std::string status_line(const LinksRun& run) { return status_of(run, "links"); }

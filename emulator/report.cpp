@@ -80,6 +80,13 @@ std::string incomplete(const Recorder& recorder)
     return text;
 }
 
+std::string failures_in_words(const AnyRun& run)
+{
+    std::string text;
+    for (const std::string& failure : run.failures) text += fmt::format("NOT VALID: {}\n", failure);
+    return text;
+}
+
 nlohmann::ordered_json configuration_json(const Path& path)
 {
     const auto of = [](Direction direction, const Conditions& conditions) {
@@ -156,7 +163,7 @@ nlohmann::ordered_json statistics_of(const Run& run)
 {
     const ports::Relay::Side& a = relay_of(run).a();
     const ports::Relay::Side& b = relay_of(run).b();
-    std::vector<std::string> reasons;
+    std::vector<std::string> reasons = run.failures;
     for (const auto& [way, side] : {std::pair{"up", &a}, std::pair{"down", &b}}) {
         for (const std::string& reason : reasons_against(direction_of(*side), run.options.budget)) {
             reasons.push_back(fmt::format("{}: {}", way, reason));
@@ -186,7 +193,7 @@ std::string summary(const Run& run)
                        run.scenario.seed.value()) +
            in_words("up   (A to B)", direction_of(relay_of(run).a()), run.options.budget) +
            in_words("down (B to A)", direction_of(relay_of(run).b()), run.options.budget) +
-           incomplete(run.recorder);
+           incomplete(run.recorder) + failures_in_words(run);
 }
 
 std::string status_line(const Run& run)

@@ -14,6 +14,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -26,6 +27,9 @@ struct AnyRun {
     net::RealTime real_time{};
     base::Duration elapsed{}; // since the sockets were bound
     bool is_over = false;     // nothing waits for the statistics any more: they may be long
+    /// What a run cannot do without and has lost, such as an interface: a sentence each. With one
+    /// of them the run is not valid.
+    std::vector<std::string> failures{};
 };
 
 /// With what moves them. `has_names`: its paths have them.
@@ -69,6 +73,9 @@ void add_checks(nlohmann::ordered_json& json, const AnyRun& run);
 
 /// What is missing in the files that were asked for, a line each.
 [[nodiscard]] std::string incomplete(const Recorder& recorder);
+
+/// What the run has lost for good or for a time, a line each.
+[[nodiscard]] std::string failures_in_words(const AnyRun& run);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run);

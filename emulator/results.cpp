@@ -45,7 +45,8 @@ bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
     const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
     net::tell(reports.summary() + failed);
     if (failure) std::rethrow_exception(failure);
-    return recorder.fates_lost() == 0 && recorder.capture_lost() == 0 && failed.empty();
+    const bool is_complete = recorder.fates_lost() == 0 && recorder.capture_lost() == 0;
+    return is_complete && failed.empty() && run.failures.empty();
 }
 
 } // namespace hapnet::emulator

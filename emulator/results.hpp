@@ -25,8 +25,8 @@ public:
     };
 
     /// Writes the files, with the recorder's, and says how it went. False: they are not complete,
-    /// or a check was not met. Throws, after that, what kept them from being written. The thread
-    /// has no real-time scheduling any more.
+    /// a check was not met, or the run has lost what it cannot do without. Throws, after that, what
+    /// kept them from being written. The thread has no real-time scheduling any more.
     [[nodiscard]] bool finish(AnyRun& run, Recorder& recorder, const Reports& reports);
 
 private:
