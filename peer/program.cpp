@@ -385,17 +385,15 @@ std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& 
     return std::optional<monitor::PlotStream>{std::in_place, *plotter, id, monitor.watch_frames()};
 }
 
-base::Result<int> run(const Options& options)
+/// A session, from the device that is opened to the files that are written.
+int play(const Options& options, const Endpoints& endpoints, const net::StopSignal& stop)
 {
-    const auto endpoints = look_up(options);
-    if (!endpoints) return tl::unexpected{endpoints.error()};
-    const net::StopSignal stop; // before any thread
     net::ServiceManager manager;
     stop.enforce(gone_after, net::exit_environment);
     Screen screen;
     const net::CrashSignal crash;
     const net::CrashStack stack;
-    net::UdpSocket socket{endpoints->listen};
+    net::UdpSocket socket{endpoints.listen};
     Outlets outlets{options}; // before the device is touched
     loop::ForceGate gate{stop, dead_man_of(options)};
     auto opened = open_chosen(options.device, options.task);
@@ -418,8 +416,8 @@ base::Result<int> run(const Options& options)
     loop::Journal journal;
     Side side{settings};
     loop::Watchdog watchdog{rig.device(), &crash};
-    line::Lines lines = lines_of(options, endpoints->remotes, settings.introduction.nonce);
-    loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate,
+    line::Lines lines = lines_of(options, endpoints.remotes, settings.introduction.nonce);
+    loop::Servo servo{{side, rig, socket, endpoints.remotes, lines, journal, watchdog, gate,
                        std::chrono::milliseconds{1}, layout_for(options.scene)}};
     // Last of all that may fail: the files are emptied.
     auto events = events_for(options, screen);
@@ -432,11 +430,11 @@ base::Result<int> run(const Options& options)
                                                                monitor, device,
                                                                monitor::recovery_of(rig.device())});
     }
-    auto plot = plot_for(endpoints->plot, options.id, monitor);
+    auto plot = plot_for(endpoints.plot, options.id, monitor);
     loop::supervise({servo, monitor, stop, gate, screen.out, screen.err,
                      control_session ? &*control_session : nullptr, plot ? &*plot : nullptr,
                      &manager},
-                    ready_line(options, socket, endpoints->remotes));
+                    ready_line(options, socket, endpoints.remotes));
 
     if (kept) kept->on_rest(rig.governor().heat());
     const loop::ServoStatus status = servo.status();
@@ -445,6 +443,15 @@ base::Result<int> run(const Options& options)
     write_statistics(run, outlets.statistics, screen);
     const int code = conclude(run, rig.governor(), screen);
     return finish(finish_events(code, events, screen, stop), screen, stop);
+}
+
+base::Result<int> run(Options options)
+{
+    const auto endpoints = look_up(options);
+    if (!endpoints) return tl::unexpected{endpoints.error()};
+    const net::StopSignal stop; // before any thread
+    if (const auto loaded = load_code(options); !loaded) return tl::unexpected{loaded.error()};
+    return play(options, *endpoints, stop);
 }
 
 base::Result<int> execute(const Command& command)

@@ -4,6 +4,7 @@
 
 #include "proto/base/result.hpp"
 #include "proto/net/cure.hpp"
+#include "proto/net/exit_guard.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -68,6 +69,7 @@ inline void require_stdout()
 template <typename Options, typename Run>
 [[nodiscard]] int run_program(std::string_view program, const CommandLine<Options>& line, Run run)
 {
+    const ExitGuard guard{program};
     try {
         if (!line) {
             say(program, line.error().message);
