@@ -17,11 +17,11 @@ target_include_directories(hapnet_requirements INTERFACE
 # What the programs share: messages, records, keys, sockets and the clock.
 add_library(hapnet_proto INTERFACE)
 target_link_libraries(hapnet_proto INTERFACE
-    hapnet_record hapnet_wire hapnet_secure hapnet_net hapnet_base)
+    hapnet_record hapnet_wire hapnet_secure hapnet_net hapnet_disk hapnet_base)
 
-set(hapnet_archives hapnet_base hapnet_base_document hapnet_wire hapnet_record hapnet_secure
-    hapnet_net hapnet_scene hapnet_emulator_core hapnet_emulator_profiles hapnet_device
-    hapnet_peer_core hapnet_peer_line hapnet_lab_core)
+set(hapnet_archives hapnet_base hapnet_base_document hapnet_disk hapnet_wire hapnet_record
+    hapnet_secure hapnet_net hapnet_scene hapnet_emulator_core hapnet_emulator_profiles
+    hapnet_device hapnet_peer_core hapnet_peer_line hapnet_lab_core)
 foreach(library IN LISTS hapnet_archives ITEMS hapnet_proto hapnet_requirements)
     string(REGEX REPLACE "^hapnet_" "" name ${library})
     set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
@@ -46,8 +46,8 @@ install(FILES ${PROJECT_BINARY_DIR}/hapnetConfig.cmake
     DESTINATION ${hapnet_cmake_dir} COMPONENT hapnet-dev)
 
 # The headers keep their folders, below include/hapnet.
-foreach(folder proto/base proto/wire proto/record proto/net scene emulator/core device/governor
-        device/omni device/replay device/simulated peer/core peer/line lab/metrics
+foreach(folder proto/base proto/disk proto/wire proto/record proto/net scene emulator/core
+        device/governor device/omni device/replay device/simulated peer/core peer/line lab/metrics
         lab/virtual_time)
     file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
         ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
@@ -97,7 +97,7 @@ endfunction()
 hapnet_pkg_config(hapnet-base "Hapnet: units, time, chance and text" REQUIRES spdlog
     ARCHIVES base base_document)
 hapnet_pkg_config(hapnet-proto "Hapnet: messages, records, keys, sockets"
-    REQUIRES hapnet-base libsodium ARCHIVES record wire secure net)
+    REQUIRES hapnet-base libsodium ARCHIVES record wire secure net disk)
 hapnet_pkg_config(hapnet-scene "Hapnet: the physics of the shared scene" REQUIRES hapnet-base
     ARCHIVES scene)
 hapnet_pkg_config(hapnet-emulator-core "Hapnet: an emulated network path in virtual time"

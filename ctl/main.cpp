@@ -51,15 +51,15 @@ int print(const std::string& line, const Options& options, WatchPrinter& watch)
     }
     const int code = exit_code(reply);
     if (options.as_json) {
-        fmt::print("{}\n", line);
+        net::print(line + "\n");
     } else if (!reply.value("ok", false)) {
         net::say(program, reply.value("error", "refused"));
     } else if (options.of_frames) {
-        fmt::print("{}\n", line);
+        net::print(line + "\n");
     } else if (options.command == "watch") {
-        fmt::print("{}", watch.next(reply));
+        net::print(watch.next(reply));
     } else {
-        fmt::print("{}", in_words(options, reply));
+        net::print(in_words(options, reply));
     }
     net::require_stdout();
     return code;

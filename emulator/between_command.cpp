@@ -4,6 +4,7 @@
 #include "emulator/commands.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/wire_end.hpp"
+#include "proto/net/child_command.hpp"
 #include "proto/net/own_network.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/stop_signal.hpp"
@@ -64,8 +65,9 @@ base::Result<int> run(const BetweenOptions& options)
     if (const auto fine = session->ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session->announce();
     const int code = CommandRun{a, {.process = b, .name = "command B"}, *session, stop}.run();
-    const bool is_complete = session->finish();
-    return code == 0 && !is_complete ? net::exit_failed : code;
+    const bool is_fine = session->finish();
+    const bool has_failed = session->failure() || (code == 0 && !is_fine);
+    return has_failed ? net::exit_failed : code;
 }
 
 } // namespace hapnet::emulator

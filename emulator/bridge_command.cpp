@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <system_error>
@@ -55,19 +54,15 @@ base::Result<int> relay_frames(const BridgeOptions& options, const Scenario& sce
     const PlainReception plain_b{options.b};
     if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
-    fmt::print("ready a={} b={} seed={} timing={}\n", options.a, options.b, scenario.seed.value(),
-               to_text(options.run.timing));
-    std::fflush(stdout);
+    net::print_now(fmt::format("ready a={} b={} seed={} timing={}\n", options.a, options.b,
+                               scenario.seed.value(), to_text(options.run.timing)));
     const std::array descriptors{stop.descriptor()};
     auto now = net::monotonic_now();
     while (!stop.requested() && !session.is_stopped() && !session.failure() &&
            !base::is_due(session.end(), now)) {
         now = session.turn(descriptors, session.end());
     }
-    const bool is_complete = session.finish();
-    if (!session.failure()) return is_complete ? 0 : net::exit_failed;
-    net::say("hapnet-emulator", *session.failure());
-    return net::exit_failed;
+    return session.finish() ? 0 : net::exit_failed;
 }
 
 } // namespace

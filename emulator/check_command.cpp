@@ -6,6 +6,7 @@
 #include "emulator/scenario.hpp"
 #include "emulator/tools/describe.hpp"
 #include "emulator/tools/predict.hpp"
+#include "proto/net/program.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -43,17 +44,18 @@ base::Result<int> run(const CheckOptions& options)
     const tools::Stream& stream = options.stream;
     const auto prediction = predict(beginning, stream, seed_of(options.conditions, *profile));
     const auto& [up, down] = profile->path;
-    fmt::print("{}\n", to_text(*profile));
-    for (const std::string& warning : netem_warnings) fmt::print("# warning: {}\n", warning);
+    net::print(to_text(*profile) + "\n");
+    for (const std::string& warning : netem_warnings) net::print("# warning: " + warning + "\n");
     if (up == down) {
-        fmt::print("{}", in_words("both ways", up, stream, prediction.up));
+        net::print(in_words("both ways", up, stream, prediction.up));
     } else {
-        fmt::print("{}{}", in_words(way_in_words(path, Direction::up), up, stream, prediction.up),
-                   in_words(way_in_words(path, Direction::down), down, stream, prediction.down));
+        net::print(in_words(way_in_words(path, Direction::up), up, stream, prediction.up));
+        net::print(in_words(way_in_words(path, Direction::down), down, stream, prediction.down));
     }
     if (!profile->paths.empty()) {
-        fmt::print("# where {} have nothing of their own: --link NAME describes one of them\n",
-                   fmt::join(paths_in(*profile), ", "));
+        net::print(fmt::format("# where {} have nothing of their own: --link NAME describes one of "
+                               "them\n",
+                               fmt::join(paths_in(*profile), ", ")));
     }
     if (!profile->timeline.empty()) {
         fmt::print("# and {} changes later, the last at {:.6g} s\n", profile->timeline.size(),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/command_run.hpp"
 
+#include "proto/net/own_network.hpp"
 #include "proto/net/program.hpp"
 
 #include <chrono>
@@ -92,6 +93,7 @@ void CommandRun::end_both(base::TimePoint now)
     if (!a_.exit_code()) {
         end_of_a_.pursue(knows ? 0 : stop_.number(), now);
     } else {
+        session_.expect_end(); // the interface to a process that serves the network goes with it
         end_of_other_.pursue(SIGTERM, now);
     }
     next_look_ = now + 20ms;

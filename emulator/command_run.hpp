@@ -4,8 +4,8 @@
 
 #include "emulator/frame_session.hpp"
 #include "proto/base/time.hpp"
+#include "proto/net/child_command.hpp"
 #include "proto/net/command_start.hpp"
-#include "proto/net/own_network.hpp"
 #include "proto/net/stop_signal.hpp"
 
 #include <optional>

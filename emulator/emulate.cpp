@@ -21,6 +21,7 @@
 #include "emulator/scenario.hpp"
 #include "emulator/status.hpp"
 #include "emulator/workers.hpp"
+#include "proto/net/address_watch.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
@@ -30,7 +31,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -84,6 +84,7 @@ public:
           recorder_{plan.files},
           paths_{paths_of(plan)},
           port_{make(paths_, recorder_)},
+          addresses_{port_->locals()},
           run_{{plan.options, plan.scenario, together(paths_), recorder_}, *port_},
           results_{plan.options},
           status_{start_}
@@ -107,8 +108,7 @@ public:
                                     paths_.size(), processors));
         }
         for (const std::string& warning : run_.scenario.warnings) status_.say(warning);
-        fmt::print("{}", ready_line(run_));
-        std::fflush(stdout);
+        net::print_now(ready_line(run_));
     }
 
     /// The manager hears that this loop moves.
@@ -121,6 +121,7 @@ public:
         control::Turns& turns = desk_->turns();
         descriptors.push_back(turns.descriptor());
         if (!workers.empty()) descriptors.push_back(workers.descriptor());
+        if (addresses_.descriptor() >= 0) descriptors.push_back(addresses_.descriptor());
         Pacer pacer{run_.options.timing, start_};
         auto now = start_;
         while (!stop.requested() && !is_stopped_ && !workers.has_failed() &&
@@ -132,6 +133,7 @@ public:
             now = relay(0);
             manager.tell_alive(now);
             run_.elapsed = now - start_;
+            tell_of_addresses();
             if (turns.is_due(now, paths_.front()->next_due())) {
                 const Workers::Rest rest{workers};
                 turns.take(now);
@@ -279,10 +281,33 @@ private:
             "on, but its files will end here");
     }
 
+    /// The relay goes on, as an address may come back. Looking takes a system call, so it looks in
+    /// one round of many; until it does, a change ends every wait.
+    void tell_of_addresses()
+    {
+        constexpr unsigned rounds = 64;
+        if (++rounds_since_look_ < rounds) return;
+        rounds_since_look_ = 0;
+        for (const auto& [local, is_lost] : addresses_.news()) {
+            const auto what =
+                is_lost ? fmt::format("this machine has lost the address of {}, so nothing passes "
+                                      "there: give it to an interface again, or listen elsewhere",
+                                      local.to_text())
+                        : fmt::format("the address of {} is back", local.to_text());
+            status_.say(what);
+            auto& failures = run_.failures;
+            const bool is_known =
+                std::find(failures.begin(), failures.end(), what) != failures.end();
+            if (is_lost && !is_known) failures.push_back(what);
+        }
+    }
+
     base::TimePoint start_;
     Recorder recorder_;
     std::vector<std::unique_ptr<Paths>> paths_;
     std::unique_ptr<Port> port_;
+    net::AddressWatch addresses_;
+    unsigned rounds_since_look_ = 0;
     std::optional<base::TimePoint> end_;
     std::atomic<bool> has_told_of_files_{false};
     bool is_stopped_ = false; // by a client

@@ -5,6 +5,7 @@
 #include "emulator/scenario.hpp"
 #include "emulator/wire_end.hpp"
 #include "emulator/world.hpp"
+#include "proto/net/child_command.hpp"
 #include "proto/net/own_network.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/stop_signal.hpp"
@@ -63,8 +64,9 @@ base::Result<int> run(const ExecOptions& options)
             *session,
             stop}
             .run();
-    const bool is_complete = session->finish();
-    return code == 0 && !is_complete ? net::exit_failed : code;
+    const bool is_fine = session->finish();
+    const bool has_failed = session->failure() || (code == 0 && !is_fine);
+    return has_failed ? net::exit_failed : code;
 }
 
 } // namespace hapnet::emulator

@@ -80,7 +80,7 @@ Examples:
   hapnet-emulator bridge eth1 eth2 --profile lte --control emulator.sock)";
 
 constexpr const char* bridge_exit_codes = R"(  0  done
-  1  the run failed, did not meet a --require or a [[check]], or there is a loop
+  1  the run failed, did not meet a --require or a [[check]], there is a loop, or an interface went
   2  bad usage or input
   3  the system refused (no CAP_NET_RAW, no such interface))";
 

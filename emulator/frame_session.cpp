@@ -105,6 +105,9 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
     paths_.advance(now);
     frames_.release(now);
     run_.elapsed = now - start_;
+    if (const auto& failure = frames_.failure(); failure && run_.failures.empty()) {
+        run_.failures.push_back(*failure);
+    }
     if (const auto notice = frames_.next_notice()) say_of_frames(*notice);
     if (turns.is_due(now, paths_.next_due())) turns.take(now);
     if (!has_told_of_files_ && recorder_.has_failed()) {
@@ -119,7 +122,6 @@ nlohmann::ordered_json FrameSession::statistics(const control::DoWork& work)
 {
     look_at(run_, frames_, work, state_);
     const PathState& path = state_.paths.front();
-    const auto reasons = reasons_against(path, run_.options.budget);
     FrameJson json = head_of(run_, state_);
     json["command"] = setup_.command;
     if (setup_.through) json["through"] = *setup_.through;
@@ -128,8 +130,7 @@ nlohmann::ordered_json FrameSession::statistics(const control::DoWork& work)
     json["generation"] = state_.generation;
     add_course(json, run_, path);
     add_files(json, run_);
-    json["valid"] = reasons.empty();
-    json["invalid_because"] = reasons;
+    add_validity(json, run_, reasons_against(state_, run_.options.budget));
     json["up"] = json_of_way(path.up, run_, state_);
     json["down"] = json_of_way(path.down, run_, state_);
     add_checks(json, run_);
@@ -144,7 +145,7 @@ std::string FrameSession::summary() const
                        run_.scenario.seed.value()) +
            in_words("up   (A to B)", path.up.view(), budget) +
            in_words("down (B to A)", path.down.view(), budget) + frames_in_words("A", state_.a) +
-           frames_in_words("B", state_.b) + incomplete(recorder_);
+           frames_in_words("B", state_.b) + incomplete(recorder_) + failures_in_words(state_);
 }
 
 bool FrameSession::finish()

@@ -51,10 +51,13 @@ public:
     [[nodiscard]] std::optional<base::TimePoint> end() const { return end_; }
     /// Whether a client of the control socket has ended it.
     [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+    /// Why the run cannot go on; nullopt: it can.
     [[nodiscard]] const std::optional<std::string>& failure() const { return frames_.failure(); }
+    /// From now on an interface may go, as its command has ended or is about to.
+    void expect_end() { frames_.expect_end(); }
 
-    /// Writes the files and says how it went. False: they are not complete, or a check was not met.
-    /// Throws, after that, what kept the recorder from its files.
+    /// Writes the files and says how it went. False: it has failed, the files are not complete, or
+    /// a check was not met. Throws, after that, what kept the recorder from its files.
     bool finish();
 
 private:

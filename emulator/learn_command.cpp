@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
 #include "emulator/tools/learn/learn.hpp"
+#include "proto/base/visible.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <cstdio>
@@ -35,10 +37,10 @@ base::Result<int> run(const LearnOptions& options)
         return base::fail(fmt::format("{}: {}", options.files.front(), lesson.error().message));
     }
     if (options.with_plots || isatty(STDERR_FILENO) != 0) {
-        for (const std::string& plot : lesson->plots) fmt::print(stderr, "{}\n", plot);
+        for (const std::string& plot : lesson->plots) net::tell(base::visible_lines(plot) + "\n");
     }
-    for (const std::string& remark : lesson->remarks) fmt::print(stderr, "{}\n", remark);
-    fmt::print("{}", tools::to_text(*lesson));
+    for (const std::string& remark : lesson->remarks) net::tell(base::visible_lines(remark) + "\n");
+    net::print(tools::to_text(*lesson));
     return 0;
 }
 

@@ -92,16 +92,16 @@ Json json_of(const PathState& link, const ports::Relay& relay, const LinksRun& r
 }
 
 /// `reasons`: what is against it apart from the sums.
-void add_sums(Json& json, const Sums& sums, base::Duration budget, std::vector<std::string> reasons)
+void add_sums(Json& json, const AnyRun& run, const Sums& sums, std::vector<std::string> reasons)
 {
+    const auto budget = run.options.budget;
     for (const auto& [way, direction] :
          {std::pair{"up", sums.of_up()}, std::pair{"down", sums.of_down()}}) {
         for (const std::string& reason : reasons_against(direction, budget)) {
             reasons.push_back(fmt::format("{}: {}", way, reason));
         }
     }
-    json["valid"] = reasons.empty();
-    json["invalid_because"] = reasons;
+    add_validity(json, run, std::move(reasons));
     json["up"] = json_of(sums.of_up(), budget);
     json["down"] = json_of(sums.of_down(), budget);
 }
@@ -109,7 +109,7 @@ void add_sums(Json& json, const Sums& sums, base::Duration budget, std::vector<s
 /// Each link has to be on time, not only all together.
 std::vector<std::string> reasons_of_links(const RunState& state, base::Duration budget)
 {
-    std::vector<std::string> reasons;
+    std::vector<std::string> reasons = state.failures;
     for (const PathState& link : present(state)) {
         for (const auto& [direction, way] :
              {std::pair{Direction::up, &link.up}, std::pair{Direction::down, &link.down}}) {
@@ -150,12 +150,11 @@ std::string ready_line(const UpstreamRun& run)
 
 nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
 {
-    const auto budget = run.options.budget;
     Json json = head_of(run, state);
     json["generation"] = state.generation;
     json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
     add_files(json, run);
-    add_sums(json, sums_of(state), budget, reasons_of_links(state, budget));
+    add_sums(json, run, sums_of(state), reasons_of_links(state, run.options.budget));
     Json links = Json::object();
     const auto& relays = run.port.relays();
     for (std::size_t i = 0; i < state.count; ++i) {
@@ -179,7 +178,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& sta
     // Of whoever comes now.
     json["configuration_at_end"] = configuration_json(*state.server.newcomers);
     add_files(json, run);
-    add_sums(json, sums_of(state), run.options.budget, {});
+    add_sums(json, run, sums_of(state), state.failures);
     Json clients = Json::array();
     for (const PathState& client : present(state)) clients.push_back(json_of(client, run, state));
     json["clients"] = std::move(clients);
@@ -198,7 +197,7 @@ std::string summary(const LinksRun& run, const RunState& state)
             text += in_words(title.c_str(), way->view(), run.options.budget);
         }
     }
-    return text + incomplete(run.recorder);
+    return text + incomplete(run.recorder) + failures_in_words(state);
 }
 
 std::string summary(const UpstreamRun& run, const RunState& state)
@@ -213,7 +212,7 @@ std::string summary(const UpstreamRun& run, const RunState& state)
     }
     return text + in_words("up   (to the server)", sums.of_up(), run.options.budget) +
            in_words("down (to the clients)", sums.of_down(), run.options.budget) +
-           incomplete(run.recorder);
+           incomplete(run.recorder) + failures_in_words(state);
 }
 
 std::string status_line(const LinksRun& /*run*/, const RunState& state)

@@ -6,9 +6,9 @@
 #include "emulator/tools/probe_message.hpp"
 #include "emulator/tools/probe_statistics.hpp"
 #include "proto/base/version.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/udp_socket.hpp"
 #include "proto/net/wait.hpp"
@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -194,8 +193,7 @@ private:
                 fmt::print(" (there {:.3f}, back {:.3f})", probe_ms(reply->there),
                            probe_ms(reply->back));
             }
-            fmt::print("{}\n", reply->is_copy ? " (copy)" : "");
-            std::fflush(stdout);
+            net::print_now(reply->is_copy ? " (copy)\n" : "\n");
         }
     }
 
@@ -204,7 +202,7 @@ private:
     net::UdpSocket socket_;
     tools::ProbeStatistics statistics_;
     std::vector<std::byte> bytes_;
-    std::optional<net::ResultFile> csv_;
+    std::optional<disk::ResultFile> csv_;
     base::TimePoint next_{};
     base::TimePoint last_{};
     bool has_told_ = false;
@@ -214,8 +212,7 @@ int answer_until_stopped(const net::HostPort& where, const net::StopSignal& stop
 {
     net::UdpSocket socket{net::resolve(where), net::Load::bulk};
     tools::ProbeAnswerer answerer{tools::boot_number(net::boot_id())};
-    fmt::print("ready answer={}\n", socket.local().to_text());
-    std::fflush(stdout);
+    net::print_now(fmt::format("ready answer={}\n", socket.local().to_text()));
     const std::array descriptors{socket.descriptor(), stop.descriptor()};
     std::vector<std::byte> bytes(tools::ProbeMessage::bytes_max);
     while (!stop.requested()) {

@@ -4,21 +4,21 @@
 
 #include "emulator/core/fates/fates.hpp"
 #include "proto/base/version.hpp"
+#include "proto/disk/create.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/real_time.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <iterator>
 #include <netinet/in.h>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace hapnet::emulator {
 
@@ -40,26 +40,17 @@ constexpr std::size_t held_bytes_max = std::size_t{64} << 20;
 
 /// A file without a name, in the folder of `path` so that there is room for it, or where temporary
 /// files are when that folder is no place for files (/dev).
-int open_nameless(const std::string& path)
+disk::Descriptor open_nameless(const std::string& path)
 {
-    const auto beside = std::filesystem::absolute(path).parent_path();
-    for (const auto& folder : {beside, std::filesystem::temp_directory_path()}) {
-        std::string name = (folder / ".hapnet-XXXXXX").string();
-        const int descriptor = mkostemp(name.data(), O_CLOEXEC);
-        if (descriptor < 0) continue;
-        unlink(name.c_str());
-        return descriptor;
+    const auto temporary = (std::filesystem::temp_directory_path() / "fates").string();
+    std::error_code error;
+    for (const std::string& beside : {path, temporary}) {
+        const auto place = disk::Place::find(beside);
+        auto file = place ? disk::create_nameless(*place) : tl::unexpected{place.error()};
+        if (file) return *std::move(file);
+        error = file.error();
     }
-    refuse(fmt::format("cannot write beside {}", path));
-}
-
-void write_all(int descriptor, std::string_view text)
-{
-    while (!text.empty()) {
-        const auto count = write(descriptor, text.data(), text.size());
-        if (count < 0 && errno != EINTR) refuse("cannot write the fates that come last");
-        if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
-    }
+    throw std::system_error{error, fmt::format("cannot write beside {}", path)};
 }
 
 } // namespace
@@ -89,8 +80,6 @@ Recorder::Fates::Fates(const std::string& path, bool of_several)
                                      : fmt::format("{}\n", fates_header);
 }
 
-Recorder::Fates::~Fates() { close(aside); }
-
 Recorder::Fates::Way& Recorder::Fates::way_of(const FateEntry& entry)
 {
     const std::size_t way =
@@ -99,38 +88,63 @@ Recorder::Fates::Way& Recorder::Fates::way_of(const FateEntry& entry)
     return ways[way];
 }
 
-/// What waits in a queue, for a while at most.
+/// What waits in a queue, for a while at most. Where the file is full it is only counted.
 void Recorder::Fates::write(Queue<FateEntry>& queue)
 {
     FateEntry entry;
-    for (std::size_t i = 0; i < batch_max && queue.try_dequeue(entry); ++i) {
-        Way& way = way_of(entry);
-        const auto before = way.rows.size();
-        if (has_several_paths) {
-            if (entry.path >= names.size()) {
-                const std::scoped_lock guard{coming_lock};
-                std::move(coming.begin(), coming.end(), std::back_inserter(names));
-                coming.clear();
-            }
-            way.rows += names.at(entry.path);
-            way.rows += ',';
+    try {
+        for (std::size_t i = 0; i < batch_max && queue.try_dequeue(entry); ++i) {
+            ++loss.taken;
+            if (!loss.failure) add(entry);
         }
-        append_row(way.rows, entry.direction, entry.number, entry.fate);
-        if (&way == ways.data()) continue;
-        waiting_bytes += way.rows.size() - before;
-        if (way.rows.size() >= buffer_bytes) set_aside(way);
+        if (!loss.failure) append_first();
+        if (waiting_bytes >= waiting_bytes_max) {
+            for (std::size_t way = 1; way < ways.size(); ++way) set_aside(ways[way]);
+        }
+    } catch (...) {
+        loss.fail();
+        ways.clear(); // they are in no file
+        waiting_bytes = 0;
     }
+    loss.note();
+}
+
+void Recorder::Fates::add(const FateEntry& entry)
+{
+    Way& way = way_of(entry);
+    const auto before = way.rows.size();
+    if (has_several_paths) {
+        if (entry.path >= names.size()) {
+            const std::scoped_lock guard{coming_lock};
+            std::move(coming.begin(), coming.end(), std::back_inserter(names));
+            coming.clear();
+        }
+        way.rows += names.at(entry.path);
+        way.rows += ',';
+    }
+    append_row(way.rows, entry.direction, entry.number, entry.fate);
+    if (&way == ways.data()) {
+        ++waiting_first;
+        return;
+    }
+    waiting_bytes += way.rows.size() - before;
+    if (way.rows.size() >= buffer_bytes) set_aside(way);
+}
+
+/// Writes the rows of the first way.
+void Recorder::Fates::append_first()
+{
     file.append(ways[0].rows);
     ways[0].rows.clear();
-    if (waiting_bytes < waiting_bytes_max) return;
-    for (Way& way : ways) set_aside(way);
+    loss.kept += std::exchange(waiting_first, 0);
 }
 
 /// Writes what waits of a way to the file without a name.
 void Recorder::Fates::set_aside(Way& way)
 {
     if (way.rows.empty()) return;
-    write_all(aside, way.rows);
+    if (const auto error = disk::write_all(aside.number(), way.rows).error)
+        throw std::system_error{error, "cannot write the fates that come last"};
     way.pieces.push_back({aside_bytes, way.rows.size()});
     aside_bytes += way.rows.size();
     waiting_bytes -= way.rows.size();
@@ -141,8 +155,8 @@ void Recorder::Fates::copy(const Piece& piece, std::string& buffer)
 {
     for (std::size_t done = 0; done < piece.bytes;) {
         buffer.resize(std::min(buffer_bytes, piece.bytes - done));
-        const auto count =
-            pread(aside, buffer.data(), buffer.size(), static_cast<off_t>(piece.begin + done));
+        const auto count = pread(aside.number(), buffer.data(), buffer.size(),
+                                 static_cast<off_t>(piece.begin + done));
         if (count == 0 || (count < 0 && errno != EINTR)) {
             refuse("cannot read the fates that come last");
         }
@@ -153,7 +167,7 @@ void Recorder::Fates::copy(const Piece& piece, std::string& buffer)
 }
 
 /// The ways follow each other.
-void Recorder::Fates::finish()
+void Recorder::Fates::join()
 {
     std::string buffer;
     for (std::size_t way = 1; way < ways.size(); ++way) {
@@ -161,6 +175,19 @@ void Recorder::Fates::finish()
         file.append(ways[way].rows);
     }
     file.commit({});
+}
+
+/// Of a full disk the file has the rows of the first way.
+void Recorder::Fates::finish()
+{
+    try {
+        if (!loss.failure) join();
+    } catch (...) {
+        loss.fail();
+    }
+    if (!loss.failure) return;
+    if (!file.keep()) loss.kept = 0;
+    loss.note();
 }
 
 Recorder::Capture::Capture(const Files& files)
@@ -184,12 +211,33 @@ void Recorder::Capture::write(Queue<Part>& queue, Incomplete& incomplete)
         if (bytes.size() >= buffer_bytes) flush();
     }
     flush();
+    loss.note();
 }
 
 void Recorder::Capture::flush()
 {
-    if (file) file->append(bytes);
+    try {
+        if (file && !loss.failure) {
+            file->append(bytes);
+            loss.kept = loss.taken;
+        }
+    } catch (...) {
+        loss.fail();
+    }
     bytes.clear();
+}
+
+void Recorder::Capture::finish()
+{
+    if (!file) return;
+    try {
+        if (!loss.failure) file->commit({});
+    } catch (...) {
+        loss.fail();
+    }
+    if (!loss.failure) return;
+    if (!file->keep()) loss.kept = 0;
+    loss.note();
 }
 
 /// Writes what was ordered of the last packets.
@@ -227,6 +275,7 @@ void Recorder::Capture::append(const Incomplete& complete)
         append_arrival_comment(comment, head.fate);
     }
     packet.payload = complete.payload;
+    ++loss.taken;
     const std::size_t before = bytes.size();
     append_packet(bytes, packet, since_1970, comment);
     if (held) held->add(packet.at, std::string_view{bytes}.substr(before));
@@ -262,6 +311,7 @@ std::uint64_t Recorder::fates_lost() const
 {
     std::uint64_t sum = 0;
     for (const auto& lane : lanes_) sum += lane->fates_lost_.load(relaxed);
+    if (fates_) sum += fates_->loss.lost.load(relaxed);
     return sum;
 }
 
@@ -269,6 +319,7 @@ std::uint64_t Recorder::capture_lost() const
 {
     std::uint64_t sum = 0;
     for (const auto& lane : lanes_) sum += lane->packets_lost_.load(relaxed);
+    if (capture_) sum += capture_->loss.lost.load(relaxed);
     return sum;
 }
 
@@ -331,7 +382,14 @@ void Recorder::write()
         if (lane->fates_) fates_->write(*lane->fates_);
         if (lane->packets_) capture_->write(*lane->packets_, lane->incomplete_);
     }
+    note_failures();
     if (capture_) capture_->save_ordered();
+}
+
+void Recorder::note_failures()
+{
+    const bool failed = (fates_ && fates_->loss.failure) || (capture_ && capture_->loss.failure);
+    if (failed) failed_.store(true, std::memory_order_release);
 }
 
 /// Of the queue in which most waits.
@@ -349,18 +407,13 @@ std::size_t Recorder::waiting() const
 void Recorder::run()
 {
     net::leave_real_time(); // that of the relay may be inherited; it is not for files
-    try {
-        while (!stop_.load(std::memory_order_acquire)) {
-            write();
-            if (waiting() < batch_max) net::sleep_until(net::monotonic_now() + write_every);
-        }
-        do {
-            write();
-        } while (waiting() > 0);
-    } catch (...) {
-        failure_ = std::current_exception();
-        failed_.store(true, std::memory_order_release);
+    while (!stop_.load(std::memory_order_acquire)) {
+        write();
+        if (waiting() < batch_max) net::sleep_until(net::monotonic_now() + write_every);
     }
+    do {
+        write();
+    } while (waiting() > 0);
 }
 
 void Recorder::finish()
@@ -368,16 +421,11 @@ void Recorder::finish()
     if (!thread_.joinable()) return;
     stop_.store(true, std::memory_order_release);
     thread_.join();
-    try {
-        if (failure_) std::rethrow_exception(failure_);
-        if (fates_) fates_->finish();
-        if (capture_ && capture_->file) capture_->file->commit({});
-    } catch (...) {
-        failed_.store(true, std::memory_order_release);
-        if (fates_) fates_->file.keep();
-        if (capture_ && capture_->file) capture_->file->keep();
-        throw;
-    }
+    if (fates_) fates_->finish();
+    if (capture_) capture_->finish();
+    note_failures();
+    if (fates_ && fates_->loss.failure) std::rethrow_exception(fates_->loss.failure);
+    if (capture_ && capture_->loss.failure) std::rethrow_exception(capture_->loss.failure);
 }
 
 } // namespace hapnet::emulator

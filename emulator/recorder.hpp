@@ -7,9 +7,10 @@
 #include "emulator/core/fate.hpp"
 #include "proto/base/rolling_bytes.hpp"
 #include "proto/base/time.hpp"
+#include "proto/disk/descriptor.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/keeper.hpp"
-#include "proto/net/result_file.hpp"
 
 #include <array>
 #include <atomic>
@@ -62,8 +63,8 @@ public:
     /// allocate and lock; from any thread.
     [[nodiscard]] std::uint32_t add_path(const std::string& name);
 
-    /// How many fates and how many packets are missing in their files: if any, the file is not
-    /// complete.
+    /// How many fates and how many packets are missing in their files: they found no room in a
+    /// queue, or the file could not be written. If any, the file is not complete.
     [[nodiscard]] std::uint64_t fates_lost() const;
     [[nodiscard]] std::uint64_t capture_lost() const;
 
@@ -75,12 +76,12 @@ public:
     /// Why an ordered capture could not be written; once.
     [[nodiscard]] std::optional<std::string> keep_trouble();
 
-    /// Whether a file could not be written (a full disk): from then on everything is lost.
+    /// Whether a file could not be written (a full disk): from then on everything of it is lost.
     [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
 
-    /// Writes all that was handed over and puts the files into their places. Throws what the
-    /// thread failed of; what it had written until then is in its place. Nothing may be handed over
-    /// any more.
+    /// Writes all that was handed over and puts the files into their places. Throws what the first
+    /// of them failed of; what it had until then is in its place, and the other is complete.
+    /// Nothing may be handed over any more.
     void finish();
 
 private:
@@ -111,13 +112,29 @@ private:
     template <typename T>
     using Queue = moodycamel::BlockingReaderWriterCircularBuffer<T>;
 
+    /// What is missing in a file that could not be written to its end.
+    struct Loss {
+        std::uint64_t taken = 0;            // out of the queues
+        std::uint64_t kept = 0;             // in the file
+        std::exception_ptr failure;         // null: all is well
+        std::atomic<std::uint64_t> lost{0}; // for other threads
+
+        /// The exception that is handled, the first of the file.
+        void fail()
+        {
+            failure = std::current_exception();
+            note();
+        }
+        void note()
+        {
+            if (failure) lost.store(taken - kept, relaxed);
+        }
+    };
+
     /// The rows of each way, in the order of the ways, whenever they come: those of the first way
     /// go to the file, those of the others to a file without a name, in pieces, until the end.
     struct Fates {
         Fates(const std::string& path, bool of_several);
-        ~Fates();
-        Fates(const Fates&) = delete;
-        Fates& operator=(const Fates&) = delete;
 
         void write(Queue<FateEntry>& queue);
         void finish();
@@ -131,18 +148,23 @@ private:
             std::vector<Piece> pieces;
         };
         Way& way_of(const FateEntry& entry);
+        void add(const FateEntry& entry);
+        void append_first();
         void set_aside(Way& way);
         void copy(const Piece& piece, std::string& buffer);
+        void join();
 
-        net::ResultFile file;
+        disk::ResultFile file;
         bool has_several_paths;
-        int aside; // the file without a name
+        disk::Descriptor aside; // the file without a name
         std::uint64_t aside_bytes = 0;
-        std::size_t waiting_bytes = 0; // in the rows of all ways but the first
-        std::vector<Way> ways{2};      // up and down of each path
+        std::size_t waiting_bytes = 0;   // in the rows of all ways but the first
+        std::uint64_t waiting_first = 0; // rows of the first way that are not written yet
+        std::vector<Way> ways{2};        // up and down of each path
         std::vector<std::string> names;
         std::mutex coming_lock;
         std::vector<std::string> coming; // names of paths that the writer has not seen yet
+        Loss loss;                       // of rows
     };
     /// What has come of a packet through a lane.
     struct Incomplete {
@@ -157,19 +179,22 @@ private:
         void append(const Incomplete& complete);
         void flush();
         void save_ordered();
+        void finish();
 
-        std::optional<net::ResultFile> file; // of the whole run
-        std::string section;                 // that every capture begins with
+        std::optional<disk::ResultFile> file; // of the whole run
+        std::string section;                  // that every capture begins with
         std::optional<base::Duration> span;
         std::optional<base::RollingBytes> held; // of so much
         net::Keeper keeper;
         base::Duration since_1970; // of the time point 0
         std::string bytes;
         std::string comment;
+        Loss loss; // of packets
     };
 
     void run();
     void write();
+    void note_failures();
     [[nodiscard]] std::size_t waiting() const;
 
     std::unique_ptr<Fates> fates_;
@@ -179,7 +204,6 @@ private:
     std::uint32_t paths_ = 0;
     std::atomic<bool> stop_{false};
     std::atomic<bool> failed_{false};
-    std::exception_ptr failure_;
     std::thread thread_; // last: it uses the others
 };
 

@@ -58,19 +58,42 @@ Json changes_json(const std::vector<ConditionChange>& changes, std::string_view 
     return list;
 }
 
+/// What is missing in the files that were asked for.
+std::vector<std::string> lacks_of(const Recorder& recorder)
+{
+    std::vector<std::string> lacks;
+    if (recorder.has_failed()) lacks.emplace_back("a file of this run could not be written");
+    if (const auto lost = recorder.fates_lost(); lost > 0)
+        lacks.push_back(fmt::format("the fates lack {} datagrams", lost));
+    if (const auto lost = recorder.capture_lost(); lost > 0)
+        lacks.push_back(fmt::format("the capture lacks {} packets", lost));
+    return lacks;
+}
+
 } // namespace
 
 std::string incomplete(const Recorder& recorder)
 {
     std::string text;
-    if (recorder.has_failed()) text += "NOT COMPLETE: a file of this run could not be written\n";
-    if (const auto lost = recorder.fates_lost(); lost > 0) {
-        text += fmt::format("NOT COMPLETE: the fates lack {} datagrams\n", lost);
-    }
-    if (const auto lost = recorder.capture_lost(); lost > 0) {
-        text += fmt::format("NOT COMPLETE: the capture lacks {} packets\n", lost);
-    }
+    for (const std::string& lack : lacks_of(recorder))
+        text += fmt::format("NOT COMPLETE: {}\n", lack);
     return text;
+}
+
+std::string failures_in_words(const RunState& state)
+{
+    std::string text;
+    for (const std::string& failure : state.failures)
+        text += fmt::format("NOT VALID: {}\n", failure);
+    return text;
+}
+
+void add_validity(nlohmann::ordered_json& json, const AnyRun& run, std::vector<std::string> reasons)
+{
+    for (const std::string& lack : lacks_of(run.recorder))
+        reasons.push_back(fmt::format("files: {}", lack));
+    json["valid"] = reasons.empty();
+    json["invalid_because"] = std::move(reasons);
 }
 
 nlohmann::ordered_json configuration_json(const Path& path)
@@ -125,11 +148,12 @@ nlohmann::ordered_json json_of_way(const WayState& way, const AnyRun& run, const
     return json_of(direction, run.options.budget);
 }
 
-std::vector<std::string> reasons_against(const PathState& path, base::Duration budget)
+std::vector<std::string> reasons_against(const RunState& state, base::Duration budget)
 {
-    std::vector<std::string> reasons;
-    for (const auto& [way, state] : {std::pair{"up", &path.up}, std::pair{"down", &path.down}}) {
-        for (const std::string& reason : reasons_against(state->view(), budget)) {
+    std::vector<std::string> reasons = state.failures;
+    const PathState& path = state.paths.front();
+    for (const auto& [way, one] : {std::pair{"up", &path.up}, std::pair{"down", &path.down}}) {
+        for (const std::string& reason : reasons_against(one->view(), budget)) {
             reasons.push_back(fmt::format("{}: {}", way, reason));
         }
     }
@@ -153,7 +177,6 @@ std::string ready_line(const Run& run)
 nlohmann::ordered_json statistics_of(const Run& run, const RunState& state)
 {
     const PathState& path = state.paths.front();
-    const auto reasons = reasons_against(path, run.options.budget);
     Json json = head_of(run, state);
     json["listen_a"] = relay_of(run).a().local.to_text();
     json["listen_b"] = relay_of(run).b().local.to_text();
@@ -164,8 +187,7 @@ nlohmann::ordered_json statistics_of(const Run& run, const RunState& state)
     json["generation"] = state.generation;
     add_course(json, run, path);
     add_files(json, run);
-    json["valid"] = reasons.empty();
-    json["invalid_because"] = reasons;
+    add_validity(json, run, reasons_against(state, run.options.budget));
     json["up"] = json_of_way(path.up, run, state);
     json["down"] = json_of_way(path.down, run, state);
     add_checks(json, run);
@@ -179,7 +201,7 @@ std::string summary(const Run& run, const RunState& state)
                        run.scenario.seed.value()) +
            in_words("up   (A to B)", path.up.view(), run.options.budget) +
            in_words("down (B to A)", path.down.view(), run.options.budget) +
-           incomplete(run.recorder);
+           incomplete(run.recorder) + failures_in_words(state);
 }
 
 std::string status_line(const Run& /*run*/, const RunState& state)

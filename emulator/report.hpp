@@ -31,6 +31,9 @@ struct AnyRun {
     const Recorder& recorder;
     net::RealTime real_time{};
     base::Duration elapsed{}; // since the sockets were bound
+    /// What a run cannot do without and has lost, such as an interface: a sentence each. With one
+    /// of them the run is not valid.
+    std::vector<std::string> failures{};
 };
 
 /// With what moves them. `has_names`: its paths have them.
@@ -62,13 +65,18 @@ void add_course(nlohmann::ordered_json& json, const AnyRun& run, const PathState
 /// The profile and the files of the run.
 void add_files(nlohmann::ordered_json& json, const AnyRun& run);
 
+/// Whether the run counts: it does when nothing is against it (`reasons`), and its files
+/// lack nothing.
+void add_validity(nlohmann::ordered_json& json, const AnyRun& run,
+                  std::vector<std::string> reasons);
+
 /// A direction of one path. A run that keeps each fate keeps whole distributions, too, once it is
 /// over.
 [[nodiscard]] nlohmann::ordered_json json_of_way(const WayState& way, const AnyRun& run,
                                                  const RunState& state);
 
-/// What is against the only path's being valid: "up: ...".
-[[nodiscard]] std::vector<std::string> reasons_against(const PathState& path,
+/// What is against the validity of a run with one path: what it has lost, and "up: ...".
+[[nodiscard]] std::vector<std::string> reasons_against(const RunState& state,
                                                        base::Duration budget);
 
 /// What has become of the checks, if there are any: after all that they may speak of.
@@ -76,6 +84,9 @@ void add_checks(nlohmann::ordered_json& json, const AnyRun& run);
 
 /// What is missing in the files that were asked for, a line each.
 [[nodiscard]] std::string incomplete(const Recorder& recorder);
+
+/// What the run has lost for good or for a time, a line each.
+[[nodiscard]] std::string failures_in_words(const RunState& state);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run, const RunState& state);

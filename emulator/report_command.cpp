@@ -4,8 +4,8 @@
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/run_files.hpp"
 #include "emulator/tools/run_page/run_page.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -46,9 +46,7 @@ base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options
     return {};
 }
 
-} // namespace
-
-base::Result<int> run(const ReportOptions& options)
+base::Result<int> write_page(const ReportOptions& options)
 {
     const auto text = net::text_of_file(options.run);
     if (!text) return tl::unexpected{text.error()};
@@ -70,9 +68,16 @@ base::Result<int> run(const ReportOptions& options)
         fmt::print("{}", page);
         return 0;
     }
-    net::ResultFile{options.out, "--out"}.commit(page);
+    disk::ResultFile{options.out, "--out"}.commit(page);
     net::say("hapnet-emulator", fmt::format("wrote {}", options.out));
     return 0;
+}
+
+} // namespace
+
+base::Result<int> run(const ReportOptions& options)
+{
+    return with_statistics(options.run, [&] { return write_page(options); });
 }
 
 } // namespace hapnet::emulator

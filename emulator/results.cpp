@@ -3,6 +3,7 @@
 #include "emulator/results.hpp"
 
 #include "emulator/checks.hpp"
+#include "proto/base/visible.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
 
@@ -31,20 +32,23 @@ bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
     }
     const auto statistics = reports.statistics();
     const std::string text = statistics.dump(2) + "\n";
-    if (stats_) {
-        try {
-            stats_->commit(text);
-        } catch (const std::system_error&) { // they are worth more than their place
-            failure = std::current_exception();
-            fmt::print("{}", text);
-        }
-    } else if (run.options.stats) {
-        fmt::print("{}", text);
+    bool is_written = !run.options.stats;
+    try {
+        if (stats_) stats_->commit(text);
+        is_written = is_written || stats_.has_value();
+    } catch (const std::system_error&) { // they are worth more than their place
+        failure = std::current_exception();
+    }
+    try {
+        if (!is_written) net::print_now(text);
+    } catch (const std::system_error&) {
+        failure = std::current_exception();
     }
     const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
-    net::tell(reports.summary() + failed);
+    net::tell(base::visible_lines(reports.summary() + failed));
     if (failure) std::rethrow_exception(failure);
-    return recorder.fates_lost() == 0 && recorder.capture_lost() == 0 && failed.empty();
+    const bool is_complete = recorder.fates_lost() == 0 && recorder.capture_lost() == 0;
+    return is_complete && failed.empty() && run.failures.empty();
 }
 
 } // namespace hapnet::emulator

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emulator/report.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -25,12 +25,12 @@ public:
     };
 
     /// Writes the files, with the recorder's, and says how it went. False: they are not complete,
-    /// or a check was not met. Throws, after that, what kept them from being written. The thread
-    /// has no real-time scheduling any more.
+    /// a check was not met, or the run has lost what it cannot do without. Throws, after that, what
+    /// kept them from being written. The thread has no real-time scheduling any more.
     [[nodiscard]] bool finish(AnyRun& run, Recorder& recorder, const Reports& reports);
 
 private:
-    std::optional<net::ResultFile> stats_;
+    std::optional<disk::ResultFile> stats_;
 };
 
 } // namespace hapnet::emulator

@@ -6,8 +6,9 @@
 #include "emulator/core/profile/profile.hpp"
 #include "proto/base/result.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <spdlog/fmt/fmt.h>
 #include <string>
 
 namespace hapnet::emulator {
@@ -47,5 +48,20 @@ namespace hapnet::emulator {
 /// replayed, or the conditions changed.
 [[nodiscard]] base::Result<void> ensure_testable(const nlohmann::ordered_json& statistics,
                                                  const Profile& profile, const std::string& path);
+
+/// What `use` gives, which reads the statistics in that file. An error that names the file when a
+/// value has another type than hapnet-emulator writes.
+template <typename Use>
+[[nodiscard]] auto with_statistics(const std::string& path, const Use& use) -> decltype(use())
+{
+    try {
+        return use();
+    } catch (const nlohmann::json::exception& error) {
+        return base::fail(
+            fmt::format("{}: a value has another type than --stats of hapnet-emulator "
+                        "writes ({}): run it again with --stats FILE",
+                        path, error.what()));
+    }
+}
 
 } // namespace hapnet::emulator

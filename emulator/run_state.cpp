@@ -49,6 +49,7 @@ void end_look(const AnyRun& run, RunState& state)
 {
     state.elapsed = run.elapsed;
     state.generation = run.paths.generation();
+    if (state.failures != run.failures) state.failures = run.failures;
 }
 
 std::size_t look_at(const ports::Relay& relay, std::size_t changes_max, PathState& state)

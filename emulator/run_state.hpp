@@ -66,8 +66,9 @@ struct RunState {
     base::Duration elapsed{}; // since the sockets were bound
     std::uint64_t generation = 1;
     bool is_over = false;
-    std::size_t count = 0;        // of the paths that there are
-    std::vector<PathState> paths; // as many at least: they are large, and used again
+    std::vector<std::string> failures; // see AnyRun
+    std::size_t count = 0;             // of the paths that there are
+    std::vector<PathState> paths;      // as many at least: they are large, and used again
 
     /// Of a server and its clients.
     struct Server {

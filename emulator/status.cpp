@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/status.hpp"
 
+#include "proto/base/visible.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/wait.hpp"
 
@@ -12,7 +13,7 @@ namespace hapnet::emulator {
 void Status::say(std::string_view message)
 {
     const std::scoped_lock guard{lock_};
-    screen_.put(fmt::format("{}hapnet-emulator: {}\n", line_.room(), message));
+    screen_.put(fmt::format("{}hapnet-emulator: {}\n", line_.room(), base::visible_lines(message)));
 }
 
 void Status::finish()

@@ -116,7 +116,7 @@ base::Result<Evidence> evidence_of(const VerifyOptions& request)
 
 base::Result<int> run(const VerifyOptions& request)
 {
-    const auto evidence = evidence_of(request);
+    const auto evidence = with_statistics(request.run, [&] { return evidence_of(request); });
     if (!evidence) return tl::unexpected{evidence.error()};
     const Profile& profile = evidence->profile;
     if (!profile.timeline.empty()) {

@@ -3,6 +3,7 @@
 #include "emulator/wire_end.hpp"
 
 #include "proto/net/interface.hpp"
+#include "proto/net/own_network.hpp"
 
 #include <cerrno>
 #include <spdlog/fmt/fmt.h>

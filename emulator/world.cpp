@@ -5,6 +5,7 @@
 #include "proto/base/time.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/interface.hpp"
+#include "proto/net/own_network.hpp"
 
 #include <cerrno>
 #include <chrono>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emulator/frame_options.hpp"
-#include "proto/net/own_network.hpp"
+#include "proto/net/child_command.hpp"
 
 #include <memory>
 #include <optional>

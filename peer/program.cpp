@@ -16,10 +16,11 @@
 #include "peer/monitor/event_log.hpp"
 #include "peer/monitor/monitor.hpp"
 #include "peer/monitor/report.hpp"
+#include "proto/base/visible.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/service_manager.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/text_queue.hpp"
@@ -29,6 +30,7 @@
 #include <cstring>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -47,7 +49,10 @@ struct Screen {
     net::TextQueue out{STDOUT_FILENO};
     net::TextQueue err{STDERR_FILENO};
 
-    void say(std::string_view text) { err.put(fmt::format("{}: {}\n", program, text)); }
+    void say(std::string_view text)
+    {
+        err.put(fmt::format("{}: {}\n", program, base::visible_lines(text)));
+    }
     [[nodiscard]] std::uint64_t lost() const { return err.lost() + out.lost(); }
 };
 
@@ -56,11 +61,11 @@ struct Outlets {
     explicit Outlets(const Options& options)
     {
         if (options.control) server.emplace(*options.control, monitor::ControlSession::limits);
-        if (options.stats && *options.stats != "-") statistics.emplace(*options.stats);
+        if (options.stats && *options.stats != "-") statistics.emplace(*options.stats, "--stats");
     }
 
     std::optional<control::Server> server;
-    std::optional<net::ResultFile> statistics;
+    std::optional<disk::ResultFile> statistics;
 };
 
 struct Endpoints {
@@ -317,20 +322,27 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
-void write_statistics(const monitor::Run& run, std::optional<net::ResultFile>& file, Screen& screen)
+/// Statistics that find no room in their file go to stdout: they are worth more than their place.
+/// Gives the exit code.
+int write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& file, Screen& screen)
 {
+    if (!run.options.stats) return 0;
     const std::string statistics = statistics_json(run).dump(2) + "\n";
-    if (file) {
-        file->commit(statistics);
-    } else if (run.options.stats) {
-        screen.out.put(statistics);
+    int code = 0;
+    try {
+        if (file) file->commit(statistics);
+    } catch (const std::system_error& error) {
+        screen.say(net::explained(error));
+        code = net::exit_environment;
     }
+    if (!file || code != 0) screen.out.put(statistics);
+    return code;
 }
 
 /// Tells how the run went; its exit code.
 int conclude(const monitor::Run& run, const device::Governor& governor, Screen& screen)
 {
-    screen.err.put(summary(run));
+    screen.err.put(base::visible_lines(summary(run)));
     if (const auto reason = run.status.refusal) {
         screen.say(
             fmt::format("refused: the two peers do not match: {}", monitor::describe(*reason)));
@@ -385,17 +397,15 @@ std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& 
     return std::optional<monitor::PlotStream>{std::in_place, *plotter, id, monitor.watch_frames()};
 }
 
-base::Result<int> run(const Options& options)
+/// A session, from the device that is opened to the files that are written.
+int play(const Options& options, const Endpoints& endpoints, const net::StopSignal& stop)
 {
-    const auto endpoints = look_up(options);
-    if (!endpoints) return tl::unexpected{endpoints.error()};
-    const net::StopSignal stop; // before any thread
     net::ServiceManager manager;
     stop.enforce(gone_after, net::exit_environment);
     Screen screen;
     const net::CrashSignal crash;
     const net::CrashStack stack;
-    net::UdpSocket socket{endpoints->listen};
+    net::UdpSocket socket{endpoints.listen};
     Outlets outlets{options}; // before the device is touched
     loop::ForceGate gate{stop, dead_man_of(options)};
     auto opened = open_chosen(options.device, options.task);
@@ -418,8 +428,8 @@ base::Result<int> run(const Options& options)
     loop::Journal journal;
     Side side{settings};
     loop::Watchdog watchdog{rig.device(), &crash};
-    line::Lines lines = lines_of(options, endpoints->remotes, settings.introduction.nonce);
-    loop::Servo servo{{side, rig, socket, endpoints->remotes, lines, journal, watchdog, gate,
+    line::Lines lines = lines_of(options, endpoints.remotes, settings.introduction.nonce);
+    loop::Servo servo{{side, rig, socket, endpoints.remotes, lines, journal, watchdog, gate,
                        std::chrono::milliseconds{1}, layout_for(options.scene)}};
     // Last of all that may fail: the files are emptied.
     auto events = events_for(options, screen);
@@ -432,19 +442,28 @@ base::Result<int> run(const Options& options)
                                                                monitor, device,
                                                                monitor::recovery_of(rig.device())});
     }
-    auto plot = plot_for(endpoints->plot, options.id, monitor);
+    auto plot = plot_for(endpoints.plot, options.id, monitor);
     loop::supervise({servo, monitor, stop, gate, screen.out, screen.err,
                      control_session ? &*control_session : nullptr, plot ? &*plot : nullptr,
                      &manager},
-                    ready_line(options, socket, endpoints->remotes));
+                    ready_line(options, socket, endpoints.remotes));
 
     if (kept) kept->on_rest(rig.governor().heat());
     const loop::ServoStatus status = servo.status();
     const monitor::Run run{
         options, status, device, monitor.is_record_whole(), monitor.rows_lost(), screen.lost()};
-    write_statistics(run, outlets.statistics, screen);
-    const int code = conclude(run, rig.governor(), screen);
+    const int written = write_statistics(run, outlets.statistics, screen);
+    const int code = std::max(written, conclude(run, rig.governor(), screen));
     return finish(finish_events(code, events, screen, stop), screen, stop);
+}
+
+base::Result<int> run(Options options)
+{
+    const auto endpoints = look_up(options);
+    if (!endpoints) return tl::unexpected{endpoints.error()};
+    const net::StopSignal stop; // before any thread
+    if (const auto loaded = load_code(options); !loaded) return tl::unexpected{loaded.error()};
+    return play(options, *endpoints, stop);
 }
 
 base::Result<int> execute(const Command& command)

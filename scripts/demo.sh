@@ -139,13 +139,22 @@ show_results() {
     printf 'demo: this page shows %s\n' "$2"
 }
 
-# show_page: the live page, until Ctrl-C.
+# open_page ADDRESS FOLDER: in a browser, if there is one. Arguments are seen by every user of the
+# machine, so the browser is given a file of mode 0600 that leads to the address and its token.
+open_page() {
+    [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]] && command -v xdg-open >/dev/null || return 0
+    (umask 077 && printf '<meta http-equiv="refresh" content="0; url=%s">\n' "$1" >"$2/page.html")
+    xdg-open "$2/page.html" >/dev/null 2>&1 || true
+}
+
+# show_page FOLDER: the live page, until Ctrl-C.
 show_page() {
-    local opened=$1/address page
+    local private opened page
     mkdir -p "$1"
-    rm -f "$opened"
+    private=$(mktemp -d "$1/address.XXXXXX") # of mode 0700
+    opened=$private/address
     # shellcheck disable=SC2086 # $virtual is one word, or none
-    "$bin/hapnet-web" --stage $virtual --out "$1" --url-file "$opened" >/dev/null &
+    with_script "$bin/hapnet-web" --stage $virtual --out "$1" --url-file "$opened" >/dev/null &
     page=$!
     trap 'kill -TERM "$page" 2>/dev/null || true' INT TERM
     for _ in {1..100}; do
@@ -155,14 +164,12 @@ show_page() {
     done
     if [[ -s $opened ]]; then
         printf 'demo: open %s\n' "$(<"$opened")"
-        if [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]] && command -v xdg-open >/dev/null; then
-            xdg-open "$(<"$opened")" >/dev/null 2>&1 || true
-        fi
+        open_page "$(<"$opened")" "$private"
     fi
     local code=0
     wait "$page" || code=$?
     ((code <= 128)) || { code=0 && wait "$page" || code=$?; }
-    rm -f "$opened"
+    rm -rf "$private"
     ((code == 0)) && printf '\ndemo: records, captures and statistics lie in %s\n' "$1"
     return "$code"
 }

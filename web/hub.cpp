@@ -409,11 +409,8 @@ void Hub::answer_emulator(const Json& request, const OnReply& on_reply)
         return on_reply(
             error_reply(400, "\"command\" must be one of show, set, apply, diff, reset"));
     }
-    for (const char* key : {"file", "files"}) {
-        if (!request.contains(key)) continue;
-        return on_reply(error_reply(400, fmt::format("\"{}\" is not known here: a page may name no "
-                                                     "files, but send a profile itself",
-                                                     key)));
+    if (request.contains("file") || request.contains("files")) {
+        return on_reply(error_reply(400, "a page may name no files: send the profile itself"));
     }
     if (!emulator_ || !emulator_->is_attached()) {
         return on_reply(error_reply(503, "no emulator is attached"));
@@ -576,7 +573,11 @@ void Hub::answer_mark(const Json& request, const OnReply& on_reply)
 std::vector<PeerState> Hub::peer_states() const
 {
     std::vector<PeerState> states;
-    for (const auto& peer : peers_) states.push_back(peer->state);
+    for (const auto& peer : peers_) {
+        states.push_back(peer->state);
+        states.back().shares_clock =
+            peer->place < feed_.peers().size() && feed_.share_clock(0, peer->place);
+    }
     return states;
 }
 

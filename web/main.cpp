@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "proto/disk/private_file.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/service_manager.hpp"
 #include "proto/net/standard_streams.hpp"
 #include "proto/net/stop_signal.hpp"
-#include "proto/net/text_file.hpp"
 #include "web/core/gate.hpp"
 #include "web/core/stage_plan.hpp"
 #include "web/hub.hpp"
@@ -28,7 +28,6 @@
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -44,17 +43,18 @@ constexpr std::string_view program_name = "hapnet-web";
 constexpr int ports_tried = 20;
 constexpr int niceness = 10; // the loops come first
 constexpr std::size_t token_digits_least = 32;
+constexpr std::size_t token_file_bytes_max = 4096;
 
 base::Result<std::string> token_of(const Options& options)
 {
     if (options.token_file.empty()) {
         return fmt::format("{:016x}{:016x}", net::unpredictable_bits(), net::unpredictable_bits());
     }
-    struct stat status {};
-    if (stat(options.token_file.c_str(), &status) == 0 && (status.st_mode & 077U) != 0) {
-        return base::fail(options.token_file + ": others may read it: chmod 600");
-    }
-    auto text = net::text_of_file(options.token_file);
+    // A volume with secrets has links to them (Kubernetes).
+    auto text =
+        disk::read_private(options.token_file, {.name = "token file",
+                                                .bytes_max = token_file_bytes_max,
+                                                .links = disk::PrivateKind::Links::followed});
     if (!text) return text;
     while (!text->empty() && std::isspace(static_cast<unsigned char>(text->back())) != 0) {
         text->pop_back();
@@ -221,9 +221,9 @@ base::Result<int> run(const Options& options)
     server.accept_from(std::move(acceptor));
     listen_besides(io, options, port, server);
     const std::string url = fmt::format("http://127.0.0.1:{}/#t={}", port, *token);
-    if (!options.url_file.empty()) net::ResultFile{options.url_file, "", 0600}.commit(url + "\n");
-    fmt::print("open {}\n", url);
-    net::require_stdout();
+    if (!options.url_file.empty())
+        disk::ResultFile{options.url_file, "--url-file", 0600}.commit(url + "\n");
+    net::print_now(fmt::format("open {}\n", url));
     manager.tell_ready();
     Heart heart{io, hub, stop, manager};
     io.run();

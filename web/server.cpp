@@ -3,9 +3,9 @@
 #include "web/server.hpp"
 
 #include "proto/net/clock.hpp"
+#include "web/core/visitors.hpp"
 #include "web/viewing.hpp"
 
-#include <algorithm>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -46,34 +46,30 @@ boost::string_view beast_view(std::string_view text) { return {text.data(), text
 
 } // namespace
 
-class Connection;
-
 struct Server::State {
     Parts parts;
     Limits limits{};
     std::list<asio::ip::tcp::acceptor> acceptors;
-    std::list<std::weak_ptr<Connection>> connections; // in the order in which they came
+    Visitors visitors{limits.connections};
     bool is_over = false;
     base::TimePoint second{};
     int posts = 0; // in it
 
     void accept(asio::ip::tcp::acceptor& acceptor, const std::shared_ptr<State>& self);
-    void admit(asio::ip::tcp::socket socket, const std::shared_ptr<State>& self);
     [[nodiscard]] bool admits_post();
 };
 
-/// One browser's connection, until it ends or becomes a WebSocket.
+/// One browser's connection, until it ends or becomes a WebSocket. Counts as a visitor.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(asio::ip::tcp::socket socket, std::shared_ptr<Server::State> state);
 
-    /// Waits for a request.
-    void wait();
-    /// It makes room for another.
-    void close();
-    [[nodiscard]] bool is_idle() const { return is_idle_; }
+    /// Counts as a visitor from now on, and waits for a request.
+    void begin();
 
 private:
+    void wait();
+    void close();
     void read();
     void on_request();
     void upgrade();
@@ -93,6 +89,7 @@ private:
     beast::flat_buffer buffer_;
     std::optional<RequestParser> parser_;
     Request request_;
+    std::optional<Visit> visit_;
     bool is_idle_ = true;
 };
 
@@ -101,6 +98,21 @@ Connection::Connection(asio::ip::tcp::socket socket, std::shared_ptr<Server::Sta
       state_{std::move(state)},
       buffer_{state_->limits.request.header_bytes + state_->limits.request.body_bytes}
 {}
+
+void Connection::begin()
+{
+    const std::weak_ptr<Connection> weak = shared_from_this();
+    visit_.emplace(state_->visitors.admit({.is_idle =
+                                               [weak] {
+                                                   const auto self = weak.lock();
+                                                   return !self || self->is_idle_;
+                                               },
+                                           .close =
+                                               [weak] {
+                                                   if (const auto self = weak.lock()) self->close();
+                                               }}));
+    wait();
+}
 
 void Connection::wait()
 {
@@ -166,7 +178,9 @@ void Connection::on_request()
 void Connection::upgrade()
 {
     if (state_->parts.hub.is_full()) return refuse({429, "too many pages look already"});
-    view_live(stream_.release_socket(), request_, state_->parts.hub, state_->parts.gate);
+    visit_.reset(); // it goes on as another visitor
+    view_live(stream_.release_socket(), request_,
+              {state_->parts.hub, state_->parts.gate, state_->visitors});
 }
 
 void Connection::serve()
@@ -282,7 +296,7 @@ void Server::State::accept(asio::ip::tcp::acceptor& acceptor, const std::shared_
         [this, &acceptor, self](beast::error_code error, asio::ip::tcp::socket socket) {
             if (is_over || error == asio::error::operation_aborted) return;
             if (!error) {
-                admit(std::move(socket), self);
+                std::make_shared<Connection>(std::move(socket), self)->begin();
                 return accept(acceptor, self);
             }
             // No descriptors, perhaps: not at once again.
@@ -291,25 +305,6 @@ void Server::State::accept(asio::ip::tcp::acceptor& acceptor, const std::shared_
                 if (!is_over) accept(acceptor, self);
             });
         });
-}
-
-/// One too many takes the place of the one that has been idle for longest, so that whoever only
-/// holds connections keeps nobody out.
-void Server::State::admit(asio::ip::tcp::socket socket, const std::shared_ptr<State>& self)
-{
-    connections.remove_if([](const auto& one) { return one.expired(); });
-    if (connections.size() >= limits.connections) {
-        const auto idle = std::ranges::find_if(connections, [](const auto& one) {
-            const auto connection = one.lock();
-            return connection && connection->is_idle();
-        });
-        const auto place = idle == connections.end() ? connections.begin() : idle;
-        if (const auto connection = place->lock()) connection->close();
-        connections.erase(place);
-    }
-    const auto connection = std::make_shared<Connection>(std::move(socket), self);
-    connections.push_back(connection);
-    connection->wait();
 }
 
 bool Server::State::admits_post()
@@ -323,7 +318,7 @@ bool Server::State::admits_post()
 }
 
 Server::Server(const Parts& parts)
-    : state_{std::make_shared<State>(State{.parts = parts, .acceptors = {}, .connections = {}})}
+    : state_{std::make_shared<State>(State{.parts = parts, .acceptors = {}})}
 {}
 
 Server::~Server()
@@ -333,9 +328,7 @@ Server::~Server()
         beast::error_code ignored;
         acceptor.close(ignored);
     }
-    for (const auto& one : state_->connections) {
-        if (const auto connection = one.lock()) connection->close();
-    }
+    state_->visitors.close_all();
 }
 
 void Server::accept_from(asio::ip::tcp::acceptor acceptor)

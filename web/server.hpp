@@ -21,7 +21,7 @@ class Server {
 public:
     struct Limits {
         RequestLimits request{};
-        std::size_t connections = 32;
+        std::size_t connections = 32; // but for pages that have shown the token
         int posts_per_second = 40;
     };
 

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "web/spawner.hpp"
 
+#include "proto/disk/create.hpp"
+#include "proto/net/stop_signal.hpp"
+
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
-#include <sys/prctl.h>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
 #include <sys/syscall.h>
 #include <system_error>
 #include <unistd.h>
@@ -20,39 +25,67 @@ namespace {
     throw std::system_error{errno, std::generic_category(), what};
 }
 
-/// Only what is permitted between fork() and exec() of a program with threads.
-[[noreturn]] void become(char* const* words, int log, int output, pid_t parent)
+std::vector<char*> pointers_to(std::vector<std::string>& texts)
 {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) _exit(126);
+    std::vector<char*> pointers;
+    for (std::string& text : texts) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+/// The environment of this program, with its lifeline.
+std::vector<std::string> environment_with(int lifeline)
+{
+    const auto name = fmt::format("{}=", net::lifeline_variable);
+    std::vector<std::string> variables{fmt::format("{}{}", name, lifeline)};
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        if (!std::string_view{*variable}.starts_with(name)) variables.emplace_back(*variable);
+    }
+    return variables;
+}
+
+/// A process to be, by what it is given.
+struct Image {
+    char* const* words;
+    char* const* environment;
+    int lifeline;
+    int log;
+    int output; // -1: to the log
+};
+
+/// Only what is permitted between fork() and exec() of a program with threads.
+[[noreturn]] void become(const Image& image)
+{
     setpgid(0, 0);
+    fcntl(image.lifeline, F_SETFD, 0); // inherited, in this process alone
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
     signal(SIGPIPE, SIG_DFL);
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     dup2(nothing, STDIN_FILENO);
-    dup2(output >= 0 ? output : log, STDOUT_FILENO);
-    dup2(log, STDERR_FILENO);
-    execv(words[0], words);
+    dup2(image.output >= 0 ? image.output : image.log, STDOUT_FILENO);
+    dup2(image.log, STDERR_FILENO);
+    execve(image.words[0], image.words, image.environment);
     _exit(127);
 }
 
-Child start_now(const Command& command)
+Child start_now(const Command& command, int lifeline)
 {
-    const int log = open(command.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
-    if (log < 0) refuse(command.log.c_str());
+    const auto log = disk::open_to_write(command.log, O_WRONLY | O_APPEND, 0600);
+    if (!log) throw std::system_error{log.error(), command.log};
     int pipe_ends[2] = {-1, -1};
     if (command.wants_output && pipe2(pipe_ends, O_CLOEXEC) != 0) refuse("pipe");
     std::vector<std::string> words = command.words;
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    const pid_t parent = getpid();
+    std::vector<std::string> environment = environment_with(lifeline);
+    const auto word_pointers = pointers_to(words);
+    const auto variable_pointers = pointers_to(environment);
     const pid_t pid = fork();
-    if (pid == 0) become(pointers.data(), log, pipe_ends[1], parent);
+    if (pid == 0) {
+        become({word_pointers.data(), variable_pointers.data(), lifeline, log->number(),
+                pipe_ends[1]});
+    }
     const int error = errno;
-    close(log);
     if (pipe_ends[1] >= 0) close(pipe_ends[1]);
     errno = error;
     if (pid < 0) refuse("fork");
@@ -63,7 +96,11 @@ Child start_now(const Command& command)
 
 } // namespace
 
-Spawner::Spawner() : thread_{[this] { serve(); }} {}
+Spawner::Spawner()
+{
+    if (pipe2(lifeline_.data(), O_CLOEXEC) != 0) refuse("pipe");
+    thread_ = std::thread{[this] { serve(); }};
+}
 
 Spawner::~Spawner()
 {
@@ -73,11 +110,13 @@ Spawner::~Spawner()
     }
     changed_.notify_one();
     thread_.join();
+    for (const int end : lifeline_) close(end);
 }
 
 Child Spawner::start(const Command& command)
 {
-    std::packaged_task<Child()> task{[command] { return start_now(command); }};
+    std::packaged_task<Child()> task{
+        [command, lifeline = lifeline_[0]] { return start_now(command, lifeline); }};
     auto child = task.get_future();
     {
         const std::lock_guard lock{mutex_};

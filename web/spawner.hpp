@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -29,8 +30,9 @@ struct Child {
 };
 
 /// Starts processes from a thread of its own, which keeps the priority that the program was started
-/// with: children inherit that of the thread that starts them, and the server's is low. They get
-/// SIGTERM when this program ends, however it ends.
+/// with: children inherit that of the thread that starts them, and the server's is low. They are
+/// programs of this project and hold a lifeline (proto/net/stop_signal.hpp): they stop when this
+/// program has ended, whatever ended it.
 class Spawner {
 public:
     Spawner();
@@ -48,6 +50,7 @@ private:
     std::condition_variable changed_;
     std::deque<std::packaged_task<Child()>> tasks_;
     bool is_over_ = false;
+    std::array<int, 2> lifeline_{-1, -1};
     std::thread thread_; // last: it uses the others
 };
 

@@ -49,15 +49,24 @@ std::optional<std::uint64_t> acknowledged_in(const Json& message)
 
 class Viewing : public std::enable_shared_from_this<Viewing> {
 public:
-    Viewing(asio::ip::tcp::socket socket, Hub& hub, const Gate& gate)
-        : stream_{std::move(socket)}, timer_{stream_.get_executor()}, hub_{hub}, gate_{gate}
+    Viewing(asio::ip::tcp::socket socket, const LiveParts& parts)
+        : stream_{std::move(socket)},
+          timer_{stream_.get_executor()},
+          hub_{parts.hub},
+          gate_{parts.gate}
     {}
     ~Viewing() = default;
     Viewing(const Viewing&) = delete;
     Viewing& operator=(const Viewing&) = delete;
 
-    void begin(const Request& request)
+    void begin(const Request& request, Visitors& visitors)
     {
+        const std::weak_ptr<Viewing> weak = shared_from_this();
+        visit_.emplace(visitors.admit({.is_idle = [] { return true; },
+                                       .close =
+                                           [weak] {
+                                               if (const auto self = weak.lock()) self->cut();
+                                           }}));
         stream_.read_message_max(message_bytes_max);
         stream_.set_option(websocket::stream_base::timeout{
             .handshake_timeout = 5s, .idle_timeout = 20s, .keep_alive_pings = true});
@@ -121,6 +130,7 @@ private:
                                      }});
         if (!joined) return close(close_too_many, "too many pages look already");
         membership_.emplace(*std::move(joined));
+        visit_.reset();
     }
 
     void push_frame(const std::string& body)
@@ -181,7 +191,7 @@ private:
         membership_.reset();
     }
 
-    /// It does not read: there is nobody to say anything to.
+    /// It does not read, or makes room for another visitor: nothing more is said.
     void cut()
     {
         leave();
@@ -199,6 +209,7 @@ private:
     std::uint64_t sent_ = 0; // live frames
     std::uint64_t acknowledged_ = 0;
     std::uint64_t left_out_ = 0;
+    std::optional<Visit> visit_;           // until it is a member
     std::optional<Membership> membership_; // of the hub
     bool is_in_ = false;
     bool is_closing_ = false;
@@ -207,10 +218,10 @@ private:
 
 } // namespace
 
-void view_live(asio::ip::tcp::socket socket, const Request& request, Hub& hub, const Gate& gate)
+void view_live(asio::ip::tcp::socket socket, const Request& request, const LiveParts& parts)
 {
     // The handshake answers from the request, which it reads at once.
-    std::make_shared<Viewing>(std::move(socket), hub, gate)->begin(request);
+    std::make_shared<Viewing>(std::move(socket), parts)->begin(request, parts.visitors);
 }
 
 } // namespace hapnet::web

@@ -70,7 +70,8 @@ base::Result<DeviceState> device_in(const json& it)
     if (!position || !velocity) return base::fail("a device without a finite position");
     const json& status = member(it, "status");
     const json& axes = member(member(member(it, "config"), "basis"), "permutation");
-    return DeviceState{.id = id.get<std::string>(),
+    std::string name = id.get<std::string>();
+    return DeviceState{.id = std::move(name),
                        .hip = {*position},
                        .velocity = {*velocity},
                        .calibrated = flag(status, "calibrated", false),

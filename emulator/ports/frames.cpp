@@ -131,6 +131,22 @@ void Frames::receive()
 {
     pass(a_, b_);
     pass(b_, a_);
+    watch_interface(a_);
+    watch_interface(b_);
+}
+
+/// Without one of the interfaces nothing passes, and the run says nothing about its conditions.
+void Frames::watch_interface(const Side& side)
+{
+    if (side.socket.error() == 0 || is_end_expected_ || failure_) return;
+    const auto& name = side.interface;
+    failure_ = net::has_interface(name)
+                   ? fmt::format("the interface {0} is down, so nothing passes: set it up (ip link "
+                                 "set {0} up), and start again",
+                                 name)
+                   : fmt::format("the interface {} has gone, so nothing passes: make it again, "
+                                 "and start again",
+                                 name);
 }
 
 void Frames::pass(Side& from, Side& to)

@@ -66,6 +66,9 @@ public:
     /// Why it must not go on; nullopt: it may.
     [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
 
+    /// From now on an interface that goes is no failure: what stands behind it ends.
+    void expect_end() { is_end_expected_ = true; }
+
     [[nodiscard]] const EmulatedPath& path() const { return path_; }
     [[nodiscard]] const Side& a() const { return a_; }
     [[nodiscard]] const Side& b() const { return b_; }
@@ -75,6 +78,7 @@ private:
     class Outgoing;
 
     void pass(Side& from, Side& to);
+    void watch_interface(const Side& side);
     bool send_due(Direction direction, Side& to, base::TimePoint now);
     void watch_for_loop(const Side& from, const Frame& frame);
     void answer_too_big(Side& from, std::span<const std::byte> frame);
@@ -99,6 +103,7 @@ private:
     std::optional<std::string> failure_;
     std::optional<std::string> untold_;
     bool has_told_of_oversized_ = false;
+    bool is_end_expected_ = false;
 };
 
 } // namespace hapnet::emulator::ports

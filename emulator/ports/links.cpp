@@ -33,6 +33,13 @@ void Links::Part::add(Relay& relay, Paths& paths)
     ready_->add(relay.b().socket.descriptor(), 2 * place + 1, {.to_read = true});
 }
 
+std::vector<net::Endpoint> Links::locals() const
+{
+    std::vector<net::Endpoint> all;
+    for (const auto& relay : relays_) all.insert(all.end(), {relay->a().local, relay->b().local});
+    return all;
+}
+
 void Links::Part::receive()
 {
     if (!ready_) return relays_.front()->receive(); // to ask first would cost another call

@@ -70,6 +70,9 @@ public:
     /// In the order of their places.
     [[nodiscard]] const std::vector<std::unique_ptr<Relay>>& relays() const { return relays_; }
 
+    /// Where its sockets are bound.
+    [[nodiscard]] std::vector<net::Endpoint> locals() const;
+
 private:
     OwnSockets own_;
     std::vector<std::unique_ptr<Relay>> relays_;

@@ -76,6 +76,8 @@ public:
     // Of all parts, while none is at work.
 
     [[nodiscard]] const net::Endpoint& local() const;
+    /// Where its sockets are bound, but for those to the server.
+    [[nodiscard]] std::vector<net::Endpoint> locals() const { return {local()}; }
     [[nodiscard]] const net::Endpoint& server() const { return common_.places.server; }
     /// By their numbers.
     [[nodiscard]] std::vector<const Client*> clients() const;

@@ -4,6 +4,7 @@
 
 #include "lab/records/text_table.hpp"
 #include "lab/results/compared_rows.hpp"
+#include "lab/runner/checksums.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <filesystem>
@@ -16,6 +17,7 @@ namespace {
 
 base::Result<results::File> sessions_of(const std::string& folder)
 {
+    if (auto fine = runner::verify_checksums(folder); !fine) return tl::unexpected{fine.error()};
     for (const char* name : {"sessions.csv", "sessions_by_axis.csv", "sessions_by_point.csv"}) {
         const auto path = (std::filesystem::path{folder} / name).string();
         if (!std::filesystem::exists(path)) continue;

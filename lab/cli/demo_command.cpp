@@ -6,7 +6,8 @@
 #include "lab/cli/host.hpp"
 #include "lab/cli/report_command.hpp"
 #include "lab/results/demo.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
+#include "proto/net/program.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -23,7 +24,7 @@ bool is_analysed(const std::string& task_folder)
 
 void write_manifest(const DemoReportCommand& command, const nlohmann::ordered_json& manifest)
 {
-    net::ResultFile{command.folder + "/manifest.json"}.commit(manifest.dump(2) + '\n');
+    disk::ResultFile{command.folder + "/manifest.json"}.commit(manifest.dump(2) + '\n');
 }
 
 /// Of --peers and of --scene, whose page and table are those of its one session.
@@ -34,7 +35,7 @@ base::Result<bool> conclude_circle(const DemoReportCommand& command, const std::
     if (!files) return tl::unexpected{files.error()};
     const results::CircleDemo demo{task, *std::move(files)};
     write_manifest(command, circle_demo_manifest(demo, circumstances));
-    fmt::print("{}", circle_demo_verdict(demo));
+    net::print(circle_demo_verdict(demo));
     return circle_demo_is_valid(demo);
 }
 
@@ -62,7 +63,7 @@ base::Result<bool> conclude_demo(const DemoReportCommand& command)
     write_manifest(command, demo_manifest(run, circumstances));
     const auto page = write_report({command.folder, {}});
     if (!page) return tl::unexpected{page.error()};
-    fmt::print("{}", demo_table(run));
+    net::print(demo_table(run));
     return demo_is_met(run) && demo_is_valid(run);
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/experiment_run.hpp"
 
-#include "lab/cli/checksums.hpp"
 #include "lab/cli/files.hpp"
 #include "lab/cli/host.hpp"
 #include "lab/records/kept_play.hpp"
@@ -10,13 +9,14 @@
 #include "lab/results/manifest.hpp"
 #include "lab/results/precision_rows.hpp"
 #include "lab/results/result_files.hpp"
+#include "lab/runner/checksums.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/result_tables.hpp"
 #include "lab/runner/runner.hpp"
 #include "proto/base/version.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/record/writer.hpp"
 
@@ -46,14 +46,14 @@ runner::FolderIdentity identity_of(const LoadedExperiment& experiment)
 void write_text(const fs::path& path, const std::string& text)
 {
     create_folder(path.parent_path().string());
-    net::ResultFile{path.string()}.commit(text);
+    disk::ResultFile{path.string()}.commit(text);
 }
 
-void tell_of_damage(const runner::SessionStore& store, const std::string& where)
+void tell_of_damage(const runner::SessionStore& store)
 {
-    if (store.damaged_lines() == 0) return;
-    net::say(program_name,
-             fmt::format("{} lines of {} are damaged and left out", store.damaged_lines(), where));
+    const auto damage = store.damage();
+    if (!damage) return;
+    net::say(program_name, fmt::format("{}; left out", *damage));
 }
 
 /// What the names of all that is of a point have in common: "5ms" of one axis, or "point-3".
@@ -195,6 +195,7 @@ public:
 
     void add(const LoadedExperiment::Part& part, const ShardRun::Results& found)
     {
+        forget_old_checksums();
         if (part.experiment.record) write_records(out_, part);
         if (has_reference()) findings_.push_back({part.values.front(), &part.experiment, found});
         const auto files = results::make_result_files(part.experiment, experiment_.criteria, found);
@@ -205,6 +206,7 @@ public:
     /// Moves all into place. Returns the digest.
     std::string finish(const runner::SessionStore::Counts& counts)
     {
+        forget_old_checksums();
         for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
         if (has_reference()) {
             constexpr const char* name = "precision.csv";
@@ -213,9 +215,9 @@ public:
             write_text(out_ / name, base::csv_text(rows));
             names_.emplace_back(name);
         }
-        const auto checksums = checksums_of(out_, names_);
-        write_text(out_ / checksums_name, checksums);
-        auto digest = checksum_of(checksums);
+        const auto checksums = runner::checksums_of(out_, names_);
+        write_text(out_ / runner::checksums_name, checksums);
+        auto digest = runner::checksum_of(checksums);
         write_manifest(counts, {}, digest);
         for (const std::string& name : names_) print_short(name);
         return digest;
@@ -237,6 +239,12 @@ public:
     }
 
 private:
+    /// Those of an earlier run no longer hold once a file is written.
+    void forget_old_checksums()
+    {
+        if (!std::exchange(has_written_, true)) fs::remove(out_ / runner::checksums_name);
+    }
+
     [[nodiscard]] bool has_reference() const
     {
         const auto& axes = experiment_.whole.axes;
@@ -270,7 +278,7 @@ private:
         if (!is_short) return;
         const auto text = net::text_of_file((out_ / name).string());
         if (!text) throw std::runtime_error{text.error().message};
-        fmt::print("{}\n", name.ends_with(".csv") ? records::aligned(*text) : *text);
+        net::print((name.ends_with(".csv") ? records::aligned(*text) : *text) + "\n");
     }
 
     const LoadedExperiment& experiment_;
@@ -279,6 +287,7 @@ private:
     runner::ResultTables tables_;
     std::vector<std::string> names_;
     std::vector<results::AxisFindings> findings_; // of an axis with a reference
+    bool has_written_ = false;
     base::TimePoint start_;
     double start_s_;
 };
@@ -325,6 +334,15 @@ std::string unfinished_among(const std::vector<std::string>& files)
     return fmt::format("{}", fmt::join(shards, ", "));
 }
 
+/// Why sessions of these files are missing, and what mends it.
+std::string why_missing(const runner::SessionStore& store, const std::vector<std::string>& files)
+{
+    if (const auto unfinished = unfinished_among(files); !unfinished.empty())
+        return "these shards have not ended: " + unfinished;
+    if (store.damage()) return "run the shards with damaged lines again: they play what is missing";
+    return "not all shards have begun";
+}
+
 } // namespace
 
 base::Result<int> run_whole(const LoadedExperiment& experiment, const RunPlace& place)
@@ -337,7 +355,7 @@ base::Result<int> run_whole(const LoadedExperiment& experiment, const RunPlace& 
     const auto store =
         runner::SessionStore::open(path, identity_of(experiment), experiment.program);
     if (!store) return base::fail("--out: " + store.error().message);
-    tell_of_damage(**store, path);
+    tell_of_damage(**store);
     ResultFolder folder{experiment, place};
     ShardRun run{experiment, {}, {**store, runner::play_in_virtual_time, place.threads, {}}};
     const auto done =
@@ -353,8 +371,9 @@ base::Result<int> run_whole(const LoadedExperiment& experiment, const RunPlace& 
         return net::exit_failed;
     }
     const auto digest = folder.finish(counts);
-    fmt::print("{}: {} sessions played, {} reused; results in {}\ndigest {}\n",
-               experiment.whole.title, counts.played, counts.reused, place.out, digest);
+    net::print(fmt::format("{}: {} sessions played, {} reused; results in {}\ndigest {}\n",
+                           experiment.whole.title, counts.played, counts.reused, place.out,
+                           digest));
     return 0;
 }
 
@@ -367,7 +386,7 @@ base::Result<int> run_shard(const LoadedExperiment& experiment, const experiment
     const auto store =
         runner::SessionStore::open(path.string(), identity_of(experiment), experiment.program);
     if (!store) return base::fail(store.error().message);
-    tell_of_damage(**store, path.string());
+    tell_of_damage(**store);
     ShardRun run{experiment, shard, {**store, runner::play_in_virtual_time, place.threads, {}}};
     const auto done = run.run([](const auto&, const auto&) {});
     if (!done) throw std::runtime_error{done.error().message};
@@ -392,6 +411,7 @@ base::Result<int> merge_shards(const LoadedExperiment& experiment,
     const auto store =
         runner::SessionStore::open_all(files, identity_of(experiment), experiment.program);
     if (!store) return base::fail(store.error().message);
+    tell_of_damage(**store);
     ResultFolder folder{experiment, place};
     const auto play = [](const experiment::SessionSpec& spec,
                          const auto&) -> base::Result<experiment::PlayedSession> {
@@ -401,18 +421,15 @@ base::Result<int> merge_shards(const LoadedExperiment& experiment,
     const auto done =
         run.run([&](const auto& part, const auto& found) { folder.add(part, found); });
     if (!done) {
-        const auto unfinished = unfinished_among(files);
-        net::say(program_name,
-                 fmt::format("sessions are missing ({}): {}", done.error().message,
-                             unfinished.empty() ? "not all shards have begun"
-                                                : "these shards have not ended: " + unfinished));
+        net::say(program_name, fmt::format("sessions are missing ({}): {}", done.error().message,
+                                           why_missing(**store, files)));
         return net::exit_failed;
     }
     if (!*done) return net::exit_failed;
     const auto counts = (*store)->counts();
     const auto digest = folder.finish(counts);
-    fmt::print("{}: {} sessions of {} files; results in {}\ndigest {}\n", experiment.whole.title,
-               counts.reused, files.size(), place.out, digest);
+    net::print(fmt::format("{}: {} sessions of {} files; results in {}\ndigest {}\n",
+                           experiment.whole.title, counts.reused, files.size(), place.out, digest));
     return 0;
 }
 

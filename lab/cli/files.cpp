@@ -6,12 +6,71 @@
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A key of a result file and the type of its value, where the file has it.
+struct TypedKey {
+    const char* key;
+    bool (*is_right)(const Json&);
+    const char* type;
+};
+
+bool is_list_of_objects(const Json& json)
+{
+    return json.is_array() &&
+           std::ranges::all_of(json, [](const Json& one) { return one.is_object(); });
+}
+
+bool is_way(const Json& json)
+{
+    if (!json.is_object()) return false;
+    const Json dropped = json.value("dropped", Json::object());
+    return dropped.is_object() &&
+           std::ranges::all_of(dropped, [](const Json& count) { return count.is_number(); });
+}
+
+bool is_list(const Json& json) { return json.is_array(); }
+bool is_flag(const Json& json) { return json.is_boolean(); }
+bool is_text(const Json& json) { return json.is_string(); }
+
+// Those that the code which reads these files takes for granted.
+constexpr std::array analysis_keys{TypedKey{"invalid_because", is_list, "a list"}};
+constexpr std::array emulator_keys{
+    TypedKey{"valid", is_flag, "true or false"}, TypedKey{"invalid_because", is_list, "a list"},
+    TypedKey{"up", is_way, "an object with counts of what was dropped"},
+    TypedKey{"down", is_way, "an object with counts of what was dropped"}};
+constexpr std::array peer_keys{TypedKey{"algorithm", is_text, "a text"},
+                               TypedKey{"task", is_text, "a text"},
+                               TypedKey{"others", is_list_of_objects, "a list of objects"}};
+
+/// The object that a result file holds. The error names the file, and the key whose value has
+/// another type.
+base::Result<Json> read_result(const std::string& path, std::span<const TypedKey> keys)
+{
+    auto json = read_json(path);
+    if (!json) return json;
+    for (const TypedKey& one : keys) {
+        const auto found = json->find(one.key);
+        if (found == json->end() || one.is_right(*found)) continue;
+        return base::fail(fmt::format("{}: '{}' is not {}", path, one.key, one.type));
+    }
+    return json;
+}
+
+} // namespace
 
 base::Result<nlohmann::ordered_json> read_json(const std::string& path)
 {
@@ -61,10 +120,11 @@ void create_folder(const std::string& path)
 base::Result<results::SessionFiles> read_session_files(const std::string& folder)
 {
     results::SessionFiles files;
-    for (auto [part, name] : {std::pair{&files.analysis, "/analysis.json"},
-                              {&files.emulator, "/emulator.json"},
-                              {&files.peer, "/peer-1.json"}}) {
-        auto json = read_json(folder + name);
+    for (auto [part, name, keys] :
+         {std::tuple{&files.analysis, "/analysis.json", std::span<const TypedKey>{analysis_keys}},
+          {&files.emulator, "/emulator.json", emulator_keys},
+          {&files.peer, "/peer-1.json", peer_keys}}) {
+        auto json = read_result(folder + name, keys);
         if (!json) return tl::unexpected{json.error()};
         *part = *std::move(json);
     }
@@ -72,7 +132,7 @@ base::Result<results::SessionFiles> read_session_files(const std::string& folder
     for (std::size_t id = 2; id <= others + 1; ++id) {
         const auto path = fmt::format("{}/peer-{}.json", folder, id);
         if (!std::filesystem::exists(path)) break;
-        auto json = read_json(path);
+        auto json = read_result(path, peer_keys);
         if (!json) return tl::unexpected{json.error()};
         files.others.push_back(*std::move(json));
     }

@@ -3,17 +3,54 @@
 #include "lab/cli/plan.hpp"
 
 #include "lab/cli/files.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <vector>
 
 namespace hapnet::lab {
 
 namespace {
 
 constexpr int plan_format = 1;
+
+/// Reads the members of a plan, each into a variable of its own. The first error stays.
+class PlanMembers {
+public:
+    PlanMembers(const nlohmann::ordered_json& json, const std::string& path)
+        : json_{json}, path_{path}
+    {}
+
+    template <typename Value>
+    Value take(const char* key)
+    {
+        const auto found = json_.find(key);
+        try {
+            if (found != json_.end()) return found->template get<Value>();
+            refuse(key, "is missing");
+        } catch (const nlohmann::json::exception&) {
+            refuse(key, "has another type");
+        }
+        return {};
+    }
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+private:
+    void refuse(const char* key, const char* why)
+    {
+        if (error_) return;
+        error_ = fmt::format("{}: not what `hapnet-lab plan` writes: '{}' {}", path_, key, why);
+    }
+
+    const nlohmann::ordered_json& json_;
+    const std::string& path_;
+    std::optional<std::string> error_;
+};
 
 } // namespace
 
@@ -28,16 +65,22 @@ base::Result<Plan> read_plan(const std::string& path)
 {
     const auto json = read_json(path);
     if (!json) return tl::unexpected{json.error()};
-    try {
-        if (json->at("format") != plan_format) return base::fail(path + ": a plan of another form");
-        return Plan{.experiment = json->at("experiment"),
-                    .overrides = {json->at("quick"), json->at("settings")},
-                    .criteria = json->at("criteria"),
-                    .files = json->at("files"),
-                    .program = json->at("program")};
-    } catch (const nlohmann::json::exception&) {
-        return base::fail(path + ": not what `hapnet-lab plan` writes");
+    PlanMembers members{*json, path};
+    Plan plan;
+    const auto format = members.take<std::int64_t>("format");
+    plan.experiment = members.take<std::string>("experiment");
+    plan.overrides.quick = members.take<bool>("quick");
+    plan.overrides.settings = members.take<std::vector<std::string>>("settings");
+    plan.criteria = members.take<std::string>("criteria");
+    plan.files = members.take<std::map<std::string, std::string>>("files");
+    plan.program = members.take<std::string>("program");
+    if (members.error()) return base::fail(*members.error());
+    if (format != plan_format) {
+        return base::fail(fmt::format("{}: a plan of format {}, and this program reads {}: plan "
+                                      "again",
+                                      path, format, plan_format));
     }
+    return plan;
 }
 
 void write_plan(const Plan& plan, const std::string& path)
@@ -47,7 +90,7 @@ void write_plan(const Plan& plan, const std::string& path)
         {"quick", plan.overrides.quick}, {"settings", plan.overrides.settings},
         {"criteria", plan.criteria},     {"files", plan.files},
         {"program", plan.program}};
-    net::ResultFile{path}.commit(json.dump(2) + '\n');
+    disk::ResultFile{path}.commit(json.dump(2) + '\n');
 }
 
 base::OpenFile opener_of(const Plan& plan)

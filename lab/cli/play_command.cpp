@@ -14,15 +14,14 @@
 #include "proto/base/built_in.hpp"
 #include "proto/base/text.hpp"
 #include "proto/control/server.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/net/wait.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
@@ -113,13 +112,13 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
     }
     for (const Json& one : json["sessions"]) {
         const Json& apart = one["metrics"]["discrepancy_m"];
-        fmt::print("{}, {}, seed {}: {}\n", one["algorithm"].get<std::string>(),
-                   json["task"].get<std::string>(), experiment.first_seed,
-                   apart.is_object()
-                       ? fmt::format("copies {:.2f} mm apart in the mean, {:.2f} mm at most",
-                                     apart["mean"].get<double>() * 1e3,
-                                     apart["max"].get<double>() * 1e3)
-                       : "no session began");
+        net::print(fmt::format(
+            "{}, {}, seed {}: {}\n", one["algorithm"].get<std::string>(),
+            json["task"].get<std::string>(), experiment.first_seed,
+            apart.is_object()
+                ? fmt::format("copies {:.2f} mm apart in the mean, {:.2f} mm at most",
+                              apart["mean"].get<double>() * 1e3, apart["max"].get<double>() * 1e3)
+                : "no session began"));
     }
     return 0;
 }
@@ -142,7 +141,7 @@ public:
         do {
             path = fmt::format("{}/experiment-{}.toml", folder_, ++count_);
         } while (std::filesystem::exists(path));
-        net::ResultFile{path}.commit(text);
+        disk::ResultFile{path}.commit(text);
         return path;
     }
 
@@ -182,8 +181,7 @@ int play_live(const PlayCommand& command, Played& session, base::Duration tick)
     }
     std::vector<int> descriptors{stop.descriptor()};
     for (const Served& one : all) descriptors.push_back(one.server->descriptor());
-    fmt::print("ready control={} peers={}\n", command.control, session.peers());
-    std::fflush(stdout);
+    net::print_now(fmt::format("ready control={} peers={}\n", command.control, session.peers()));
     auto last = net::monotonic_now();
     while (!stop.requested() && !is_over) {
         const auto now = net::monotonic_now();

@@ -19,6 +19,7 @@
 #include "lab/scenes/explain.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/shared_object/load.hpp"
+#include "proto/base/visible.hpp"
 #include "proto/net/text_file.hpp"
 #include "scene/text/text.hpp"
 
@@ -38,7 +39,8 @@ constexpr std::string_view program = "hapnet-lab";
 
 void print(std::string_view text)
 {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+    const std::string shown = base::visible_lines(text);
+    if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) {
         throw std::system_error{errno, std::generic_category(), "cannot write the result"};
     }
 }

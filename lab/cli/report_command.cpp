@@ -8,9 +8,10 @@
 #include "lab/report/report.hpp"
 #include "lab/results/results.hpp"
 #include "lab/results/several.hpp"
+#include "lab/runner/checksums.hpp"
 #include "proto/base/version.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
@@ -134,6 +135,9 @@ base::Result<void> add_demo(results::Results& results, const fs::path& root)
 base::Result<results::Results> results_in(const fs::path& root)
 {
     const auto places = places_in(root);
+    for (const fs::path& place : places) {
+        if (auto fine = runner::verify_checksums(place); !fine) return tl::unexpected{fine.error()};
+    }
     const auto files = read_files(places);
     if (!files) return tl::unexpected{files.error()};
     auto results = read_results(*files);
@@ -230,8 +234,8 @@ void write_manifest(const Source& source)
                                                .start = {},
                                                .host = host(),
                                                .program = base::version_line("hapnet-lab")};
-    net::ResultFile{path}.commit(several_manifest(source.results, root, circumstances).dump(2) +
-                                 '\n');
+    disk::ResultFile{path}.commit(several_manifest(source.results, root, circumstances).dump(2) +
+                                  '\n');
 }
 
 } // namespace
@@ -244,7 +248,7 @@ base::Result<std::string> write_report(const ReportCommand& command)
         const fs::path path = source->folder / file.path;
         create_folder(path.parent_path().string());
         if (file.path == "report.html") say_what_is_replaced(path, file.text);
-        net::ResultFile{path.string()}.commit(file.text);
+        disk::ResultFile{path.string()}.commit(file.text);
     }
     if (command.record_b.empty()) write_manifest(*source);
     return (source->folder / "report.html").string();

@@ -11,7 +11,8 @@ namespace hapnet::lab {
 
 /// Writes report.html and figures/: of a folder into it, of two records beside the first.
 /// Says so on standard error when it replaces a page about something else. Gives the path of the
-/// page. Throws std::system_error when something cannot be written.
+/// page. The error: a file cannot be read, or its folder's B2SUMS does not match it. Throws
+/// std::system_error when something cannot be written.
 [[nodiscard]] base::Result<std::string> write_report(const ReportCommand& command);
 
 } // namespace hapnet::lab

@@ -9,6 +9,7 @@
 #include "lab/experiment/parts.hpp"
 #include "lab/experiment/text.hpp"
 #include "proto/base/version.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
@@ -23,21 +24,24 @@ namespace hapnet::lab {
 
 namespace {
 
-std::uint64_t hash_of_file(const std::string& path)
+base::Result<std::uint64_t> hash_of_file(const std::string& path)
 {
-    const auto bytes = net::text_of_file(path);
-    return bytes ? base::Seed{}.stream(*bytes).bits(0) : 0;
+    return net::text_of_file(path).map(
+        [](const std::string& bytes) { return base::Seed{}.stream(bytes).bits(0); });
 }
 
 /// Who plays: this very build, and the algorithms that are no part of it. A session that any other
-/// has played is not reused.
-std::string program_identity(const experiment::Experiment& experiment)
+/// has played is not reused. The error names an algorithm whose file cannot be read.
+base::Result<std::string> program_identity(const experiment::Experiment& experiment)
 {
-    std::string identity =
-        fmt::format("{} {:016x}", base::version_line("hapnet-lab"), hash_of_file("/proc/self/exe"));
+    std::string identity = fmt::format("{} {:016x}", base::version_line("hapnet-lab"),
+                                       hash_of_file("/proc/self/exe").value_or(0));
     for (const experiment::NamedAlgorithm& named : experiment.algorithms) {
         const auto* const own = std::get_if<peer::SharedObject>(&named.algorithm);
-        if (own != nullptr) identity += fmt::format(" {:016x}", hash_of_file(own->options().file));
+        if (own == nullptr) continue;
+        const auto hash = hash_of_file(own->options().file);
+        if (!hash) return base::fail(fmt::format("{}: {}", named.name, hash.error().message));
+        identity += fmt::format(" {:016x}", *hash);
     }
     return identity;
 }
@@ -58,19 +62,29 @@ base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open
     if (!points) return tl::unexpected{points.error()};
     const auto criteria = experiment::load_criteria(plan.criteria, open);
     if (!criteria) return tl::unexpected{criteria.error()};
-    auto loaded = load_own_algorithms(*whole);
     LoadedExperiment experiment{*std::move(whole), {}, *criteria, {}, 0};
-    for (auto point = points->begin(); loaded && point != points->end(); ++point) {
-        loaded = load_own_algorithms(point->experiment);
+    for (auto point = points->begin(); point != points->end(); ++point) {
         for (experiment::Experiment& part : parts_of(point->experiment)) {
             experiment.jobs += make_jobs(part).size();
             experiment.parts.push_back({static_cast<std::size_t>(point - points->begin()),
                                         point->values, std::move(part)});
         }
     }
-    if (!loaded) return tl::unexpected{loaded.error()};
-    experiment.program = program_identity(experiment.whole);
+    auto identity = program_identity(experiment.whole);
+    if (!identity) return tl::unexpected{identity.error()};
+    experiment.program = *std::move(identity);
     return experiment;
+}
+
+/// Runs code of the files of algorithms that are no part of the program: for what is about to play
+/// sessions.
+base::Result<void> load_code(LoadedExperiment& experiment)
+{
+    auto loaded = load_own_algorithms(experiment.whole);
+    for (LoadedExperiment::Part& part : experiment.parts) {
+        if (loaded) loaded = load_own_algorithms(part.experiment);
+    }
+    return loaded;
 }
 
 std::string folder_of(const std::string& plan)
@@ -97,8 +111,9 @@ base::Result<int> run_plan(const RunCommand& command, const std::string& path)
 {
     if (!command.settings.empty() || command.seeds || command.quick)
         return base::fail("a plan says it all: --set, --seeds and --quick go with hapnet-lab plan");
-    const auto experiment = load_plan(path);
+    auto experiment = load_plan(path);
     if (!experiment) return tl::unexpected{experiment.error()};
+    if (auto loaded = load_code(*experiment); !loaded) return tl::unexpected{loaded.error()};
     const RunPlace place{command.out.empty() ? folder_of(path) : command.out,
                          thread_count(command.jobs), command.command};
     return command.shard ? run_shard(*experiment, *command.shard, place)
@@ -126,8 +141,9 @@ base::Result<int> run_experiment(const RunCommand& command)
         return run_plan(command, plan);
     if (command.shard) return base::fail("--shard needs a plan: hapnet-lab plan writes one");
     if (command.out.empty()) return base::fail("--out is required: --out results/mine");
-    const auto experiment = load(plan_of(command), net::text_of_file);
+    auto experiment = load(plan_of(command), net::text_of_file);
     if (!experiment) return tl::unexpected{experiment.error()};
+    if (auto loaded = load_code(*experiment); !loaded) return tl::unexpected{loaded.error()};
     return run_whole(*experiment, {command.out, thread_count(command.jobs), command.command});
 }
 
@@ -141,8 +157,8 @@ base::Result<int> plan_experiment(const PlanCommand& planned)
     create_folder(command.out);
     const auto path = (std::filesystem::path{command.out} / plan_name).string();
     write_plan(plan, path);
-    fmt::print("{}: {} jobs in {} parts; {}\n", experiment->whole.title, experiment->jobs,
-               experiment->parts.size(), path);
+    net::print(fmt::format("{}: {} jobs in {} parts; {}\n", experiment->whole.title,
+                           experiment->jobs, experiment->parts.size(), path));
     return 0;
 }
 
@@ -153,8 +169,12 @@ base::Result<int> merge(const MergeCommand& command)
         return base::fail(fmt::format("{} has no {}: merge the folder that hapnet-lab plan wrote",
                                       command.folders.front(), plan_name));
     }
-    const auto experiment = load_plan(plan);
+    auto experiment = load_plan(plan);
     if (!experiment) return tl::unexpected{experiment.error()};
+    // Records are made by playing again.
+    if (experiment->whole.record) {
+        if (auto loaded = load_code(*experiment); !loaded) return tl::unexpected{loaded.error()};
+    }
     auto folders = command.folders;
     folders.front() = folder_of(plan);
     return merge_shards(*experiment, folders,

@@ -17,7 +17,8 @@ namespace hapnet::lab {
 /// Writes plan.json into a folder.
 [[nodiscard]] base::Result<int> plan_experiment(const PlanCommand& planned);
 
-/// The experiment of the plan in a file, which this very program has made.
+/// The experiment of the plan in a file, which this very program has made. Loads no code of
+/// algorithms.
 [[nodiscard]] base::Result<LoadedExperiment> load_plan(const std::string& path);
 
 /// Writes the results of a plan from what its shards have played.

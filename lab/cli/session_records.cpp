@@ -4,7 +4,7 @@
 
 #include "lab/cli/files.hpp"
 #include "lab/records/tick_times.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
@@ -42,23 +42,18 @@ std::vector<std::vector<base::Duration>> ticks_in(const std::vector<record::Reco
 base::Result<void> note_in_manifest(const std::string& folder, Json real_time)
 {
     const auto path = folder + "/manifest.json";
-    Json manifest{{"kind", "real-time"},
-                  {"title", "Real time beside virtual time"},
-                  {"command", real_time.at("command")},
-                  {"version", real_time.at("version")},
-                  {"commit", real_time.at("commit")},
-                  {"compiler", real_time.at("compiler")},
-                  {"host", real_time.at("host")},
-                  {"start", real_time.at("start")},
-                  {"wall_time_s", real_time.at("wall_time_s")},
-                  {"valid", real_time.at("valid")}};
+    Json manifest{{"kind", "real-time"}, {"title", "Real time beside virtual time"}};
+    for (const char* key :
+         {"command", "version", "commit", "compiler", "host", "start", "wall_time_s", "valid"}) {
+        manifest[key] = real_time.at(key);
+    }
     if (std::filesystem::exists(path)) {
         auto there = read_json(path);
         if (!there) return tl::unexpected{there.error()};
-        if (there->value("kind", "") != "real-time") manifest = *std::move(there);
+        if (there->value("kind", Json{}) != "real-time") manifest = *std::move(there);
     }
     manifest["real_time"] = std::move(real_time);
-    net::ResultFile{path}.commit(manifest.dump(2) + '\n');
+    disk::ResultFile{path}.commit(manifest.dump(2) + '\n');
     return {};
 }
 

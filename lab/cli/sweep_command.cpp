@@ -12,7 +12,7 @@
 #include "lab/results/sweep.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/base/version.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
@@ -71,7 +71,10 @@ base::Result<void> read_attempts(Cell& cell)
         const auto json = read_json(path);
         if (!json) return tl::unexpected{json.error()};
         auto played = results::played_cell_from(*json);
-        if (!played) return base::fail(path + ": not what `hapnet-lab real-time --played` writes");
+        if (!played) {
+            return base::fail(fmt::format("{}: not what `hapnet-lab real-time --played` writes: {}",
+                                          path, played.error().message));
+        }
         cell.attempts.push_back(*std::move(played));
     }
 }
@@ -180,7 +183,7 @@ base::Result<std::string> next_session(const RealTimeCommand& command)
     create_folder(folder.string());
     const virtual_time::Setting& setting = next->job.spec.setting;
     for (const experiment::ProgramFile& file : experiment::program_files(setting))
-        net::ResultFile{(folder / file.name).string()}.commit(file.text);
+        disk::ResultFile{(folder / file.name).string()}.commit(file.text);
     const auto ended = std::ranges::count_if(sweep->cells, [&](const Cell& cell) {
         return cell.is_valid() || cell.attempts.size() >= command.attempts;
     });
@@ -218,7 +221,7 @@ base::Result<std::string> compare_session(const RealTimeCommand& command)
         played->invalid_because.push_back(stall);
     if (!played->real.discrepancy_m)
         played->invalid_because.emplace_back("they were never in session together");
-    net::ResultFile{(folder / result_name).string()}.commit(to_json(*played).dump(2) + '\n');
+    disk::ResultFile{(folder / result_name).string()}.commit(to_json(*played).dump(2) + '\n');
     for (std::size_t id = 1; id <= records->size() && !command.keep_records; ++id)
         fs::remove(folder / fmt::format("peer-{}.rec", id));
     return fmt::format("mean {}, in virtual time {}{}{}\n", discrepancy_text(played->real),
@@ -251,8 +254,8 @@ base::Result<std::string> conclude_sweep(const RealTimeCommand& command)
     if (rows.empty()) return base::fail(command.folder + " has no sessions that were played");
     const fs::path folder{command.folder};
     const auto conditions = results::make_condition_rows(rows);
-    net::ResultFile{(folder / "real_time_sessions.csv").string()}.commit(sweep_csv(rows));
-    net::ResultFile{(folder / "real_time_conditions.csv").string()}.commit(
+    disk::ResultFile{(folder / "real_time_sessions.csv").string()}.commit(sweep_csv(rows));
+    disk::ResultFile{(folder / "real_time_conditions.csv").string()}.commit(
         conditions_csv(conditions));
     const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
                                                host()};

@@ -3,6 +3,7 @@
 #include "lab/records/session.hpp"
 
 #include "lab/records/bodies.hpp"
+#include "proto/base/clock_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +39,12 @@ base::Result<Peer> peer_of(const record::Record& record)
     if (!boot_id.is_string()) return base::fail("its config has no text \"boot_id\"");
     const bool sane = tick.is_number_integer() && tick >= 1 && tick <= 1'000'000'000;
     if (!sane) return base::fail("its config has no whole number \"tick_ns\" up to a second");
-    return Peer{id.get<std::int64_t>(), boot_id.get<std::string>(),
-                base::Duration{tick.get<std::int64_t>()},
-                find("/task").is_string() ? find("/task").get<std::string>() : ""};
+    Peer peer;
+    peer.id = id.get<std::int64_t>();
+    peer.boot_id = boot_id.get<std::string>();
+    peer.tick = base::Duration{tick.get<std::int64_t>()};
+    if (const auto task = find("/task"); task.is_string()) peer.task = task.get<std::string>();
+    return peer;
 }
 
 bool knows(const record::Record& record, std::uint32_t session)
@@ -97,7 +101,10 @@ Side side_of(const record::Record& record, std::uint32_t session, std::int64_t p
 
 Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& terms_of_a)
 {
-    if (!a.boot_id.empty() && a.boot_id == b.boot_id) return {};
+    const bool is_one_boot = !a.boot_id.empty() && a.boot_id == b.boot_id;
+    const bool is_ruled_out =
+        base::are_two_clocks(terms_of_a.remote_offset, terms_of_a.offset_uncertainty);
+    if (is_one_boot && !is_ruled_out) return {};
     return clock_of(terms_of_a);
 }
 

@@ -225,6 +225,7 @@ std::string circle_demo_verdict(const CircleDemo& demo)
 Json circle_demo_manifest(const CircleDemo& demo, const Circumstances& circumstances)
 {
     const auto reasons = demo.files.invalid_because();
+    const auto task = demo.files.peer.value("task", std::string{});
     Json peers = Json::array({demo.files.peer.value("peer_id", Json{})});
     for (const Json& other : demo.files.peer.value("others", Json::array())) {
         peers.push_back(other.value("id", Json{}));
@@ -233,8 +234,7 @@ Json circle_demo_manifest(const CircleDemo& demo, const Circumstances& circumsta
     configuration["peers"] = peers;
     Json manifest = manifest_head(circumstances);
     manifest.update({{"kind", "demo"},
-                     {"title", fmt::format("{} peers, one cube, task {}", peers.size(),
-                                           demo.files.peer.value("task", ""))},
+                     {"title", fmt::format("{} peers, one cube, task {}", peers.size(), task)},
                      {"configuration", {{demo.folder, std::move(configuration)}}},
                      {"seeds",
                       {{"peers", demo.files.peer.value("seed", Json{})},

@@ -8,6 +8,7 @@
 #include "lab/results/rows.hpp"
 #include "peer/core/peer.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/base/fields_json.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
@@ -35,12 +36,11 @@ public:
     Value at(const std::string& pointer)
     {
         const Json::json_pointer where{pointer};
-        const Json found = json_.contains(where) ? json_.at(where) : Json{};
-        const bool fits =
-            std::is_same_v<Value, std::string> ? found.is_string() : found.is_number();
-        if (fits) return found.get<Value>();
-        if (!missing_) missing_ = fmt::format("{} does not say {}", program_, pointer);
-        return {};
+        Value value{};
+        const bool is_said =
+            json_.contains(where) && base::read_json(nlohmann::json(json_.at(where)), value);
+        if (!is_said && !missing_) missing_ = fmt::format("{} does not say {}", program_, pointer);
+        return value;
     }
     [[nodiscard]] const std::optional<std::string>& missing() const { return missing_; }
 
@@ -199,11 +199,13 @@ std::optional<double> RealTimeResult::difference_percent() const
 
 RealTimeResult result_of(const RealTimeSession& session, const virtual_time::Trace& twin)
 {
-    return {.algorithm = session.files.peer.value("algorithm", "?"),
-            .where = session.where,
-            .real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{})),
-            .virtual_mm = in_mm(metrics::metrics_of(twin).discrepancy_m),
-            .invalid_because = objections_to(session)};
+    RealTimeResult result;
+    result.algorithm = session.files.peer.value("algorithm", "?");
+    result.where = session.where;
+    result.real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{}));
+    result.virtual_mm = in_mm(metrics::metrics_of(twin).discrepancy_m);
+    result.invalid_because = objections_to(session);
+    return result;
 }
 
 std::string real_time_csv(std::span<const RealTimeResult> results)

@@ -3,6 +3,7 @@
 #include "lab/results/sweep.hpp"
 
 #include "lab/metrics/json.hpp"
+#include "proto/base/fields_json.hpp"
 
 #include <algorithm>
 #include <array>
@@ -140,20 +141,27 @@ Json to_json(const PlayedCell& played)
             {"perfect", metrics::to_json(played.perfect)}};
 }
 
-std::optional<PlayedCell> played_cell_from(const nlohmann::json& json)
+base::Result<PlayedCell> played_cell_from(const nlohmann::json& json)
 {
-    const auto metrics_at = [&](const char* key) {
-        return metrics::metrics_from(json.value(key, nlohmann::json::object()));
+    PlayedCell played;
+    for (auto [key, into] : {std::pair{"real", &played.real},
+                             {"virtual", &played.simulated},
+                             {"perfect", &played.perfect}}) {
+        auto metrics = metrics::metrics_from(json.value(key, nlohmann::json::object()));
+        if (!metrics) return base::fail(fmt::format("'{}' has no metrics", key));
+        *into = *std::move(metrics);
+    }
+    const auto member = [&](const char* key, nlohmann::json otherwise) {
+        return json.value(key, std::move(otherwise));
     };
-    auto real = metrics_at("real"), simulated = metrics_at("virtual"),
-         perfect = metrics_at("perfect");
-    if (!real || !simulated || !perfect || !json.contains("invalid_because")) return std::nullopt;
-    return PlayedCell{.real = *std::move(real),
-                      .simulated = *std::move(simulated),
-                      .perfect = *std::move(perfect),
-                      .missed_ticks = json.value("missed_ticks", std::uint64_t{0}),
-                      .longest_gap_ms = json.value("longest_gap_ms", 0.0),
-                      .invalid_because = json.at("invalid_because")};
+    if (!base::read_json(member("missed_ticks", 0U), played.missed_ticks))
+        return base::fail("'missed_ticks' is no count");
+    if (!base::read_json(member("longest_gap_ms", 0.0), played.longest_gap_ms) ||
+        played.longest_gap_ms < 0.0)
+        return base::fail("'longest_gap_ms' is no time");
+    if (!base::read_json(member("invalid_because", {}), played.invalid_because))
+        return base::fail("'invalid_because' is no list of texts");
+    return played;
 }
 
 SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,

@@ -6,6 +6,7 @@
 #include "lab/metrics/criteria.hpp"
 #include "lab/results/rows.hpp"
 #include "lab/results/session_rows.hpp"
+#include "proto/base/result.hpp"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -30,8 +31,8 @@ struct PlayedCell {
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
 };
 [[nodiscard]] nlohmann::ordered_json to_json(const PlayedCell& played);
-/// nullopt when a key is missing or holds something else.
-[[nodiscard]] std::optional<PlayedCell> played_cell_from(const nlohmann::json& json);
+/// Reads an object. The error names the key that is missing or has another type.
+[[nodiscard]] base::Result<PlayedCell> played_cell_from(const nlohmann::json& json);
 
 /// Of real_time_sessions.csv: a session as it was played once.
 struct SweepRow {

@@ -4,30 +4,49 @@
 
 #include "proto/base/csv.hpp"
 #include "proto/base/ensure.hpp"
-#include "proto/net/result_file.hpp"
+#include "proto/disk/create.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
+#include <cstdlib>
 #include <spdlog/fmt/fmt.h>
+#include <string_view>
+#include <sys/types.h>
 #include <system_error>
+#include <tuple>
 
 namespace hapnet::lab::runner {
 
 namespace {
 
-[[noreturn]] void refuse_part(const std::filesystem::path& path)
-{
-    throw std::system_error{errno, std::generic_category(), "cannot write " + path.string()};
-}
+/// A line of a file, whose memory serves the next line.
+class Line {
+public:
+    Line() = default;
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+    ~Line() { std::free(text_); } // NOLINT(cppcoreguidelines-no-malloc): that of getline()
+
+    /// Reads the next line. False: there is none, or it cannot be read.
+    [[nodiscard]] bool read(std::FILE* file)
+    {
+        length_ = getline(&text_, &size_, file);
+        return length_ > 0;
+    }
+    /// Without its end.
+    [[nodiscard]] std::string_view text() const
+    {
+        return {text_, static_cast<std::size_t>(length_ - 1)};
+    }
+
+private:
+    char* text_ = nullptr;
+    std::size_t size_ = 0;
+    ssize_t length_ = 0;
+};
 
 } // namespace
-
-ResultTables::~ResultTables()
-{
-    std::error_code ignored;
-    for (const Table& table : tables_) std::filesystem::remove(waiting(table), ignored);
-}
 
 void ResultTables::add(const results::File& csv, std::span<const LeadingCell> leading)
 {
@@ -58,8 +77,8 @@ void ResultTables::add(const results::File& csv, std::span<const LeadingCell> le
         text += fmt::format("{}\n", fmt::join(cells, ","));
         ++table.lines;
     }
-    std::ofstream out{waiting(table), std::ios::app | std::ios::binary};
-    if (!(out << text << std::flush)) refuse_part(waiting(table));
+    if (std::fwrite(text.data(), 1, text.size(), table.waiting.get()) != text.size())
+        refuse(table.name);
 }
 
 std::vector<std::string> ResultTables::commit()
@@ -67,15 +86,16 @@ std::vector<std::string> ResultTables::commit()
     constexpr std::size_t block = 1 << 20;
     std::vector<std::string> names;
     for (const Table& table : tables_) {
-        net::ResultFile file{(folder_ / table.name).string()};
+        disk::ResultFile file{(folder_ / table.name).string()};
         std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
-        std::ifstream in{waiting(table), std::ios::binary};
+        if (std::fseek(table.waiting.get(), 0, SEEK_SET) != 0) refuse(table.name); // flushes
         auto width = table.widths.begin();
-        std::string line;
+        Line line;
         for (std::size_t number = 0; number < table.lines; ++number) {
-            if (!std::getline(in, line)) refuse_part(waiting(table));
+            if (!line.read(table.waiting.get())) refuse(table.name);
             if (width + 1 != table.widths.end() && number == (width + 1)->first) ++width;
-            text += line + std::string(table.columns.size() - width->second, ',') + '\n';
+            text.append(line.text());
+            text += std::string(table.columns.size() - width->second, ',') + '\n';
             if (text.size() < block) continue;
             file.append(text);
             text.clear();
@@ -90,14 +110,25 @@ ResultTables::Table& ResultTables::table_named(const std::string& name)
 {
     const auto known = std::ranges::find(tables_, name, &Table::name);
     if (known != tables_.end()) return *known;
-    Table& table = tables_.emplace_back(Table{.name = name});
-    std::filesystem::remove(waiting(table)); // of a run that was killed
-    return table;
+    return tables_.emplace_back(Table{.name = name, .waiting = wait_beside(name)});
 }
 
-std::filesystem::path ResultTables::waiting(const Table& table) const
+ResultTables::WaitingLines ResultTables::wait_beside(const std::string& name) const
 {
-    return folder_ / (table.name + ".part");
+    const std::string path = (folder_ / name).string();
+    const auto place = disk::Place::find(path);
+    auto file = place ? disk::create_nameless(*place) : tl::unexpected{place.error()};
+    if (!file) throw std::system_error{file.error(), "cannot write beside " + path};
+    WaitingLines lines{fdopen(file->number(), "w+b")};
+    if (!lines) refuse(name);
+    std::ignore = file->release(); // the lines' now
+    return lines;
+}
+
+void ResultTables::refuse(const std::string& name) const
+{
+    throw std::system_error{errno, std::generic_category(),
+                            "cannot write beside " + (folder_ / name).string()};
 }
 
 } // namespace hapnet::lab::runner

@@ -5,7 +5,9 @@
 #include "lab/results/file.hpp"
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,15 +21,11 @@ struct LeadingCell {
     std::string value;
 };
 
-/// Tables of results on their way to a folder, part after part. Lines wait in files NAME.part: what
-/// is kept in memory does not grow with the parts.
+/// Tables of results on their way to a folder, part after part. Lines wait in files without a name:
+/// what is kept in memory does not grow with the parts.
 class ResultTables {
 public:
     explicit ResultTables(std::filesystem::path folder) : folder_{std::move(folder)} {}
-    /// Removes what was not committed.
-    ~ResultTables();
-    ResultTables(const ResultTables&) = delete;
-    ResultTables& operator=(const ResultTables&) = delete;
 
     /// Appends the lines of a CSV to the table of its name. Columns that the table has not yet are
     /// added; one that a line lacks is empty in it. Throws std::system_error.
@@ -37,8 +35,14 @@ public:
     [[nodiscard]] std::vector<std::string> commit();
 
 private:
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    using WaitingLines = std::unique_ptr<std::FILE, Close>;
+
     struct Table {
         std::string name;
+        WaitingLines waiting;
         std::vector<std::string> columns{};
         /// From which line on lines have how many cells.
         std::vector<std::pair<std::size_t, std::size_t>> widths{};
@@ -46,7 +50,8 @@ private:
     };
 
     [[nodiscard]] Table& table_named(const std::string& name);
-    [[nodiscard]] std::filesystem::path waiting(const Table& table) const;
+    [[nodiscard]] WaitingLines wait_beside(const std::string& name) const;
+    [[noreturn]] void refuse(const std::string& name) const;
 
     std::filesystem::path folder_;
     std::vector<Table> tables_;

@@ -3,6 +3,8 @@
 #include "lab/runner/session_store.hpp"
 
 #include "lab/metrics/json.hpp"
+#include "lab/runner/checksums.hpp"
+#include "proto/disk/create.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,6 +16,7 @@
 #include <stdexcept>
 #include <sys/file.h>
 #include <system_error>
+#include <tuple>
 #include <unistd.h>
 #include <utility>
 
@@ -75,8 +78,8 @@ LinesRead for_each_line(const auto& file, const auto& use)
     while (true) {
         const auto kept = text.size();
         text.resize(kept + block);
-        const auto count =
-            ::pread(file.descriptor, text.data() + kept, block, static_cast<off_t>(read.length));
+        const auto count = ::pread(file.descriptor.number(), text.data() + kept, block,
+                                   static_cast<off_t>(read.length));
         if (count < 0 && errno != EINTR) refuse_file("read", file.path);
         text.resize(kept + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
         if (count == 0) break;
@@ -100,12 +103,13 @@ LinesRead for_each_line(const auto& file, const auto& use)
 base::Result<std::unique_ptr<SessionStore>>
 SessionStore::open(const std::string& path, const FolderIdentity& identity, std::string program)
 {
-    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    if (descriptor < 0) refuse_file("write", path);
+    auto descriptor = disk::open_to_write(path, O_RDWR | O_APPEND, 0644);
+    if (!descriptor) throw std::system_error{descriptor.error(), "cannot write " + path};
+    const bool is_alone = flock(descriptor->number(), LOCK_EX | LOCK_NB) == 0;
     std::unique_ptr<SessionStore> store{new SessionStore{std::move(program)}};
     store->is_writable_ = true;
-    store->files_.push_back({descriptor, path});
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    store->files_.push_back({*std::move(descriptor), path});
+    if (!is_alone) {
         return base::fail(path + " is in use by another run: wait for it, or choose another --out");
     }
     auto read = store->read_last(identity);
@@ -119,9 +123,9 @@ SessionStore::open_all(std::span<const std::string> paths, const FolderIdentity&
 {
     std::unique_ptr<SessionStore> store{new SessionStore{std::move(program)}};
     for (const std::string& path : paths) {
-        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-        if (descriptor < 0) refuse_file("read", path);
-        store->files_.push_back({descriptor, path});
+        disk::Descriptor descriptor{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+        if (!descriptor.is_open()) refuse_file("read", path);
+        store->files_.push_back({std::move(descriptor), path});
         auto read = store->read_last(identity);
         if (!read) return tl::unexpected{std::move(read).error()};
     }
@@ -130,21 +134,18 @@ SessionStore::open_all(std::span<const std::string> paths, const FolderIdentity&
 
 SessionStore::SessionStore(std::string program) : program_{std::move(program)} {}
 
-SessionStore::~SessionStore()
-{
-    for (const File& file : files_) close(file.descriptor);
-}
-
 base::Result<void> SessionStore::read_last(const FolderIdentity& identity)
 {
     const std::size_t number = files_.size() - 1;
     File& file = files_.back();
     const Json expected = header_of(identity);
     std::optional<Json> other; // that the file begins with
-    bool is_first = true;
+    std::size_t lines = 0;
     const auto read = for_each_line(file, [&](std::string_view line, auto offset) {
-        if (!std::exchange(is_first, false)) {
-            if (!other) take_line(line, {number, offset, static_cast<std::uint32_t>(line.size())});
+        if (++lines > 1) {
+            const Place place{number, offset, static_cast<std::uint32_t>(line.size())};
+            if (other || take_line(line, place)) return;
+            if (damaged_++ == 0) first_damaged_ = fmt::format("{}:{}", file.path, lines);
             return;
         }
         const Json header = Json::parse(line, nullptr, false);
@@ -153,11 +154,11 @@ base::Result<void> SessionStore::read_last(const FolderIdentity& identity)
     });
     file.length = read.length;
     if (other) {
+        const Json title = other->is_object() ? other->value("title", Json{}) : Json{};
         return base::fail(fmt::format(
             "{} holds the sessions of {}: choose another --out, or remove that file", file.path,
-            other->is_object()
-                ? fmt::format("another experiment, '{}'", other->value("title", std::string{}))
-                : "something else"));
+            title.is_string() ? fmt::format("another experiment, '{}'", title.get<std::string>())
+                              : "something else"));
     }
     if (!is_writable_) return {};
     if (read.length == 0) append(expected.dump());
@@ -165,40 +166,47 @@ base::Result<void> SessionStore::read_last(const FolderIdentity& identity)
     return {};
 }
 
-void SessionStore::take_line(std::string_view text, const Place& place)
+bool SessionStore::take_line(std::string_view text, const Place& place)
 {
+    if (!has_right_sum(text)) return false;
     const Json line = Json::parse(text, nullptr, false);
     const bool has_key = line.is_object() && line.value("key", Json{}).is_string();
-    if (!has_key || !played_from(line)) {
-        ++damaged_;
-        return;
-    }
+    if (!has_key || !played_from(line)) return false;
     Place& known = places_[std::hash<std::string>{}(line["key"].get<std::string>())];
     known = place;
     known.is_from_before = true;
+    return true;
+}
+
+std::optional<std::string> SessionStore::damage() const
+{
+    if (damaged_ == 0) return std::nullopt;
+    const bool is_one = damaged_ == 1;
+    return fmt::format("{} {} the right checksum ({}{}): cut off, changed, or written by an older "
+                       "version",
+                       damaged_, is_one ? "line lacks" : "lines lack",
+                       is_one ? "" : "the first is ", first_damaged_);
 }
 
 void SessionStore::append(const std::string& line)
 {
     File& file = files_.front();
-    const std::string text = line + '\n';
-    for (std::size_t written = 0; written < text.size();) {
-        const auto count = write(file.descriptor, text.data() + written, text.size() - written);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) refuse_file("write", file.path);
-        written += static_cast<std::size_t>(count);
-        file.length += static_cast<std::uint64_t>(count);
+    const auto written = disk::write_all(file.descriptor.number(), line + '\n');
+    if (written.error) { // no part of a line stays
+        std::ignore = ftruncate(file.descriptor.number(), static_cast<off_t>(file.length));
+        throw std::system_error{written.error, "cannot write " + file.path};
     }
+    file.length += written.bytes;
 }
 
 experiment::PlayedSession SessionStore::read_at(const Place& place, const std::string& key) const
 {
     const File& file = files_[place.file];
     std::string text(place.length, '\0');
-    const auto count =
-        ::pread(file.descriptor, text.data(), text.size(), static_cast<off_t>(place.offset));
+    const auto count = ::pread(file.descriptor.number(), text.data(), text.size(),
+                               static_cast<off_t>(place.offset));
     if (count < 0) refuse_file("read", file.path);
-    const Json line = Json::parse(text, nullptr, false);
+    const Json line = has_right_sum(text) ? Json::parse(text, nullptr, false) : Json{};
     auto played =
         line.is_object() && line.value("key", Json{}) == key ? played_from(line) : std::nullopt;
     if (!played) throw std::runtime_error{file.path + " was changed by something else"};
@@ -228,7 +236,7 @@ base::Result<experiment::PlayedSession> SessionStore::played(const experiment::S
         being_played_.erase(key);
         changed_.notify_all();
         if (!played || !is_writable_) return;
-        const std::string line = line_of(key, spec, *played).dump();
+        const std::string line = with_sum(line_of(key, spec, *played).dump());
         const Place place{0, files_.front().length, static_cast<std::uint32_t>(line.size())};
         append(line);
         places_.emplace(std::hash<std::string>{}(key), place);

@@ -4,6 +4,7 @@
 
 #include "lab/experiment/session_spec.hpp"
 #include "proto/base/result.hpp"
+#include "proto/disk/descriptor.hpp"
 
 #include <condition_variable>
 #include <cstddef>
@@ -41,7 +42,7 @@ public:
     [[nodiscard]] static base::Result<std::unique_ptr<SessionStore>>
     open_all(std::span<const std::string> paths, const FolderIdentity& identity,
              std::string program);
-    ~SessionStore();
+    ~SessionStore() = default;
     SessionStore(const SessionStore&) = delete;
     SessionStore& operator=(const SessionStore&) = delete;
 
@@ -56,7 +57,9 @@ public:
     };
     [[nodiscard]] Counts counts() const;
 
-    /// Lines of the files that are no session: cut off when something ended their writer, say.
+    /// How many lines of the files are no session with the right checksum, and where the first of
+    /// them is; nullopt: none. A line is cut off when something ends its writer.
+    [[nodiscard]] std::optional<std::string> damage() const;
     [[nodiscard]] std::size_t damaged_lines() const { return damaged_; }
 
 private:
@@ -68,7 +71,7 @@ private:
         bool is_from_before = false; // and this run has not asked for it yet
     };
     struct File {
-        int descriptor = -1;
+        disk::Descriptor descriptor;
         std::string path;
         std::uint64_t length = 0;
     };
@@ -76,7 +79,8 @@ private:
     explicit SessionStore(std::string program);
     /// Of the files the last.
     [[nodiscard]] base::Result<void> read_last(const FolderIdentity& identity);
-    void take_line(std::string_view text, const Place& place);
+    /// False: the line is damaged.
+    [[nodiscard]] bool take_line(std::string_view text, const Place& place);
     void append(const std::string& line);
     /// nullopt: it is not known.
     [[nodiscard]] std::optional<Place> place_of(const std::string& key);
@@ -87,6 +91,7 @@ private:
     std::vector<File> files_;
     bool is_writable_ = false; // the only file
     std::size_t damaged_ = 0;
+    std::string first_damaged_; // FILE:LINE
 
     mutable std::mutex mutex_; // over all below, and the length of a file that is written
     std::condition_variable changed_;

@@ -5,6 +5,7 @@
 #include "peer/cli/list_devices.hpp"
 #include "peer/doctor/report.hpp"
 #include "peer/doctor/system.hpp"
+#include "proto/net/program.hpp"
 #include "proto/secure/keys/files.hpp"
 #include "proto/secure/keys/process.hpp"
 
@@ -15,7 +16,7 @@ namespace hapnet::peer {
 base::Result<int> run(const ListDevicesCommand& command)
 {
     const auto found = device::find_devices(command.options);
-    fmt::print("{}", command.json ? device_json(found) : device_table(found));
+    net::print(command.json ? device_json(found) : device_table(found));
     return 0;
 }
 
@@ -29,8 +30,7 @@ base::Result<int> run(const DoctorCommand& command)
         facts.key = {*command.key, file ? std::string{} : file.error().message};
     }
     const auto findings = doctor::judge(facts);
-    fmt::print("{}",
-               command.json ? doctor::finding_json(findings) : doctor::finding_table(findings));
+    net::print(command.json ? doctor::finding_json(findings) : doctor::finding_table(findings));
     return doctor::has_bad(findings) ? net::exit_environment : 0;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/cli/key_commands.hpp"
 
+#include "proto/base/visible.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/secure/key_file.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -29,10 +31,13 @@ constexpr const char* keygen_description =
     "their public keys, and nothing secret travels";
 constexpr const char* key_description =
     "Shows a key file, or adds a peer to it.\n"
-    "  key show FILE   ids, public keys and the fingerprint, and never a secret. The fingerprint "
-    "is "
-    "the same on all hosts that hold the same keys: compare it by telephone\n"
-    "  key add FILE --id ID --public KEY   adds another host's public key, or replaces it";
+    "  key show FILE   ids, public keys and the fingerprint, and never a secret. The fingerprint, "
+    "twelve groups of five digits, is the same on all hosts that hold the same keys: compare it by "
+    "telephone\n"
+    "  key add FILE --id ID --public KEY   adds another host's public key, or replaces it. With "
+    "--make-shared OTHER it also makes a key that the circle shares, which keeps sessions closed "
+    "even to someone who records them and can compute private keys one day; on the other host, "
+    "key add takes the file OTHER with --shared";
 constexpr const char* key_exit_codes = R"(  0  done
   2  bad usage, or a file that is there or that cannot be used
   3  the system refused)";
@@ -45,6 +50,8 @@ base::Result<std::string> parse_path(const std::string& text)
 
 base::Result<std::string> parse_circle_name(const std::string& text)
 {
+    if (base::visible(text) != text)
+        return base::fail("a name has no control characters, as it is shown on terminals");
     if (!text.empty() && text.size() <= secure::KeyFile::name_bytes_max) return text;
     return base::fail(fmt::format("a name has 1 to {} bytes", secure::KeyFile::name_bytes_max));
 }
@@ -62,13 +69,14 @@ base::Result<std::string> parse_endpoint(const std::string& text)
     return net::parse_host_port(text).map([&text](const net::HostPort&) { return text; });
 }
 
-base::Result<void> refuse_existing(const std::vector<std::filesystem::path>& files)
+base::Result<void> refuse_existing(const std::vector<std::filesystem::path>& files,
+                                   std::string_view option = "--out")
 {
     for (const auto& file : files) {
         std::error_code trouble;
         if (std::filesystem::exists(std::filesystem::symlink_status(file, trouble)))
-            return base::fail(fmt::format("{} is there: a key is never replaced; use another --out",
-                                          file.string()));
+            return base::fail(fmt::format("{} is there: a key is never replaced; use another {}",
+                                          file.string(), option));
     }
     return {};
 }
@@ -77,6 +85,33 @@ std::string how_to_add(const secure::KeyFile& file)
 {
     return fmt::format("hapnet-peer key add FILE --id {} --public {}", file.id,
                        secure::to_base64(secure::public_key_of(file.own)));
+}
+
+constexpr const char* no_shared_key =
+    "this circle has no shared key: --make-shared OTHER makes one, --shared OTHER takes the other "
+    "host's (hapnet-peer key --help)\n";
+
+/// Gives the file the shared key that the command asks for.
+base::Result<void> share(const KeyAddCommand& command, secure::KeyFile& file)
+{
+    if (!command.make_shared.empty()) {
+        if (file.has_pre_shared()) {
+            return base::fail(fmt::format("--make-shared: {} has a shared key already; the other "
+                                          "host needs that one",
+                                          command.file));
+        }
+        if (auto fine = refuse_existing({command.make_shared}, "--make-shared"); !fine) return fine;
+        file.pre_shared = secure::keys::draw();
+        secure::keys::write_shared_key(command.make_shared, file.pre_shared);
+        fmt::print("{}: the shared key, for the other host: take it there by scp or a USB stick, "
+                   "use it with --shared, and remove it here and there\n",
+                   command.make_shared);
+    }
+    if (command.shared.empty()) return {};
+    auto shared = secure::keys::read_shared_key(command.shared);
+    if (!shared) return tl::unexpected{shared.error()};
+    file.pre_shared = *std::move(shared);
+    return {};
 }
 
 /// The key file, and no core dump of it.
@@ -126,6 +161,11 @@ void KeyCommands::add_key(cli::Command& program)
                  cli::into(adding_.id, base::Count{1, secure::KeyFile::id_max}));
     key_->option("--public", "KEY", "With add: the other host's public key",
                  cli::into(adding_.key, parse_public_key));
+    key_->option("--make-shared", "FILE",
+                 "With add: make a shared key, and write it to FILE for the other host, too",
+                 cli::into(adding_.make_shared, parse_path));
+    key_->option("--shared", "FILE", "With add: take the shared key that the other host has made",
+                 cli::into(adding_.shared, parse_path));
     key_->option("--endpoint", "HOST:PORT",
                  "With add: where the other peer is when neither --remote nor --peer says it",
                  cli::into(adding_.endpoint, parse_endpoint));
@@ -138,13 +178,16 @@ base::Result<KeyCommand> KeyCommands::chosen() const
     if (keygen_->is_chosen()) return keygen();
     const bool has_id = key_->is_given("--id"), has_public = key_->is_given("--public");
     if (action_ == "show") {
-        if (has_id || has_public || key_->is_given("--endpoint"))
-            return base::fail("key show takes a file and nothing else");
+        const bool adds = has_id || has_public || key_->is_given("--endpoint") ||
+                          key_->is_given("--make-shared") || key_->is_given("--shared");
+        if (adds) return base::fail("key show takes a file and nothing else");
         return KeyCommand{KeyShowCommand{file_}};
     }
     if (!has_id || !has_public)
         return base::fail("key add needs --id and --public, as 'keygen --own' printed them on the "
                           "other host");
+    if (key_->is_given("--make-shared") && key_->is_given("--shared"))
+        return base::fail("--make-shared makes a key, --shared takes the other host's: use one");
     KeyAddCommand adding = adding_;
     adding.file = file_;
     return KeyCommand{adding};
@@ -197,13 +240,14 @@ base::Result<int> run(const KeyShowCommand& command)
 {
     const auto file = opened(command.file);
     if (!file) return tl::unexpected{file.error()};
-    fmt::print("circle {}\n", file->name);
+    fmt::print("circle {}\n", base::visible(file->name));
     fmt::print("peer {}  {}  this host\n", file->id,
                secure::to_base64(secure::public_key_of(file->own)));
     for (const secure::KeyFile::Member& each : file->others) {
         fmt::print("peer {}  {}{}\n", each.id, secure::to_base64(each.key),
-                   each.endpoint.empty() ? "" : "  " + each.endpoint);
+                   each.endpoint.empty() ? "" : "  " + base::visible(each.endpoint));
     }
+    if (!file->has_pre_shared()) fmt::print("{}", no_shared_key);
     fmt::print("fingerprint {}\n", file->fingerprint());
     return 0;
 }
@@ -222,9 +266,11 @@ base::Result<int> run(const KeyAddCommand& command)
     std::erase_if(file->others, [&](const auto& each) { return each.id == command.id; });
     file->others.push_back({command.id, command.key, command.endpoint});
     std::ranges::sort(file->others, {}, &secure::KeyFile::Member::id);
+    if (auto fine = share(command, *file); !fine) return tl::unexpected{fine.error()};
     secure::keys::replace_key_file(command.file, *file);
-    fmt::print("{}: knows peer {}\nfingerprint {}\n", command.file, command.id,
-               file->fingerprint());
+    fmt::print("{}: knows peer {}\n", command.file, command.id);
+    if (!file->has_pre_shared()) fmt::print("{}", no_shared_key);
+    fmt::print("fingerprint {}\n", file->fingerprint());
     return 0;
 }
 

@@ -33,12 +33,15 @@ struct KeyShowCommand {
     std::string file;
 };
 
-/// `hapnet-peer key add FILE --id ID --public KEY [--endpoint HOST:PORT]`
+/// `hapnet-peer key add FILE --id ID --public KEY [--endpoint HOST:PORT] [--make-shared FILE |
+/// --shared FILE]`
 struct KeyAddCommand {
     std::string file;
     std::uint8_t id = 0;
     secure::PublicKey key{};
     std::string endpoint;
+    std::string make_shared; // where a new shared key of the circle goes, for the other host
+    std::string shared;      // where the other host's is
 };
 
 using KeyCommand =

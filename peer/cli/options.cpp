@@ -79,7 +79,9 @@ base::Result<void> take_scene(const std::string& file_or_name, Options& options)
 
 base::Result<Algorithm> parse_algorithm_name(const std::string& name_or_file)
 {
-    return cli::meant_value("--algorithm", name_or_file).and_then(shared_object::load_from_disk);
+    return cli::meant_value("--algorithm", name_or_file).and_then([](const std::string& meant) {
+        return load_algorithm(meant, net::text_of_file);
+    });
 }
 
 base::Result<device::Task> parse_task(std::string name)
@@ -183,6 +185,15 @@ base::Result<void> check_room(const Options& options)
                                   options.scene_name, options.scene.hands.count, all));
 }
 
+/// Whether the algorithm can play with so many.
+base::Result<void> check_company(const Options& options)
+{
+    if (options.is_pair() || plays_with_many(options.algorithm)) return {};
+    return base::fail(fmt::format("--algorithm {} is for two peers: more than two play with "
+                                  "another one, such as base or remote-proxy",
+                                  name_of(options.algorithm)));
+}
+
 /// Whether so many can play, and can play so.
 base::Result<void> check_circle(const Options& options)
 {
@@ -208,12 +219,7 @@ base::Result<void> check_circle(const Options& options)
         return base::fail(fmt::format("--id {}: among more than two peers ids are from 1 to {}",
                                       options.id, id_max));
     }
-    if (!plays_with_many(options.algorithm)) {
-        return base::fail(fmt::format("--algorithm {} is for two peers: more than two play with "
-                                      "another one, such as base or remote-proxy",
-                                      name_of(options.algorithm)));
-    }
-    return {};
+    return check_company(options);
 }
 
 base::Result<std::size_t> parse_wait_for(const std::string& text)
@@ -362,6 +368,14 @@ base::Result<void> complete(Options& options, const Asked& asked, const cli::Com
     if (!felt) return base::fail(fmt::format("--algorithm: {}", felt.error().message));
     if (auto fine = check_circle(options); !fine) return fine;
     return check_room(options);
+}
+
+base::Result<void> load_code(Options& options)
+{
+    if (auto loaded = shared_object::load(options.algorithm); !loaded) {
+        return base::fail(fmt::format("--algorithm: {}", loaded.error().message));
+    }
+    return check_company(options); // only its code says with how many it plays
 }
 
 } // namespace hapnet::peer

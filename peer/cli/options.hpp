@@ -76,4 +76,8 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked);
 [[nodiscard]] base::Result<void> complete(Options& options, const Asked& asked,
                                           const cli::Command& program);
 
+/// Loads the shared object of the algorithm, if it has one, and so runs code of its file: for a
+/// session that is about to begin, and for nothing that only prints, checks or refuses.
+[[nodiscard]] base::Result<void> load_code(Options& options);
+
 } // namespace hapnet::peer

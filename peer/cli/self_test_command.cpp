@@ -9,10 +9,11 @@
 #include "peer/loop/zero_force.hpp"
 #include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/wait.hpp"
 #include "scene/description.hpp"
@@ -137,7 +138,7 @@ std::string stiffness_of_a_session(const DeviceChoice& choice,
 
 base::Result<int> run(const SelfTestCommand& command)
 {
-    std::optional<net::ResultFile> file;
+    std::optional<disk::ResultFile> file;
     if (command.json) file.emplace(*command.json);
     const net::StopSignal stop; // before any thread
     stop.enforce(gone_after_a_stop, net::exit_environment);
@@ -174,7 +175,7 @@ base::Result<int> run(const SelfTestCommand& command)
     accompany(loop, stop);
     if (kept) note_result(*kept, test, rig.governor().heat());
     test.stop();
-    fmt::print("{}", self_test::report_text(rig.device(), test));
+    net::print(self_test::report_text(rig.device(), test));
     if (file) file->commit(self_test::report_json(rig.device(), test).dump(2) + "\n");
     return self_test::has_passed(test) ? 0 : net::exit_failed;
 }

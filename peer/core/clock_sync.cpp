@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/clock_sync.hpp"
 
+#include "proto/base/clock_pair.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,13 +26,12 @@ base::Duration rounded(double ns) { return base::Duration{std::llround(ns)}; }
 
 void ClockSync::add(const ClockSample& s)
 {
-    if (is_same_clock_) return;
     const base::Duration round_trip = (s.answer_heard - s.sent) - (s.answered - s.heard);
     const Window sample{s.answer_heard, ((s.heard - s.sent) + (s.answered - s.answer_heard)) / 2,
                         round_trip};
     const bool is_believable =
         round_trip >= base::Duration{0} && std::chrono::abs(sample.offset) <= offset_max;
-    if (!is_believable) return;
+    if (!is_believable || shows_same_clock(sample)) return;
     if (!first_) {
         first_ = s.answer_heard;
         said_at_ = s.answer_heard;
@@ -43,6 +44,25 @@ void ClockSync::add(const ClockSample& s)
     }
     consider(sample);
     follow(s.answer_heard);
+}
+
+/// Whether the clocks are one as far as is known with this sample.
+bool ClockSync::shows_same_clock(const Window& sample)
+{
+    if (same_clock_ == SameClock::no) return false;
+    if (!base::are_two_clocks(sample.offset, sample.round_trip / 2)) {
+        same_clock_ = SameClock::seen;
+        ruled_out_ = 0;
+        return true;
+    }
+    const bool was_seen = same_clock_ == SameClock::seen;
+    if (was_seen && ++ruled_out_ < samples_needed) return true;
+    same_clock_ = SameClock::no;
+    if (was_seen) { // one of them has jumped
+        ++jumps_;
+        agreeing_left_ = samples_needed;
+    }
+    return false;
 }
 
 /// How far the sample lies beyond what is said, after all that queues and asymmetry can explain:
@@ -161,7 +181,7 @@ void ClockSync::follow(base::TimePoint now)
 
 std::optional<ClockEstimate> ClockSync::estimate() const
 {
-    if (is_same_clock_) return ClockEstimate{};
+    if (same_clock_ == SameClock::seen) return ClockEstimate{};
     if (!first_) return std::nullopt;
     // What slewing has not reached yet is uncertain, too.
     const base::Duration behind = std::chrono::abs(fit_.at_time(said_at_) - said_);

@@ -35,6 +35,10 @@ struct ClockEstimate {
 /// What it says never steps once it has settled, in the first two seconds: it follows by 500 us a
 /// second at most. A clock that jumps (a machine that slept, a virtual one that was moved) makes it
 /// doubt at the first sample, is recognised after eight seconds, and then it steps once.
+///
+/// Sides that name the same boot share a clock, so their offset is zero. That is believed from the
+/// first sample that allows it on. Samples that rule it out end the belief: the first one at once,
+/// later eight in a row, as one may be damaged.
 class ClockSync {
 public:
     static constexpr base::Duration window{std::chrono::seconds{1}};
@@ -50,8 +54,8 @@ public:
 
     /// Ignores samples with a negative round trip or an offset of more than ten years.
     void add(const ClockSample& sample);
-    /// The two run on one machine: their clocks are one.
-    void set_same_clock() { is_same_clock_ = true; }
+    /// The two name the same boot: their clocks are one, unless samples rule that out.
+    void set_same_clock() { same_clock_ = SameClock::claimed; }
 
     /// nullopt before the first sample.
     [[nodiscard]] std::optional<ClockEstimate> estimate() const;
@@ -88,6 +92,10 @@ private:
         }
     };
 
+    /// Whether both sides have one clock.
+    enum class SameClock : std::uint8_t { no, claimed, seen };
+
+    [[nodiscard]] bool shows_same_clock(const Window& sample);
     void close_window();
     [[nodiscard]] base::Duration unexplained(const Window& sample) const;
     void consider(const Window& sample);
@@ -95,7 +103,8 @@ private:
     [[nodiscard]] Fit fit(base::TimePoint now) const;
     void follow(base::TimePoint now);
 
-    bool is_same_clock_ = false;
+    SameClock same_clock_ = SameClock::no;
+    std::uint32_t ruled_out_ = 0; // samples that rule one clock out, in a row
     std::optional<base::TimePoint> first_;
     std::optional<Window> open_; // of the second that goes on
     base::TimePoint open_since_;

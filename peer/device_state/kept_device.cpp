@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "peer/device_state/kept_device.hpp"
 
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <cstdlib>
@@ -85,7 +85,7 @@ void KeptDevice::save()
     if (path_.empty()) return;
     try {
         fs::create_directories(fs::path{path_}.parent_path());
-        net::ResultFile file{path_, "", 0600};
+        disk::ResultFile file{path_, "", 0600};
         file.commit(to_text(state_));
     } catch (const std::system_error& error) {
         say(fmt::format("what is known of the device cannot be kept: {}", error.what()));

@@ -136,11 +136,11 @@ Finding on_firewire(const Facts& facts)
 
 Finding on_hd(const Facts& facts)
 {
+    if (!facts.hd_wanted) {
+        return {"libHD", Level::ok, "not looked for: only devices of 3D Systems need it"};
+    }
     if (facts.hd_trouble.empty()) {
         return {"libHD", Level::ok, "it can be loaded"};
-    }
-    if (!facts.hd_wanted) {
-        return {"libHD", Level::ok, "not there, which only devices of 3D Systems would need"};
     }
     return {
         "libHD", Level::bad, facts.hd_trouble,

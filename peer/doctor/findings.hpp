@@ -61,7 +61,7 @@ struct Facts {
     std::vector<Node> nodes;
     bool has_firewire_card = false;
     bool has_firewire_driver = false;
-    std::string hd_trouble;  // why libHD cannot be loaded; "": it can
+    std::string hd_trouble;  // why libHD cannot be loaded; "": it can, or is not wanted
     bool hd_wanted = false;  // a device that needs it is there
     bool is_date_set = true; // the day is one on which this version can run
     std::optional<KeyFact> key;

@@ -214,12 +214,13 @@ Facts look_at(const fs::path& root, const std::string& hd_library)
     find_serial(root, facts.nodes);
     facts.has_firewire_card = has_firewire_card(root);
     facts.has_firewire_driver = fs::exists(root / "sys/bus/firewire");
-    if (const auto library = device::hdapi::load_library(hd_library); !library) {
-        facts.hd_trouble = library.error().message;
-    }
     facts.hd_wanted = !hd_library.empty() ||
                       !device::models_on_usb(device::UsbKind::touch).empty() ||
                       !device::hdapi::configured_names().empty();
+    if (!facts.hd_wanted) return facts; // to load a library is to run code in it
+    if (const auto library = device::hdapi::load_library(hd_library); !library) {
+        facts.hd_trouble = library.error().message;
+    }
     return facts;
 }
 

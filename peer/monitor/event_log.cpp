@@ -2,30 +2,39 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/event_log.hpp"
 
+#include "proto/disk/create.hpp"
+
 #include <cerrno>
 #include <fcntl.h>
 #include <spdlog/fmt/fmt.h>
-#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace hapnet::peer::monitor {
 
 namespace {
 
-/// To write there; nullopt for stdout. Of a FIFO also the end that is read: opening the other alone
-/// would wait for a reader.
-std::optional<net::TextQueue>& opened(const std::string& place, std::optional<net::TextQueue>& own)
+disk::Outcome<disk::Descriptor> opened(const std::string& path)
+{
+    const auto place = disk::Place::find(path);
+    if (!place) return tl::unexpected{place.error()};
+    // Of a FIFO also the end that is read: opening the other alone would wait for a reader.
+    auto file = disk::open_to_write(*place, place->is_pipe() ? O_RDWR : O_WRONLY, 0644);
+    if (file && place->is_regular() && ftruncate(file->number(), 0) != 0)
+        return tl::unexpected{std::error_code{errno, std::generic_category()}};
+    return file;
+}
+
+/// To write there; nullopt for stdout.
+std::optional<net::TextQueue>& queue_to(const std::string& place,
+                                        std::optional<net::TextQueue>& own)
 {
     if (place == "-") return own;
-    struct stat found {};
-    const bool is_fifo = stat(place.c_str(), &found) == 0 && S_ISFIFO(found.st_mode);
-    const int descriptor =
-        open(place.c_str(), (is_fifo ? O_RDWR : O_WRONLY | O_CREAT | O_TRUNC) | O_CLOEXEC, 0644);
-    if (descriptor < 0) {
-        throw std::system_error{errno, std::generic_category(),
-                                fmt::format("--events: cannot write {}", place)};
+    auto file = opened(place);
+    if (!file) {
+        throw std::system_error{file.error(), fmt::format("--events: cannot write {}", place)};
     }
-    own.emplace(descriptor); // never closed: the thread that writes may outlive the queue
+    own.emplace(file->release()); // never closed: the thread that writes may outlive the queue
     return own;
 }
 
@@ -93,7 +102,7 @@ std::string line_of(const LoggedEvent& event, std::optional<base::TimePoint> sta
 }
 
 EventLog::EventLog(const std::string& place, net::TextQueue& out)
-    : queue_{opened(place, own_) ? *own_ : out}
+    : queue_{queue_to(place, own_) ? *own_ : out}
 {}
 
 } // namespace hapnet::peer::monitor

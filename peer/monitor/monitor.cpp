@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/monitor.hpp"
 
+#include "proto/base/visible.hpp"
 #include "proto/wire/message.hpp"
 
 #include <algorithm>
@@ -313,7 +314,8 @@ void Monitor::tell(const LoggedEvent& event)
 
 void Monitor::say(std::string_view text)
 {
-    screen_.put(fmt::format("{}hapnet-peer {}: {}\n", line_.room(), named_.peer_id, text));
+    screen_.put(fmt::format("{}hapnet-peer {}: {}\n", line_.room(), named_.peer_id,
+                            base::visible_lines(text)));
 }
 
 void Monitor::show(base::TimePoint now)

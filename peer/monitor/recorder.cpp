@@ -32,33 +32,56 @@ struct Recorder::State {
     /// The writing thread.
     void work()
     {
-        try {
-            record::Row row;
-            while (true) {
-                const bool was_closed = is_closed.load(std::memory_order_acquire);
-                if (rows.wait_dequeue_timed(row, std::chrono::milliseconds{20})) {
-                    if (held) held->add(row);
-                    write(row);
-                } else {
-                    save_ordered();
-                    if (was_closed) break;
-                }
-                if (++taken % rows_between_looks == 0) save_ordered();
+        record::Row row;
+        while (true) {
+            const bool was_closed = is_closed.load(std::memory_order_acquire);
+            if (rows.wait_dequeue_timed(row, std::chrono::milliseconds{20})) {
+                if (held) held->add(row);
+                write(row);
+            } else {
+                save_ordered();
+                if (was_closed) break;
             }
-            if (writer) writer->flush();
-        } catch (const std::system_error&) {
-            failure = std::current_exception();
-            has_failed.store(true, std::memory_order_release);
+            if (++taken % rows_between_looks == 0) save_ordered();
         }
-        writer.reset(); // closes it
+        close_file();
         is_done.store(true, std::memory_order_release);
     }
 
+    /// May take for ever, as all that the file is asked.
     void write(const record::Row& row)
     {
+        if (has_failed.load(std::memory_order_relaxed)) {
+            lost.fetch_add(1, std::memory_order_relaxed);
+            return;
+        }
         if (!writer) return;
-        writer->write(row); // may take for ever, as all that the file is asked
-        written.fetch_add(1, std::memory_order_relaxed);
+        ++given;
+        try {
+            writer->write(row);
+            written.fetch_add(1, std::memory_order_relaxed);
+        } catch (const std::system_error&) {
+            fail();
+        }
+    }
+
+    void close_file()
+    {
+        if (!writer) return;
+        try {
+            writer->flush();
+        } catch (const std::system_error&) {
+            fail();
+        }
+        writer.reset();
+    }
+
+    /// What the file has is all that there will be of the record.
+    void fail()
+    {
+        lost.fetch_add(given - writer->rows(), std::memory_order_relaxed);
+        failure = std::current_exception();
+        has_failed.store(true, std::memory_order_release);
     }
 
     void save_ordered()
@@ -75,6 +98,7 @@ struct Recorder::State {
     std::optional<HeldRows> held;
     std::string kept_head; // the first line of a file with what is held
     std::uint64_t taken = 0;
+    std::uint64_t given = 0; // to the writer
     const std::optional<base::Duration> span;
     std::int64_t peer_id = 0;
     net::Keeper keeper;
@@ -96,7 +120,6 @@ Recorder::~Recorder() { close(); }
 
 void Recorder::put(const record::Row& row)
 {
-    if (state_->has_failed.load(std::memory_order_acquire)) return;
     if (!state_->rows.try_enqueue(row)) state_->lost.fetch_add(1, std::memory_order_relaxed);
 }
 

@@ -52,11 +52,11 @@ public:
     /// Why an ordered record could not be written; once.
     [[nodiscard]] std::optional<std::string> keep_trouble();
 
-    /// After close(): whether nothing is left to do, as all is written or the file has refused.
+    /// After close(): whether nothing is left to do, as all is written or lost.
     [[nodiscard]] bool is_done() const;
     /// Why the record ends early; null: the file has not refused.
     [[nodiscard]] std::exception_ptr failure() const;
-    /// Rows that found no room.
+    /// Rows that are missing in the record: they found no room in the queue, or the file refused.
     [[nodiscard]] std::uint64_t lost() const;
     /// Rows that are written, ever: it grows as long as the disk takes them.
     [[nodiscard]] std::uint64_t written() const;

@@ -85,6 +85,7 @@ json secure_json(const std::optional<line::Status::Key>& key)
              {"unknown_key", c.unknown_key},
              {"other_circle", c.other_circle},
              {"refused", c.refused},
+             {"unread", c.unread},
              {"misnamed", key->misnamed},
              {"cookies", c.cookies},
              {"roamed", c.roamed},
@@ -235,9 +236,11 @@ std::string why_not_valid(const Run& run)
     const std::uint64_t faults = c.device_faults + c.silence_faults + c.loop_faults +
                                  c.speed_trips + c.jump_trips + c.nonsense_trips + c.frozen_trips +
                                  c.runaway_trips;
-    if (faults == 0) return "";
-    return fmt::format("the device was at fault {}",
-                       faults == 1 ? "once" : fmt::format("{} times", faults));
+    if (faults > 0) {
+        return fmt::format("the device was at fault {}",
+                           faults == 1 ? "once" : fmt::format("{} times", faults));
+    }
+    return run.options.record && !run.is_record_whole ? "the record is not complete" : "";
 }
 
 using Ordered = nlohmann::ordered_json;

@@ -55,9 +55,22 @@ public:
 private:
     static constexpr std::uint32_t dots_max = 256; // those of a line, outside of strings
 
+    /// Bytes that no text has, neither in TOML nor elsewhere: of a program, a picture, an archive.
+    [[nodiscard]] static bool is_of_no_text(char c)
+    {
+        const auto byte = static_cast<unsigned char>(c);
+        return (byte < 0x20 && c != '\n' && c != '\t' && c != '\r') || byte == 0x7f;
+    }
+
     [[nodiscard]] std::optional<DocumentError> step(char c)
     {
         ++place_.column;
+        if (is_of_no_text(c)) {
+            return DocumentError{
+                place_, fmt::format("this is no text: it has the byte 0x{:02x} here; what belongs "
+                                    "here is TOML: lines such as key = \"value\"",
+                                    static_cast<unsigned char>(c))};
+        }
         if (c == '\n') {
             place_ = {place_.line + 1, 0};
             dots_ = 0;
@@ -290,6 +303,8 @@ DocumentError explained(std::string_view text, const toml::parse_error& error)
                                    format)};
     }
     const std::string_view said = error.description();
+    if (said.find("utf-8") != std::string_view::npos)
+        return {place, "this is no text in UTF-8: save it in that encoding"};
     const std::string_view line = line_of(text, place.line);
     if (const auto start = said.find("cannot redefine existing ");
         start != std::string_view::npos) {

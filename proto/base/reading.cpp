@@ -3,6 +3,7 @@
 #include "proto/base/reading.hpp"
 
 #include "proto/base/text.hpp"
+#include "proto/base/visible.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,11 +33,11 @@ std::size_t distance(std::string_view a, std::string_view b)
     return row.back();
 }
 
-std::string escaped(std::string_view text, char quote)
+std::string with_escapes(std::string_view text)
 {
-    std::string out{quote};
+    std::string out;
     for (const char c : text) {
-        if (c == '"' && quote == '"') {
+        if (c == '"') {
             out += "\\\"";
         } else if (c == '\\') {
             out += "\\\\";
@@ -46,7 +47,7 @@ std::string escaped(std::string_view text, char quote)
             out += c;
         }
     }
-    return out + quote;
+    return out;
 }
 
 template <typename Target>
@@ -230,8 +231,14 @@ void read_value(const Node& node, std::string& target, Reading& reading)
     target = *text;
 }
 
-std::string quoted(std::string_view text) { return escaped(text, '"'); }
-std::string in_quotes(std::string_view text) { return escaped(text, '\''); }
+std::string quoted(std::string_view text) { return '"' + with_escapes(text) + '"'; }
+
+std::string in_quotes(std::string_view text)
+{
+    std::string doubled;
+    for (const char c : text) doubled += c == '\\' ? "\\\\" : std::string{c};
+    return "'" + visible(doubled) + "'";
+}
 
 std::string value_text(Duration value) { return quoted(to_text(value)); }
 std::string value_text(Probability value) { return quoted(to_text(value)); }

@@ -33,7 +33,8 @@ namespace hapnet::net {
 void sleep_until(base::TimePoint when);
 
 /// The identity of this boot of this machine: two records with equal boot ids have one
-/// clock and compare directly. Empty when the system does not tell.
+/// clock and compare directly, unless their echoes rule that out (base::are_two_clocks). Empty when
+/// the system does not tell.
 [[nodiscard]] std::string boot_id();
 
 /// 64 bits from the kernel's random source, for session nonces; never for an experiment.

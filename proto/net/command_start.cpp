@@ -58,7 +58,7 @@ bool CommandStart::awaits_last()
     // exit code belongs to another thread.
     std::array<pollfd, 2> polled{
         {{before_->command.descriptor(), POLLIN, 0}, {told_.descriptor(), POLLIN, 0}}};
-    const auto has_ended = [&] { return (polled[0].revents & POLLIN) != 0; };
+    const auto has_ended = [&] { return polled[0].revents != 0; };
     while (!is_over_.load() && !is_hurried_.load() && !has_ended() && monotonic_now() < deadline &&
            !before_->is_ready()) {
         std::ignore = poll(polled.data(), polled.size(), pause_ms);

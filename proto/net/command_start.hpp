@@ -3,7 +3,7 @@
 #pragma once
 
 #include "proto/base/time.hpp"
-#include "proto/net/own_network.hpp"
+#include "proto/net/child_command.hpp"
 #include "proto/net/wake_event.hpp"
 
 #include <atomic>

@@ -43,12 +43,7 @@ extern "C" void hapnet_on_crash(int number)
             sigaction(number, &handler_state.former[i], nullptr);
         }
     }
-    handler_state.has_come.store(true, std::memory_order_release);
-    add_one_to(handler_state.dying.load(std::memory_order_relaxed));
-    pollfd in_order{handler_state.in_order.load(std::memory_order_relaxed), POLLIN, 0};
-    constexpr auto patience_ms = std::chrono::milliseconds{20}.count();
-    static_assert(CrashSignal::patience == std::chrono::milliseconds{patience_ms});
-    poll(&in_order, 1, patience_ms);
+    CrashSignal::hold_to_the_end();
     raise(number); // comes when this returns, and to whom it would have come
 }
 
@@ -93,6 +88,18 @@ CrashSignal::~CrashSignal()
 bool CrashSignal::has_come() noexcept
 {
     return handler_state.has_come.load(std::memory_order_acquire);
+}
+
+void CrashSignal::hold_to_the_end() noexcept
+{
+    const int dying = handler_state.dying.load(std::memory_order_relaxed);
+    if (dying < 0) return;
+    handler_state.has_come.store(true, std::memory_order_release);
+    add_one_to(dying);
+    pollfd in_order{handler_state.in_order.load(std::memory_order_relaxed), POLLIN, 0};
+    constexpr auto patience_ms = std::chrono::milliseconds{20}.count();
+    static_assert(CrashSignal::patience == std::chrono::milliseconds{patience_ms});
+    poll(&in_order, 1, patience_ms);
 }
 
 void CrashSignal::acknowledge() const { add_one_to(in_order_); }

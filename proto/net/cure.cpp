@@ -31,6 +31,9 @@ std::string_view cure_of(const std::error_code& error)
     case ENOENT:
     case ENOTDIR: return "choose a path in a folder that exists";
     case EISDIR: return "name a file, not a folder";
+    case EFBIG: return "raise the limit for files with 'ulimit -f unlimited'";
+    case ENOSPC:
+    case EDQUOT: return "make room, or choose a place on another disk";
     case ENETUNREACH:
     case EHOSTUNREACH:
         return "there is no route: check the address, and the network with 'ip route'";

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/keeper.hpp"
 
-#include "proto/net/result_file.hpp"
+#include "proto/disk/result_file.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
@@ -36,7 +36,7 @@ std::optional<Keeper::Order> Keeper::take()
 void Keeper::save(const std::string& path, std::string_view bytes)
 {
     try {
-        ResultFile{path, "", 0600}.commit(bytes);
+        disk::ResultFile{path, "", 0600}.commit(bytes);
     } catch (const std::system_error& error) {
         const std::scoped_lock guard{lock_};
         trouble_ = error.what();

@@ -168,6 +168,7 @@ std::span<const ReceivedFrame> PacketSocket::receive()
         inbox.headers[i].msg_hdr.msg_controllen = inbox.controls[i].bytes.size();
     }
     const int count = recvmmsg(descriptor_, inbox.headers.data(), batch_max, 0, nullptr);
+    if (count < 0) note_error(errno);
     if (count <= 0) return {};
     const auto to_monotonic = monotonic_minus_real();
     const auto now = monotonic_now();
@@ -198,6 +199,7 @@ PacketSocket::send_batch(std::span<const std::span<const std::byte>> frames)
         const int sent = sendmmsg(descriptor_, &inbox.out_headers[next],
                                   static_cast<unsigned>(frames.size() - next), 0);
         if (sent <= 0) {
+            note_error(errno);
             inbox.outcomes[next] = frame_outcome_of(errno);
             ++next;
             continue;
@@ -207,6 +209,14 @@ PacketSocket::send_batch(std::span<const std::span<const std::byte>> frames)
         }
     }
     return {inbox.outcomes.data(), frames.size()};
+}
+
+/// Takes those that the interface is to blame for. The kernel says so once, to whichever call comes
+/// first.
+void PacketSocket::note_error(int error)
+{
+    const bool is_of_interface = error == ENETDOWN || error == ENXIO || error == ENODEV;
+    if (is_of_interface && error_ == 0) error_ = error;
 }
 
 std::uint64_t PacketSocket::overflowed() const

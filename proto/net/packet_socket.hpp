@@ -41,13 +41,19 @@ public:
     std::span<const SendOutcome> send_batch(std::span<const std::span<const std::byte>> frames);
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
+    /// The errno by which the interface has failed, such as ENETDOWN when it was set down or
+    /// deleted; 0 while it works.
+    [[nodiscard]] int error() const { return error_; }
     /// Frames that the kernel dropped because this socket's buffer was full.
     [[nodiscard]] std::uint64_t overflowed() const;
 
 private:
     struct Inbox;
 
+    void note_error(int error);
+
     int descriptor_ = -1;
+    int error_ = 0;
     std::unique_ptr<Inbox> inbox_;
 };
 

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "proto/base/result.hpp"
+#include "proto/base/visible.hpp"
 #include "proto/net/cure.hpp"
+#include "proto/net/exit_guard.hpp"
+#include "proto/net/file_limit.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -52,14 +55,27 @@ inline void tell(const std::string& text)
 /// One line of it: "hapnet-peer: ...".
 inline void say(std::string_view program, std::string_view text)
 {
-    tell(fmt::format("{}: {}\n", program, text));
+    tell(fmt::format("{}: {}\n", program, base::visible_lines(text)));
 }
+
+/// Text for a person, on stdout. Names in it may come from a file or another program.
+inline void print(std::string_view text) { fmt::print("{}", base::visible_lines(text)); }
 
 /// Throws std::system_error when what was printed could not be written: a full disk, say.
 inline void require_stdout()
 {
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    throw std::system_error{errno, std::generic_category(), "cannot write the output"};
+    if (std::fflush(stdout) != 0)
+        throw std::system_error{errno, std::generic_category(), "cannot write the output"};
+    // An earlier attempt failed, and its reason is gone.
+    if (std::ferror(stdout) != 0)
+        throw std::system_error{EIO, std::generic_category(), "cannot write the output"};
+}
+
+/// Prints a text that somebody waits for, at once. Throws std::system_error as above.
+inline void print_now(std::string_view text)
+{
+    fmt::print("{}", text);
+    require_stdout();
 }
 
 /// The life of every program: prints what is to be printed, runs, and turns each kind of trouble
@@ -68,6 +84,8 @@ inline void require_stdout()
 template <typename Options, typename Run>
 [[nodiscard]] int run_program(std::string_view program, const CommandLine<Options>& line, Run run)
 {
+    const ExitGuard guard{program};
+    survive_file_limit();
     try {
         if (!line) {
             say(program, line.error().message);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/stop_signal.hpp"
 
+#include "proto/base/text.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/detached_thread.hpp"
 
@@ -10,7 +11,12 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <limits>
 #include <poll.h>
+#include <spdlog/fmt/fmt.h>
+#include <string>
 #include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <system_error>
@@ -37,6 +43,35 @@ int signals_as_descriptor()
     const int descriptor = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
     if (descriptor < 0) refuse("signalfd");
     return descriptor;
+}
+
+/// The number that the lifeline variable says, which is taken out of the environment; -1: none.
+int given_lifeline()
+{
+    const char* const value = std::getenv(lifeline_variable);
+    const auto number = base::parse_count(value != nullptr ? value : "",
+                                          std::uint64_t{std::numeric_limits<int>::max()});
+    unsetenv(lifeline_variable);
+    return number ? static_cast<int>(*number) : -1;
+}
+
+/// From now on the kernel sends SIGTERM when the lifeline hangs up. Its descriptor stays open for
+/// as long as the process lives, and no command that this one runs inherits it.
+void hold_lifeline()
+{
+    const int given = given_lifeline();
+    if (given < 0) return;
+    // A file description of its own: it has one owner, and others may hold the same lifeline.
+    int own =
+        open(fmt::format("/proc/self/fd/{}", given).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (own < 0) own = fcntl(given, F_DUPFD_CLOEXEC, 0);
+    if (own < 0) return; // no descriptor at all
+    close(given);
+    fcntl(own, F_SETOWN, getpid());
+    fcntl(own, F_SETSIG, SIGTERM);
+    fcntl(own, F_SETFL, O_NONBLOCK | O_ASYNC);
+    pollfd polled{own, 0, 0};
+    if (poll(&polled, 1, 0) > 0 && (polled.revents & POLLHUP) != 0) kill(getpid(), SIGTERM);
 }
 
 } // namespace
@@ -119,6 +154,7 @@ StopSignal::StopSignal(Hangup hangup)
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGTTIN, SIG_IGN);
     state_ = std::make_shared<State>(hangup);
+    hold_lifeline();
 }
 
 int StopSignal::descriptor() const { return state_->signals; }

@@ -9,13 +9,20 @@
 
 namespace hapnet::net {
 
+/// The name of the environment variable by which a program ties another one to its own life. Its
+/// value is the number of an inherited descriptor, the reading end of a pipe that nothing is
+/// written to. Only the starting program has the other end, so the pipe hangs up when that program
+/// has ended, whatever ended it.
+inline constexpr const char* lifeline_variable = "HAPNET_LIFELINE";
+
 /// What SIGHUP means: that the terminal has gone, or that a file is to be read again.
 enum class Hangup : std::uint8_t { stop, reload };
 
 /// SIGINT, SIGTERM and SIGHUP as something to wait for. Construct one, first thing in main and
 /// before any thread: from then on they interrupt nothing and are read here. SIGPIPE is ignored
 /// from then on: a reader that has left must not end a session. So is SIGTTIN: a program in the
-/// background that looks at its terminal must not be stopped with a force on its motors.
+/// background that looks at its terminal must not be stopped with a force on its motors. The end of
+/// the program that holds the lifeline counts as SIGTERM.
 class StopSignal {
 public:
     explicit StopSignal(Hangup hangup = Hangup::stop);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/terminal_line.hpp"
 
+#include "proto/base/visible.hpp"
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
@@ -28,7 +29,7 @@ TerminalLine::TerminalLine(int descriptor)
 std::string TerminalLine::shown(std::string_view text)
 {
     is_open_ = true;
-    return std::string{erase} + std::string{text.substr(0, columns_of(descriptor_))};
+    return std::string{erase} + base::visible(text).substr(0, columns_of(descriptor_));
 }
 
 std::string TerminalLine::room()

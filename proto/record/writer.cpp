@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/record/writer.hpp"
 
+#include "proto/disk/create.hpp"
 #include "proto/record/header.hpp"
 
 #include <cerrno>
@@ -9,7 +10,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <system_error>
+#include <tuple>
 #include <unistd.h>
 #include <utility>
 
@@ -17,54 +18,75 @@ namespace hapnet::record {
 
 namespace {
 
-/// The file, emptied; null with errno set when it cannot be had. Locked before it is emptied: two
-/// peers that were given one name must not spoil each other's record.
-std::FILE* open_alone(const std::string& path)
+constexpr std::size_t buffer_bytes = 16384;
+
+/// Empties a regular file once it is locked: two peers that were given one name must not spoil each
+/// other's record. Gives the error.
+int take_alone(int file)
 {
-    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor < 0) return nullptr;
     struct stat found {};
-    const bool is_regular = fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode);
-    const bool is_ours =
-        !is_regular || (flock(descriptor, LOCK_EX | LOCK_NB) == 0 && ftruncate(descriptor, 0) == 0);
-    if (is_ours) return fdopen(descriptor, "wb");
-    const int error = errno;
-    close(descriptor);
-    errno = error;
-    return nullptr;
+    if (fstat(file, &found) != 0) return errno;
+    if (!S_ISREG(found.st_mode)) return 0;
+    return flock(file, LOCK_EX | LOCK_NB) == 0 && ftruncate(file, 0) == 0 ? 0 : errno;
 }
 
 } // namespace
 
 Writer::Writer(std::string path, const nlohmann::json& config, const Layout& layout)
-    : path_{std::move(path)}, layout_{layout}, file_{open_alone(path_)}
+    : path_{std::move(path)}, layout_{layout}
 {
-    if (!file_) refuse(errno == EWOULDBLOCK ? "create (another program is writing)" : "create");
-    const std::string header = header_line(config, layout_) + '\n';
-    put(header.data(), header.size());
+    auto opened = disk::open_to_write(path_, O_WRONLY, 0644);
+    if (!opened) refuse(opened.error(), "create");
+    file_ = *std::move(opened);
+    if (const int error = take_alone(file_.number()); error != 0) {
+        refuse({error, std::generic_category()},
+               error == EWOULDBLOCK ? "create (another program is writing)" : "create");
+    }
+    buffer_ = header_line(config, layout_) + '\n';
+    ends_.push_back(buffer_.size());
     flush();
+    rows_ = 0; // the header was none
+}
+
+Writer::~Writer()
+{
+    if (file_.is_open()) std::ignore = try_flush();
 }
 
 void Writer::write(const Row& row)
 {
     const RowBytes bytes = encode(row, layout_);
-    put(bytes.data(), bytes.size());
+    buffer_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    ends_.push_back(buffer_.size());
+    if (buffer_.size() >= buffer_bytes) flush();
 }
 
 void Writer::flush()
 {
-    if (std::fflush(file_.get()) != 0) refuse("write");
+    if (const auto error = try_flush()) refuse(error, "write");
 }
 
-void Writer::put(const void* data, std::size_t size)
+/// Forgets what finds no room.
+std::error_code Writer::try_flush() noexcept
 {
-    if (std::fwrite(data, 1, size, file_.get()) != size) refuse("write");
+    const auto written = disk::write_all(file_.number(), buffer_);
+    std::size_t whole = 0;
+    for (const std::size_t end : ends_) {
+        if (end > written.bytes) break;
+        whole = end;
+        ++rows_;
+    }
+    bytes_ += whole;
+    buffer_.clear();
+    ends_.clear();
+    if (whole < written.bytes) // a row that is cut off
+        std::ignore = ftruncate(file_.number(), static_cast<off_t>(bytes_));
+    return written.error;
 }
 
-void Writer::refuse(const char* what) const
+void Writer::refuse(std::error_code error, const char* what) const
 {
-    throw std::system_error{errno, std::generic_category(),
-                            fmt::format("cannot {} the record {}", what, path_)};
+    throw std::system_error{error, fmt::format("cannot {} the record {}", what, path_)};
 }
 
 } // namespace hapnet::record

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/disk/descriptor.hpp"
 #include "proto/record/codec.hpp"
 
-#include <cstdio>
-#include <memory>
+#include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace hapnet::record {
 
@@ -17,23 +21,32 @@ namespace hapnet::record {
 class Writer {
 public:
     /// Creates the file, or empties it, and writes the header at once. A message of a row must have
-    /// room in the layout.
+    /// room in the layout. disk::open_to_write() says which files are refused.
     Writer(std::string path, const nlohmann::json& config, const Layout& layout = {});
+    Writer(Writer&&) noexcept = default;
+    Writer& operator=(Writer&&) = delete;
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
+    /// Writes what is buffered, if the file still takes it.
+    ~Writer();
 
     void write(const Row& row);
     void flush();
 
-private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
+    /// Rows that the file has. After it has refused it ends with the last of them.
+    [[nodiscard]] std::uint64_t rows() const { return rows_; }
 
-    void put(const void* data, std::size_t size);
-    [[noreturn]] void refuse(const char* what) const;
+private:
+    std::error_code try_flush() noexcept;
+    [[noreturn]] void refuse(std::error_code error, const char* what) const;
 
     std::string path_;
     Layout layout_;
-    std::unique_ptr<std::FILE, Close> file_;
+    disk::Descriptor file_;
+    std::uint64_t bytes_ = 0; // of the header and the rows that the file has
+    std::uint64_t rows_ = 0;
+    std::string buffer_;
+    std::vector<std::size_t> ends_; // of the rows in the buffer
 };
 
 } // namespace hapnet::record

@@ -41,14 +41,13 @@ constexpr std::byte plain_hello{1}, plain_state_type{2};
 
 } // namespace
 
-Association::Responding::Responding(KeyIndex own_index, const Initiation& initiation,
-                                    const StaticKeys& keys, Bytes prologue, Secret ephemeral,
-                                    const Place& from)
+Association::Responding::Responding(KeyIndex own_index, const WaitingInitiation& initiation,
+                                    const StaticKeys& keys, Bytes prologue, Secret ephemeral)
     : own{own_index},
       other{initiation.sender},
       noise{Role::responder, keys, prologue, std::move(ephemeral)},
-      cause{mac_of(initiation.macs.mac1)},
-      to{from}
+      cause{initiation.cause},
+      to{initiation.from}
 {}
 
 Association::Association(const Config& config, StaticKeys keys, Secret seed)
@@ -56,8 +55,8 @@ Association::Association(const Config& config, StaticKeys keys, Secret seed)
       keys_{std::move(keys)},
       entropy_{std::move(seed)},
       prologue_{prologue_of(config)},
-      other_mac1_key_{key_of_mac1(keys_.pre_shared(), keys_.other())},
-      door_{key_of_mac1(keys_.pre_shared(), keys_.own_public()), entropy_.secret()},
+      other_mac1_key_{key_of_mac1(keys_, keys_.other())},
+      door_{key_of_mac1(keys_, keys_.own_public()), entropy_.secret()},
       cookies_{other_mac1_key_},
       place_{config.place}
 {
@@ -75,13 +74,18 @@ std::uint32_t Association::session_with(std::uint32_t other_run) const
 KeyIndex Association::fresh_index()
 {
     for (;;) {
-        const auto bytes = entropy_.bytes<4>();
-        const KeyIndex index = ByteReader{bytes}.u32();
+        const KeyIndex index = drawn();
         const bool is_taken = epoch_of(index) != nullptr ||
                               (initiating_ && initiating_->own == index) ||
                               (responding_ && responding_->own == index);
         if (index != 0 && !is_taken) return index;
     }
+}
+
+std::uint32_t Association::drawn()
+{
+    const auto bytes = entropy_.bytes<4>();
+    return ByteReader{bytes}.u32();
 }
 
 const Association::Epoch* Association::epoch_of(KeyIndex index) const
@@ -101,7 +105,7 @@ Association::Counts& Association::Counts::operator+=(const Counts& other)
     for (const auto count :
          {&Counts::handshakes, &Counts::rekeys, &Counts::forged, &Counts::replayed,
           &Counts::unsealed, &Counts::unknown_key, &Counts::other_circle, &Counts::refused,
-          &Counts::cookies, &Counts::roamed, &Counts::not_sealed})
+          &Counts::unread, &Counts::cookies, &Counts::roamed, &Counts::not_sealed})
         this->*count += other.*count;
     last_handshake = std::max(last_handshake, other.last_handshake);
     return *this;
@@ -197,18 +201,33 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
         return;
     }
     const Mac cause = mac_of(initiation->macs.mac1);
+    const Place answer_to = answer_place(from);
     if (answered_ && answered_->cause == cause) {
-        answered_->to = from;
+        ++counts_.unread;
+        answered_->to = answer_to;
         return send_answer(now);
     }
-    if (responding_) return; // with this one, or one at a time
+    const bool is_known =
+        (responding_ && responding_->cause == cause) ||
+        initiations_.find([&](const auto& one) { return one.cause == cause; }) != nullptr;
+    if (is_known || (initiating_ && is_lower())) { // the other side answers ours
+        ++counts_.unread;
+        return;
+    }
     if (!door_.lets_in(*initiation, from, now)) {
         ++counts_.cookies;
-        return send(door_.cookie_reply(*initiation, from, now), from);
+        return send(door_.cookie_reply(*initiation, from, now), answer_to);
     }
-    if (initiating_ && is_lower()) return; // the other side answers ours
-    responding_.emplace(fresh_index(), *initiation, keys_, prologue_, entropy_.secret(), from);
-    responding_->noise.read(initiation->noise);
+    WaitingInitiation waiting{initiation->sender, cause, {}, answer_to};
+    std::ranges::copy(initiation->noise, waiting.noise.begin());
+    if (!initiations_.add(waiting, drawn())) ++counts_.unread;
+}
+
+/// Where to answer a handshake message that came from there. Nothing is proved of it yet: a side
+/// that may not move is answered where it was said to be.
+Place Association::answer_place(const Place& from) const
+{
+    return config_.may_roam || !place_ ? from : *place_;
 }
 
 void Association::on_response(Bytes datagram, const Place& from)
@@ -218,12 +237,13 @@ void Association::on_response(Bytes datagram, const Place& from)
         ++counts_.other_circle;
         return;
     }
-    if (!initiating_ || !initiating_->frame || response->receiver != initiating_->own ||
-        initiating_->other)
-        return; // a repetition
-    initiating_->other = response->sender;
-    initiating_->answered_from = from;
-    initiating_->noise.read(response->noise);
+    if (!initiating_ || !initiating_->frame || response->receiver != initiating_->own) {
+        ++counts_.unread;
+        return;
+    }
+    WaitingResponse waiting{response->sender, {}, from};
+    std::ranges::copy(response->noise, waiting.noise.begin());
+    if (!initiating_->responses.add(waiting, drawn())) ++counts_.unread;
 }
 
 void Association::on_cookie_reply(Bytes datagram, base::TimePoint now)
@@ -237,20 +257,24 @@ void Association::on_cookie_reply(Bytes datagram, base::TimePoint now)
         return;
     }
     initiating_->frame->set_macs(other_mac1_key_, cookies_.cookie(now));
-    initiating_->last_sent.reset(); // again, with it
+    initiating_->has_new_cookie = true;
 }
 
 // --- what is due ---
 
 void Association::tick(Moment moment)
 {
-    if (responding_) {
-        step_response(moment.now);
-    } else if (initiating_ && (!initiating_->frame || initiating_->other)) {
+    const bool may_respond = responding_ || !initiations_.is_empty();
+    const bool may_initiate = initiating_ && initiating_->has_work();
+    // By turns, so that a flood of the one kind does not stop the other.
+    if (may_initiate && (!may_respond || is_turn_to_initiate_)) {
         step_initiation(moment);
-    } else if (!initiating_ && needs_key(moment.now)) {
-        begin(moment);
+        is_turn_to_initiate_ = false;
+    } else if (may_respond) {
+        step_response(moment.now);
+        is_turn_to_initiate_ = true;
     }
+    if (!initiating_ && !responding_ && needs_key(moment.now)) begin(moment);
     repeat(moment.now);
 }
 
@@ -270,27 +294,54 @@ bool Association::waits_for_confirmation(base::TimePoint now) const
     return unconfirmed_since_ && now - *unconfirmed_since_ < fresh_after;
 }
 
+/// The date of the next initiation. It grows within a run, whatever is done to the clock: the other
+/// side takes nothing older than what this run has sent.
+std::int64_t Association::date(Moment moment)
+{
+    if (own_date_ < std::numeric_limits<std::int64_t>::max()) ++own_date_;
+    return own_date_ = std::max(own_date_, moment.unix_ns);
+}
+
 void Association::begin(Moment moment)
 {
     if (!place_) return;
+    if (is_lower()) { // the other side answers ours
+        counts_.unread += initiations_.size();
+        initiations_.clear();
+    }
     if (!unanswered_since_) unanswered_since_ = moment.now;
     initiating_.emplace(fresh_index(), keys_, prologue_, entropy_.secret(), moment.now);
     std::array<std::byte, initiation_payload_bytes> payload{};
     ByteWriter out{payload};
-    out.i64(moment.unix_ns);
+    out.i64(date(moment));
     out.u32(config_.run);
     out.u32(0);
     initiating_->noise.write(payload);
 }
 
+void Association::end_initiating()
+{
+    if (initiating_) counts_.unread += initiating_->responses.size();
+    initiating_.reset();
+}
+
+void Association::read_next_response()
+{
+    const WaitingResponse next = initiating_->responses.take();
+    initiating_->other = next.sender;
+    initiating_->answered_from = next.from;
+    initiating_->noise.read(next.noise);
+}
+
 void Association::step_initiation(Moment moment)
 {
     Initiating& own = *initiating_;
+    if (own.frame && !own.other) read_next_response();
     const auto progress = own.noise.step();
     if (progress == NoiseKk::Progress::working) return;
     if (progress == NoiseKk::Progress::refused) {
         ++counts_.refused;
-        initiating_.reset();
+        own.other.reset(); // the genuine response may still come
         return;
     }
     if (!own.frame) {
@@ -302,7 +353,7 @@ void Association::step_initiation(Moment moment)
     const std::uint32_t other_run = ByteReader{own.noise.payload()}.u32();
     if (other_run == 0) {
         ++counts_.refused;
-        initiating_.reset();
+        end_initiating();
         return;
     }
     counts_.last_handshake = moment.now - unanswered_since_.value_or(own.began);
@@ -320,7 +371,7 @@ void Association::use(Epoch epoch, base::TimePoint now)
     ++counts_.handshakes;
     unconfirmed_since_.reset();
     unanswered_since_.reset();
-    initiating_.reset();
+    end_initiating();
     previous_.reset();
     if (current_ && current_->other_run == epoch.other_run) {
         ++counts_.rekeys;
@@ -332,10 +383,19 @@ void Association::use(Epoch epoch, base::TimePoint now)
     current_.emplace(std::move(epoch));
 }
 
+void Association::read_next_initiation()
+{
+    const WaitingInitiation next = initiations_.take();
+    responding_.emplace(fresh_index(), next, keys_, prologue_, entropy_.secret());
+    responding_->noise.read(next.noise);
+}
+
 void Association::step_response(base::TimePoint now)
 {
+    if (!responding_) read_next_initiation();
     const auto progress = responding_->noise.step();
     if (progress == NoiseKk::Progress::working) return;
+    if (progress == NoiseKk::Progress::refused) ++counts_.refused;
     const bool goes_on =
         progress == NoiseKk::Progress::done && (responding_->is_writing || take_initiation(now));
     if (!goes_on) {
@@ -394,7 +454,7 @@ void Association::answer(base::TimePoint now)
     responding_.reset();
     if (!unconfirmed_since_) unconfirmed_since_ = now;
     if (!waits_for_confirmation(now)) return; // what this side began goes on beside it
-    initiating_.reset();                      // what the other side began has come farther
+    end_initiating();                         // what the other side began has come farther
     confirm_at_.reset();
     unanswered_since_.reset();
 }
@@ -434,17 +494,19 @@ void Association::repeat(base::TimePoint now)
 {
     repeat_answer(now);
     confirm(now);
-    if (!initiating_ || !initiating_->frame || initiating_->other) return;
+    if (!initiating_ || !initiating_->frame) return;
     if (now - initiating_->began >= fresh_after) {
         // The lower id listens for a while: perhaps the other side can reach us.
         if (is_lower()) listens_until_ = now + listen_for;
-        initiating_.reset();
+        end_initiating();
         return;
     }
-    const bool is_slow = now - unanswered_since_.value_or(now) >= repeat_slowly_after;
+    const bool is_slow = now - unanswered_since_.value_or(now) >= repeat_slowly_after &&
+                         !initiating_->has_new_cookie;
     const base::Duration every = is_slow ? repeat_slowly_every : repeat_every;
     if (initiating_->last_sent && now - *initiating_->last_sent < every) return;
     initiating_->last_sent = now;
+    initiating_->has_new_cookie = false;
     if (place_) send(*initiating_->frame, *place_);
     // Somebody on the path may have made both sides look for each other elsewhere.
     if (config_.place && config_.place != place_) send(*initiating_->frame, *config_.place);

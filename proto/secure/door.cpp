@@ -21,12 +21,13 @@ Secret key_of_cookies(const Hash& mac1_key)
 
 } // namespace
 
-Hash key_of_mac1(const Secret& pre_shared, const PublicKey& receiver)
+Hash key_of_mac1(const StaticKeys& keys, const PublicKey& receiver)
 {
+    const Secret& secret = keys.has_pre_shared() ? keys.pre_shared() : keys.common();
     SecretBytes<13 + key_bytes> known; // "hapnet mac1" and what follows, in one piece
     const auto words = text("hapnet mac1: ");
     std::ranges::copy(words, known.bytes().begin());
-    std::ranges::copy(pre_shared.bytes(), known.bytes().begin() + 13);
+    std::ranges::copy(secret.bytes(), known.bytes().begin() + 13);
     return hash(known.bytes(), receiver);
 }
 

@@ -5,6 +5,7 @@
 #include "proto/base/time.hpp"
 #include "proto/secure/entropy.hpp"
 #include "proto/secure/frames.hpp"
+#include "proto/secure/noise_kk.hpp"
 
 #include <array>
 #include <cstddef>
@@ -23,9 +24,10 @@ using Place = std::array<std::byte, 18>;
     return std::memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
-/// The key of a handshake message's first MAC: who knows the pre-shared key and whom it speaks to
-/// can make it. Checked before anything that costs more.
-[[nodiscard]] Hash key_of_mac1(const Secret& pre_shared, const PublicKey& receiver);
+/// The key of the first MAC of handshake messages to `receiver`, which is checked before anything
+/// that costs more. Members of the circle can make it; where the circle has no pre-shared key, only
+/// the two sides can.
+[[nodiscard]] Hash key_of_mac1(const StaticKeys& keys, const PublicKey& receiver);
 
 /// Lets in what deserves a handshake's work: a forged initiation costs one hash. When more genuine
 /// ones come than a peer has reason to send, somebody repeats captured ones; then only a sender

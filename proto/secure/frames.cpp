@@ -135,7 +135,7 @@ std::optional<Initiation> read_initiation(Bytes datagram)
     initiation.ends.from = in.u8();
     initiation.ends.to = in.u8();
     if (in.u16() != 0) return std::nullopt;
-    initiation.noise = in.raw(key_bytes + initiation_payload_bytes + tag_bytes);
+    initiation.noise = in.raw(initiation_noise_bytes);
     initiation.macs = macs_of(datagram);
     return initiation;
 }
@@ -148,7 +148,7 @@ std::optional<Response> read_response(Bytes datagram)
     Response response;
     response.receiver = in.u32();
     response.sender = in.u32();
-    response.noise = in.raw(key_bytes + response_payload_bytes + tag_bytes);
+    response.noise = in.raw(response_noise_bytes);
     response.macs = macs_of(datagram);
     return response;
 }

@@ -78,6 +78,9 @@ struct Ends {
 
 inline constexpr std::size_t initiation_payload_bytes = 16;
 inline constexpr std::size_t response_payload_bytes = 4;
+inline constexpr std::size_t initiation_noise_bytes =
+    key_bytes + initiation_payload_bytes + tag_bytes;
+inline constexpr std::size_t response_noise_bytes = key_bytes + response_payload_bytes + tag_bytes;
 inline constexpr std::size_t initiation_bytes = 108;
 inline constexpr std::size_t response_bytes = 96;
 inline constexpr std::size_t cookie_bytes = 64;

@@ -109,6 +109,31 @@ KeyFile read_file(const Node& document, Reading& reading)
     return file;
 }
 
+Secret read_shared(const Node& document, Reading& reading)
+{
+    const auto* entries = std::get_if<Node::Table>(&document.value);
+    base::ensure(entries != nullptr); // a document is one
+    TableReader table{*entries, document.place, reading};
+    Secret shared{read_key(table.require("psk", "write psk = \"BASE64\""), reading)};
+    table.finish();
+    return shared;
+}
+
+/// Twelve groups of five decimal digits, each the remainder of a 40-bit number.
+std::string in_groups(const Hash& sum)
+{
+    constexpr std::size_t groups = 12, bytes = 5;
+    static_assert(groups * bytes <= sizeof(Hash));
+    std::string text;
+    for (std::size_t group = 0; group < groups; ++group) {
+        std::uint64_t number = 0;
+        for (std::size_t i = 0; i < bytes; ++i)
+            number = number << 8 | std::to_integer<std::uint64_t>(sum[group * bytes + i]);
+        text += fmt::format("{}{:05}", group == 0 ? "" : " ", number % 100'000);
+    }
+    return text;
+}
+
 } // namespace
 
 const KeyFile::Member* KeyFile::find(std::uint8_t peer) const
@@ -142,12 +167,7 @@ std::string KeyFile::fingerprint() const
         sum = hash(sum, std::array{std::byte{each.id}});
         sum = hash(sum, each.key);
     }
-    std::string text;
-    for (std::size_t i = 0; i < 8; ++i) {
-        if (i > 0 && i % 2 == 0) text += '-';
-        text += fmt::format("{:02x}", std::to_integer<unsigned>(sum[i]));
-    }
-    return text;
+    return in_groups(sum);
 }
 
 base::Result<KeyFile> parse_key_file(std::string_view text, const std::string& source)
@@ -155,11 +175,21 @@ base::Result<KeyFile> parse_key_file(std::string_view text, const std::string& s
     return base::parse_text(text, source, read_file);
 }
 
+base::Result<Secret> parse_shared_key(std::string_view text, const std::string& source)
+{
+    return base::parse_text(text, source, read_shared);
+}
+
+std::string print_shared_key(const Secret& key)
+{
+    return fmt::format("psk = \"{}\"\n", to_base64(key.bytes()));
+}
+
 std::string print_key_file(const KeyFile& file)
 {
     std::string text =
-        fmt::format("name = {}\nid = {}\nsecret = \"{}\"\npsk = \"{}\"\n", base::quoted(file.name),
-                    file.id, to_base64(file.own.bytes()), to_base64(file.pre_shared.bytes()));
+        fmt::format("name = {}\nid = {}\nsecret = \"{}\"\n{}", base::quoted(file.name), file.id,
+                    to_base64(file.own.bytes()), print_shared_key(file.pre_shared));
     for (const KeyFile::Member& each : file.others) {
         text += fmt::format("\n[[peer]]\nid = {}\npublic = \"{}\"\n", each.id, to_base64(each.key));
         if (!each.endpoint.empty())

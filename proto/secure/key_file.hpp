@@ -43,14 +43,16 @@ struct KeyFile {
     Secret pre_shared;
     std::vector<Member> others; // by id
 
+    [[nodiscard]] bool has_pre_shared() const { return !is_zero(pre_shared.bytes()); }
     /// nullptr when no such peer is in the circle.
     [[nodiscard]] const Member* find(std::uint8_t peer) const;
     /// What an association with that peer needs; the peer is in the circle.
     [[nodiscard]] StaticKeys keys_with(const Member& member) const;
     /// The circle's name as handshakes carry it.
     [[nodiscard]] std::array<std::byte, 8> circle() const;
-    /// Sixteen hexadecimal digits in groups of four, the same on every host of a circle whose hosts
-    /// hold the same keys: to be compared by telephone. Tells nothing of the keys.
+    /// Twelve groups of five decimal digits (199 bits), the same on every host of a circle whose
+    /// hosts hold the same keys: to be compared by telephone. Tells nothing of the keys. Who stands
+    /// between two hosts would have to try 2^99 keys to find two that look alike.
     [[nodiscard]] std::string fingerprint() const;
 };
 
@@ -59,6 +61,11 @@ struct KeyFile {
                                                    const std::string& source);
 /// Text that reads back as the same; it holds the secrets.
 [[nodiscard]] std::string print_key_file(const KeyFile& file);
+
+/// A circle's shared key alone, as text for the hosts that do not have it yet: `psk = "BASE64"`.
+[[nodiscard]] base::Result<Secret> parse_shared_key(std::string_view text,
+                                                    const std::string& source);
+[[nodiscard]] std::string print_shared_key(const Secret& key);
 
 /// The files of a new circle with the ids 1 to `count` (at most KeyFile::id_max), each for its host
 /// alone.

@@ -29,39 +29,41 @@ std::optional<StaticKeys> StaticKeys::from(Secret own, const PublicKey& other, S
 NoiseKk::NoiseKk(Role role, const StaticKeys& keys, Bytes prologue, Secret ephemeral)
     : role_{role}, keys_{keys}, ephemeral_{std::move(ephemeral)}
 {
-    std::ranges::copy(std::as_bytes(std::span{protocol_name}), hash_.begin());
-    chaining_key_ = SecretHash{hash_};
+    std::ranges::copy(std::as_bytes(std::span{protocol_name}), state_.hash.begin());
+    state_.chaining_key = SecretHash{state_.hash};
     mix_hash(prologue);
     const bool is_initiator = role == Role::initiator;
     mix_hash(is_initiator ? keys.own_public() : keys.other());
     mix_hash(is_initiator ? keys.other() : keys.own_public());
 }
 
-void NoiseKk::mix_hash(Bytes data) { hash_ = hash(hash_, data); }
+void NoiseKk::mix_hash(Bytes data) { state_.hash = hash(state_.hash, data); }
 
 void NoiseKk::mix_key(Bytes input)
 {
-    Expanded outputs = expand(chaining_key_, input);
-    chaining_key_ = std::move(outputs[0]);
-    key_ = key_from(outputs[1]);
-    number_ = 0;
+    Expanded outputs = expand(state_.chaining_key, input);
+    state_.chaining_key = std::move(outputs[0]);
+    state_.key = key_from(outputs[1]);
+    state_.number = 0;
 }
 
 void NoiseKk::mix_key_and_hash(Bytes input)
 {
-    Expanded outputs = expand(chaining_key_, input);
-    chaining_key_ = std::move(outputs[0]);
+    Expanded outputs = expand(state_.chaining_key, input);
+    state_.chaining_key = std::move(outputs[0]);
     mix_hash(outputs[1].bytes());
-    key_ = key_from(outputs[2]);
-    number_ = 0;
+    state_.key = key_from(outputs[2]);
+    state_.number = 0;
 }
 
 void NoiseKk::begin(std::size_t size, bool writes)
 {
     const bool is_own_turn = (message_ == 0) == (role_ == Role::initiator);
-    base::ensure(!is_under_way_ && !is_refused_ && message_ < messages.size());
+    base::ensure(!is_under_way_ && message_ < messages.size());
     base::ensure(is_own_turn == writes);
     is_under_way_ = true;
+    is_refused_ = false;
+    before_ = state_.copy();
     writes_ = writes;
     token_ = 0;
     size_ = size;
@@ -90,8 +92,14 @@ NoiseKk::Progress NoiseKk::step()
         if (multiplies(token) && std::exchange(has_multiplied, true)) return Progress::working;
         apply(token);
     }
-    if (is_refused_) return Progress::refused;
-    return finish();
+    return is_refused_ ? refuse() : finish();
+}
+
+NoiseKk::Progress NoiseKk::refuse()
+{
+    state_ = std::move(before_);
+    is_under_way_ = false;
+    return Progress::refused;
 }
 
 bool NoiseKk::multiplies(Token token) const
@@ -159,15 +167,15 @@ void NoiseKk::mix_shared(const Secret& own, const PublicKey& other)
 NoiseKk::Progress NoiseKk::finish()
 {
     const auto sealed = std::span{buffer_}.subspan(key_bytes, size_ - key_bytes);
-    const Hash before = hash_;
+    const Hash before = state_.hash;
     if (writes_) {
-        seal(key_, number_++, before, sealed);
+        seal(state_.key, state_.number++, before, sealed);
         mix_hash(sealed);
     } else {
         mix_hash(sealed);
-        is_refused_ = !open(key_, number_++, before, sealed);
+        is_refused_ = !open(state_.key, state_.number++, before, sealed);
     }
-    if (is_refused_) return Progress::refused;
+    if (is_refused_) return refuse();
     is_under_way_ = false;
     ++message_;
     return Progress::done;
@@ -182,10 +190,10 @@ Bytes NoiseKk::payload() const
 NoiseKk::TransportKeys NoiseKk::split()
 {
     base::ensure(message_ == messages.size());
-    const Expanded outputs = expand(chaining_key_, {});
+    const Expanded outputs = expand(state_.chaining_key, {});
     Secret first = key_from(outputs[0]), second = key_from(outputs[1]);
-    if (role_ == Role::initiator) return {std::move(first), std::move(second), hash_};
-    return {std::move(second), std::move(first), hash_};
+    if (role_ == Role::initiator) return {std::move(first), std::move(second), state_.hash};
+    return {std::move(second), std::move(first), state_.hash};
 }
 
 } // namespace hapnet::secure

@@ -23,6 +23,8 @@ public:
     [[nodiscard]] const PublicKey& own_public() const { return own_public_; }
     [[nodiscard]] const PublicKey& other() const { return other_; }
     [[nodiscard]] const Secret& pre_shared() const { return pre_shared_; }
+    /// False where the circle has no such key: it counts as zeros in handshakes.
+    [[nodiscard]] bool has_pre_shared() const { return !is_zero(pre_shared_.bytes()); }
     /// Diffie and Hellman's secret of the two static keys: computed once, not in every handshake.
     [[nodiscard]] const Secret& common() const { return common_; }
 
@@ -53,8 +55,9 @@ enum class Role : std::uint8_t { initiator, responder };
 /// Two messages. Both sides prove that they hold their private key and the pre-shared key; what is
 /// sealed with the keys that come out stays secret when those become known later. Begin a message
 /// with write() or read(), then step() until it is done: a step takes one multiplication on the
-/// curve at most (some 50 us), so that nothing else has to wait for a handshake. Reads no clock and
-/// draws nothing at random.
+/// curve at most (some 50 us), so that nothing else has to wait for a handshake. A message that is
+/// refused leaves the handshake as it was before read(), so the genuine message may still come.
+/// Reads no clock and draws nothing at random.
 class NoiseKk {
 public:
     static constexpr std::size_t payload_bytes_max = 32;
@@ -70,7 +73,7 @@ public:
     void read(Bytes message);
 
     enum class Progress : std::uint8_t { working, done, refused };
-    /// Goes on with the message; after `refused` the handshake is of no more use.
+    /// Goes on with the message. `refused`: the other side has not sent it for this handshake.
     [[nodiscard]] Progress step();
 
     /// The message, when write() is done.
@@ -95,6 +98,19 @@ private:
         Tokens{{Token::psk, Token::e, Token::es, Token::ss}, 4},
         Tokens{{Token::e, Token::ee, Token::se}, 3}};
 
+    /// Noise's SymmetricState (section 5.2).
+    struct Symmetric {
+        SecretHash chaining_key;
+        Hash hash{};
+        Secret key; // of the cipher
+        std::uint64_t number = 0;
+
+        [[nodiscard]] Symmetric copy() const
+        {
+            return {chaining_key.copy(), hash, key.copy(), number};
+        }
+    };
+
     void mix_hash(Bytes data);
     void mix_key(Bytes input);
     void mix_key_and_hash(Bytes input);
@@ -104,16 +120,15 @@ private:
     [[nodiscard]] bool multiplies(Token token) const;
     void apply(Token token);
     [[nodiscard]] Progress finish();
+    [[nodiscard]] Progress refuse();
 
     Role role_;
     const StaticKeys& keys_;
     Secret ephemeral_;
     PublicKey ephemeral_public_{};
     PublicKey other_ephemeral_{};
-    SecretHash chaining_key_;
-    Hash hash_{};
-    Secret key_; // of the cipher
-    std::uint64_t number_ = 0;
+    Symmetric state_;
+    Symmetric before_; // the message that is under way
 
     std::size_t message_ = 0; // 0, 1; 2: all done
     std::size_t token_ = 0;

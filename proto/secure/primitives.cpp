@@ -45,6 +45,20 @@ std::array<std::byte, crypto_aead_chacha20poly1305_ietf_NPUBBYTES> nonce_of(std:
     return nonce;
 }
 
+/// Whether it is below the curve's prime, in little-endian order.
+bool is_canonical(const PublicKey& key)
+{
+    constexpr PublicKey prime = [] {
+        PublicKey bytes{};
+        bytes.fill(std::byte{0xff});
+        bytes.front() = std::byte{0xed};
+        bytes.back() = std::byte{0x7f};
+        return bytes;
+    }();
+    return std::ranges::lexicographical_compare(key.rbegin(), key.rend(), prime.rbegin(),
+                                                prime.rend());
+}
+
 } // namespace
 
 // NOLINTNEXTLINE(*-member-init): the library does that
@@ -122,6 +136,7 @@ PublicKey public_key_of(const Secret& own)
 
 std::optional<Secret> diffie_hellman(const Secret& own, const PublicKey& other)
 {
+    if (!is_canonical(other)) return std::nullopt;
     Secret shared;
     if (crypto_scalarmult(raw_room(shared.bytes()), raw(own.bytes()), raw(other)) != 0)
         return std::nullopt;
@@ -170,6 +185,8 @@ bool are_equal(Bytes a, Bytes b)
 {
     return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
 }
+
+bool is_zero(Bytes bytes) { return sodium_is_zero(raw(bytes), bytes.size()) == 1; }
 
 std::string to_base64(Bytes bytes)
 {

@@ -97,7 +97,9 @@ using Expanded = std::array<SecretHash, 3>;
 
 /// The X25519 public key of a private one.
 [[nodiscard]] PublicKey public_key_of(const Secret& own);
-/// X25519 (RFC 7748); nullopt when the other's key is one of the few that make every result zero.
+/// X25519 (RFC 7748). nullopt when the other's key is not valid: one of the few that make every
+/// result zero, or a number that is not below 2^255 - 19. The curve would take such a number for
+/// another one, so that one key could be written in two ways.
 [[nodiscard]] std::optional<Secret> diffie_hellman(const Secret& own, const PublicKey& other);
 
 /// ChaCha20-Poly1305 (RFC 8439) with Noise's nonce: four zeros, then the number in little-endian
@@ -117,6 +119,9 @@ void seal(const Secret& key, const WideNonce& nonce, Bytes associated, std::span
 
 /// Whether they are equal, in a time that does not tell where they differ.
 [[nodiscard]] bool are_equal(Bytes a, Bytes b);
+
+/// Whether all bytes are zero, in a time that does not depend on them.
+[[nodiscard]] bool is_zero(Bytes bytes);
 
 /// Base 64 (RFC 4648, with padding), in a time that does not depend on the bytes.
 [[nodiscard]] std::string to_base64(Bytes bytes);

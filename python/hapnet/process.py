@@ -59,9 +59,28 @@ def option_words(options: Dict[str, Any]) -> List[str]:
     return words
 
 
+class Lifeline:
+    """A pipe whose one end only this process has. The programs of this project that hold the other
+    end stop when it hangs up: when this process has ended, whatever ended it, or at close()."""
+
+    def __init__(self) -> None:
+        self._reading, self._writing = os.pipe()
+
+    def given(self) -> Dict[str, Any]:
+        """Keyword arguments that hand the other end to subprocess.Popen."""
+        variables = dict(os.environ, HAPNET_LIFELINE=str(self._reading))
+        return {"pass_fds": (self._reading,), "env": variables}
+
+    def close(self) -> None:
+        """Lets go of it: whatever still runs at its other end stops."""
+        os.close(self._reading)
+        os.close(self._writing)
+
+
 def run(name: str, words: Sequence[str], timeout: Optional[float] = None) -> str:
     """Runs a program to its end and returns what it printed. Raises ProgramFailed when its exit
     code is not 0, or after `timeout` seconds."""
+    lifeline = Lifeline()
     try:
         done = subprocess.run(
             [find_program(name), *words],
@@ -70,9 +89,12 @@ def run(name: str, words: Sequence[str], timeout: Optional[float] = None) -> str
             stderr=subprocess.PIPE,
             timeout=timeout,
             check=False,
+            **lifeline.given(),
         )
     except subprocess.TimeoutExpired as late:
         raise ProgramFailed(f"{name} was not done after {timeout} s") from late
+    finally:
+        lifeline.close()
     if done.returncode != 0:
         said = done.stderr.decode(errors="replace").strip()
         raise ProgramFailed(f"{name} ended with {done.returncode}: {said}", done.returncode)
@@ -81,7 +103,7 @@ def run(name: str, words: Sequence[str], timeout: Optional[float] = None) -> str
 
 class Daemon:
     """A program that runs until it is told to stop, with a control socket. A context manager:
-    started on entering, stopped on leaving."""
+    started on entering, stopped on leaving. It stops, too, when this process is killed."""
 
     program = ""
 
@@ -91,6 +113,7 @@ class Daemon:
         self._process: Optional[subprocess.Popen[bytes]] = None
         self._control: Optional[ControlSocket] = None
         self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
+        self._lifeline: Optional[Lifeline] = None
         self._out: "queue.Queue[Optional[str]]" = queue.Queue(LINES_KEPT)
         self._err: List[str] = []
         self._threads: List[threading.Thread] = []
@@ -101,13 +124,16 @@ class Daemon:
 
     def start(self: Self) -> Self:
         """Starts it and waits until it is ready."""
+        program = find_program(self.program)
         self._folder = tempfile.TemporaryDirectory(prefix="hapnet-")
         socket_path = os.path.join(self._folder.name, "control.sock")
+        self._lifeline = Lifeline()
         self._process = subprocess.Popen(
-            [find_program(self.program), *self._words, "--control", socket_path],
+            [program, *self._words, "--control", socket_path],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
+            **self._lifeline.given(),
         )
         self._read(self._process.stdout, self._keep_out)
         self._read(self._process.stderr, self._keep_err)
@@ -241,6 +267,9 @@ class Daemon:
         if self._control is not None:
             self._control.close()
             self._control = None
+        if self._lifeline is not None:
+            self._lifeline.close()
+            self._lifeline = None
         if self._folder is not None:
             self._folder.cleanup()
             self._folder = None

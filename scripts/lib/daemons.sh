@@ -21,7 +21,7 @@ start_daemon() {
         ((other == id)) || others+=(--peer "$other=${places[$id-$other]}")
     done
     round_runs[id]=$run
-    "${bin:?}/hapnet-peer" --key "${out:?}/keys/peer-$id.key" --listen "$loopback.$id:7000" \
+    with_script "${bin:?}/hapnet-peer" --key "${out:?}/keys/peer-$id.key" --listen "$loopback.$id:7000" \
         "${others[@]}" --task "${task:?}" --duration "${round_seconds:?}s" --seed 1 \
         --record "$round_folder/peer-$id.$run.rec" --stats "$round_folder/peer-$id.json" \
         >"$round_folder/peer-$id.$run.out" 2>"$round_folder/peer-$id.$run.log" &

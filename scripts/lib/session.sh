@@ -12,11 +12,17 @@ children=()
 # scripts/lib/namespaces.sh makes; empty: on loopback.
 namespace=
 
-# within 1|2|emulator COMMAND...: becomes the command, where that peer or the emulator runs.
+# with_script COMMAND...: becomes the command, which gets SIGTERM when the script has ended,
+# whatever ended it.
+with_script() {
+    exec setpriv --pdeathsig TERM "$@"
+}
+
+# within 1|2|emulator COMMAND...: the same, where that peer or the emulator runs.
 within() {
     local namespace_words=()
     [[ -z $namespace ]] || namespace_words=(ip netns exec "$namespace-$1")
-    exec "${namespace_words[@]}" "${@:2}"
+    with_script "${namespace_words[@]}" "${@:2}"
 }
 
 # socket_of 1|2|a|b: where that peer, or the emulator on that side, listens.
@@ -144,7 +150,7 @@ start_links() {
             links+=(--link "$i-$j=127.0.0.1:0,127.0.0.1:0")
         done
     done
-    "${bin:?}/hapnet-emulator" "${links[@]}" "${@:3}" --stats "$folder/emulator.json" \
+    with_script "${bin:?}/hapnet-emulator" "${links[@]}" "${@:3}" --stats "$folder/emulator.json" \
         >"$folder/emulator.out" 2>"$folder/emulator.log" &
     emulator=$!
     children+=("$emulator")
@@ -169,10 +175,11 @@ play_circle() {
         own_words "$i" "$folder" "$seconds"
         local words=("$bin/hapnet-peer" "${own[@]}" "${others[@]}" "${@:4}")
         if ((i == 1)); then
-            timeout --kill-after 5 $((seconds + 30)) "${words[@]}" >"$folder/peer-$i.out" &
+            with_script timeout --kill-after 5 $((seconds + 30)) "${words[@]}" \
+                >"$folder/peer-$i.out" &
         else
-            timeout --kill-after 5 $((seconds + 30)) "${words[@]}" >"$folder/peer-$i.out" \
-                2>"$folder/peer-$i.log" &
+            with_script timeout --kill-after 5 $((seconds + 30)) "${words[@]}" \
+                >"$folder/peer-$i.out" 2>"$folder/peer-$i.log" &
         fi
         running+=("$!")
     done

@@ -70,7 +70,10 @@ TEST(EmulatorRecords, OnAFullDiskAreMissedOnceAndInTheSummaryAndTheRunGoesOn)
                               "/dev/full", "--duration", "1s", "--stats", "-"},
                              10s);
     EXPECT_EQ(outcome.exit, 3) << outcome.err;
-    EXPECT_NE(outcome.out.find("\"valid\""), std::string::npos); // its statistics all the same
+    // Its statistics all the same.
+    const auto statistics = nlohmann::json::parse(outcome.out.substr(outcome.out.find('\n')));
+    EXPECT_EQ(statistics["valid"], false);
+    EXPECT_EQ(statistics["invalid_because"][0], "files: a file of this run could not be written");
     for (const char* said : {"cannot be written any more", "NOT COMPLETE", "No space left"}) {
         const auto at = outcome.err.find(said);
         EXPECT_NE(at, std::string::npos) << said << "\n" << outcome.err;

@@ -95,6 +95,8 @@ TEST(EmulatorUsage, AnErrorOfAFileNamesTheOptionThatAskedForIt)
                        {std::string{option} + ": cannot write /no/such: No such file",
                         "choose a path in a folder that exists"});
     }
+    expect_refusal(run("hapnet-emulator", {"check", "/bin/sh"}), 2,
+                   {"/bin/sh", "this is no text: it has the byte 0x7f", "TOML"});
     // What is typed without an option is not said to have one.
     const auto checked = run("hapnet-emulator", {"check", "/no/such.toml"});
     expect_refusal(checked, 2, {"hapnet-emulator: cannot read /no/such.toml: No such file"});

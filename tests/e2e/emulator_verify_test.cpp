@@ -122,4 +122,30 @@ TEST(EmulatorReport, NamesTheFileThatItCannotUse)
     EXPECT_NE(other.err.find("--stats"), std::string::npos) << other.err;
 }
 
+TEST(EmulatorReport, NamesTheFileOfStatisticsWithAValueOfAnotherType)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.file("run.json"), page = folder.file("run.html");
+    const nlohmann::json whole{{"profile", ""},
+                               {"valid", true},
+                               {"duration_s", 1.0},
+                               {"up", {{"received", 4}}},
+                               {"down", {{"received", 0}}}};
+    for (const auto& [key, value] : std::vector<std::pair<const char*, nlohmann::json>>{
+             {"valid", "yes"},
+             {"up", 5},
+             {"down", {{"received", "none"}}},
+             {"duration_s", "long"},
+             {"changes", {{{"elapsed_s", "late"}}}}}) {
+        auto wrong = whole;
+        wrong[key] = value;
+        std::ofstream{path} << wrong;
+        const auto outcome = run("hapnet-emulator", {"report", path, "--out", page});
+        EXPECT_EQ(outcome.exit, 2) << key << outcome.err;
+        EXPECT_NE(outcome.err.find(path + ": a value has another type"), std::string::npos)
+            << key << "\n"
+            << outcome.err;
+    }
+}
+
 } // namespace hapnet::e2e

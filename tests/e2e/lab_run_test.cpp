@@ -284,6 +284,58 @@ TEST_F(LabRun, MergesTheShardsOfAPlanIntoTheSameBytesAlsoAfterOneWasKilled)
     expect_refused(lab({"run", "fig7", "--shard", "0/2", "--out", sweep}), {"needs a plan"});
 }
 
+TEST_F(LabRun, LeavesOutALineOfAShardInWhichADigitWasChanged)
+{
+    const auto lab = [](std::vector<std::string> words) { return run("hapnet-lab", words, 60s); };
+    const auto sweep = folder.file("sweep");
+    ASSERT_EQ(lab({"plan", file, "--seeds", "1", "--out", sweep}).exit, 0);
+    ASSERT_EQ(lab({"run", sweep, "--shard", "0/1"}).exit, 0);
+    ASSERT_EQ(lab({"merge", sweep}).exit, 0);
+    const auto digest = manifest("sweep")["digest"];
+    const auto shard = sweep + "/shards/0-of-1.jsonl";
+    auto sessions = text_of(shard);
+    const auto at =
+        sessions.find_first_of("12345678", sessions.find("\"mean\":", sessions.size() / 2));
+    ++sessions[at];
+    std::ofstream{shard} << sessions;
+    const auto merged = lab({"merge", sweep});
+    EXPECT_EQ(merged.exit, 1) << merged.out;
+    const std::vector<std::string> said{"lacks the right checksum (" + shard + ":",
+                                        "was not played",
+                                        "run the shards with damaged lines again"};
+    for (const std::string& word : said)
+        EXPECT_NE(merged.err.find(word), std::string::npos) << word << "\n" << merged.err;
+    const auto again = lab({"run", sweep, "--shard", "0/1"});
+    ASSERT_EQ(again.exit, 0) << again.err;
+    EXPECT_NE(again.out.find(" 1 sessions played"), std::string::npos) << again.out;
+    ASSERT_EQ(lab({"merge", sweep}).exit, 0);
+    EXPECT_EQ(manifest("sweep")["digest"], digest);
+}
+
+TEST_F(LabRun, IsNeitherReportedNorComparedOnceATableWasChanged)
+{
+    const auto lab = [](std::vector<std::string> words) { return run("hapnet-lab", words, 60s); };
+    ASSERT_EQ(run_into("one", {"--seeds", "1", "--set", "tasks=T1"}).exit, 0);
+    const auto one = folder.file("one");
+    ASSERT_EQ(lab({"report", one}).exit, 0);
+    ASSERT_EQ(lab({"compare", one, one}).exit, 0);
+    const auto before = result("one", "sessions.csv");
+    auto changed = before;
+    const auto at = changed.find_last_of("12345678");
+    ++changed[at];
+    std::ofstream{one + "/sessions.csv"} << changed;
+    for (const auto& words : {std::vector<std::string>{"report", one},
+                              {"report", folder.file("")},
+                              {"compare", one, one}})
+        expect_refused(lab(words), {"one/sessions.csv was changed", "B2SUMS"});
+    std::ofstream{one + "/sessions.csv"} << before;
+    EXPECT_EQ(lab({"report", one}).exit, 0);
+    std::filesystem::remove(one + "/limits.csv");
+    expect_refused(lab({"report", one}), {"limits.csv is missing"});
+    ASSERT_EQ(run_into("one", {"--seeds", "1", "--set", "tasks=T1"}).exit, 0);
+    EXPECT_EQ(lab({"report", one}).exit, 0);
+}
+
 TEST_F(LabRun, NamesBadInputAndWhatWouldBeRight)
 {
     const auto out = folder.file("none");

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -264,6 +265,38 @@ TEST(PeerExit, ByADeathOfTheServoEndsInZeroForceThatTheWatchdogGives)
     }
 }
 
+TEST(PeerExit, ByACallOfExitInTheServoEndsInZeroForceAndExitCode1)
+{
+    for (const auto pacing : {device::Pacing::host, device::Pacing::device}) {
+        Push push{{.trouble = Trouble::exit, .pacing = pacing}};
+        EXPECT_EQ(push.recorded.wait_end(), 1);
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+        EXPECT_TRUE(push.recorded.told().back().by_halt);
+        EXPECT_NE(push.messages().find("has called exit() in the middle of the run"),
+                  std::string::npos)
+            << push.messages();
+    }
+}
+
+TEST(PeerExit, ByAnAlgorithmThatCallsExitNamesItsFileAndIsNoSuccess)
+{
+    const TemporaryFolder folder;
+    const auto quick = folder.file("quick.toml");
+    std::ofstream{quick} << "algorithm = \"shared-object\"\nfile = \"" HAPNET_EXAMPLE_LEAVING
+                            "\"\nparameters = \"quick\"\n";
+    for (const std::string& algorithm : {std::string{HAPNET_EXAMPLE_LEAVING}, quick}) {
+        const std::string here = free_place();
+        const Peer other{2, free_place(), here, {"--task", "P1", "--duration", "60s"}};
+        Process leaving{"hapnet-peer",
+                        {"--id", "1", "--task", "P1", "--duration", "60s", "--listen", here,
+                         "--remote", other.listen(), "--algorithm", algorithm}};
+        EXPECT_EQ(leaving.wait_exit(30s), 1);
+        EXPECT_NE(leaving.err().find(HAPNET_EXAMPLE_LEAVING " has called exit()"),
+                  std::string::npos)
+            << leaving.err();
+    }
+}
+
 TEST(PeerExit, ByADeathOfTheWatchdogItselfEndsInZeroForceThatTheServoGives)
 {
     for (const auto pacing : {device::Pacing::host, device::Pacing::device}) {
@@ -278,7 +311,7 @@ TEST(PeerExit, ByADeathOfTheWatchdogItselfEndsInZeroForceThatTheServoGives)
 
 TEST(PeerExit, ByADeadlySignalFromElsewhereEndsInZeroForceAlthoughTheServoStillRuns)
 {
-    for (const int signal : {SIGQUIT, SIGXFSZ, SIGUSR1}) {
+    for (const int signal : {SIGQUIT, SIGXCPU, SIGUSR1}) {
         Push push{{}};
         push.recorded.signal(signal);
         EXPECT_EQ(push.recorded.wait_end(), 128 + signal);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
 #include <string>
@@ -248,6 +249,26 @@ TEST(Keygen, MakesFilesThatShowTheSameFingerprintAndNoSecret)
     }
 }
 
+TEST(Keygen, ShowsControlCharactersOfTextsInAFileInsteadOfPrintingThem)
+{
+    const Circle circle;
+    const std::string file = circle.of(1);
+    std::string text = text_of(file);
+    text.replace(text.find("lab"), 3, "l\\u001B]0;t\\u0007b");
+    text += "endpoint = \"h\\u009B31m\"\n";
+    std::ofstream{file} << text;
+    const auto shown = run("hapnet-peer", {"key", "show", file});
+    EXPECT_EQ(shown.exit, 0) << shown.err;
+    EXPECT_NE(shown.out.find("circle l\\u001B]0;t\\u0007b\n"), std::string::npos) << shown.out;
+    EXPECT_NE(shown.out.find("h\\u009B31m"), std::string::npos) << shown.out;
+    const auto played = run("hapnet-peer", {"--key", file});
+    EXPECT_EQ(played.exit, 2);
+    EXPECT_NE(played.err.find("h\\u009B31m"), std::string::npos) << played.err;
+    expect_refusal(run("hapnet-peer", {"keygen", "--own", "--id", "1", "--name", "a\x1b[2J",
+                                       "--out", file + ".new"}),
+                   2, {"--name", "control characters"});
+}
+
 TEST(Keygen, NeverReplacesAKey)
 {
     const Circle circle;
@@ -278,12 +299,51 @@ TEST(Keygen, LetsTwoHostsPairByTellingEachOtherTheirPublicKeys)
         const auto added = run("hapnet-peer", words);
         EXPECT_EQ(added.exit, 0) << added.err;
     }
+    const std::string alone = run("hapnet-peer", {"key", "show", files[0]}).out;
+    EXPECT_NE(alone.find("no shared key"), std::string::npos) << alone;
     const std::string place_a = free_place(), place_b = free_place();
     Peer a{1, place_a, place_b, {"--key", files[0], "--duration", "3s"}};
     Peer b{2, place_b, place_a, {"--key", files[1], "--duration", "3s"}};
     a.expect_end();
     b.expect_end();
     expect_only_sealed(a.statistics());
+}
+
+TEST(Keygen, MakesASharedKeyWhenAPeerIsAddedThatTheOtherHostTakes)
+{
+    const TemporaryFolder folder;
+    const std::vector<std::string> files{folder.file("1.key"), folder.file("2.key")};
+    const std::string shared = folder.file("shared.key");
+    std::vector<std::string> publics;
+    for (const std::string& file : files) {
+        const std::string id = file == files[0] ? "1" : "2";
+        const auto made = run("hapnet-peer", {"keygen", "--own", "--id", id, "--out", file});
+        publics.push_back(made.out.substr(made.out.find("--public ") + 9, 44));
+    }
+    const auto add = [&](std::size_t host, const std::string& option) {
+        return run("hapnet-peer", {"key", "add", files[host], "--id", std::to_string(2 - host),
+                                   "--public", publics[1 - host], option, shared});
+    };
+    expect_refusal(add(1, "--shared"), 2, {shared}); // it is not there yet
+    const auto first = add(0, "--make-shared");
+    EXPECT_EQ(first.exit, 0) << first.err;
+    struct stat status {};
+    ASSERT_EQ(::stat(shared.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0600U);
+    const auto second = add(1, "--shared");
+    EXPECT_EQ(second.exit, 0) << second.err;
+    const auto fingerprint = [](const std::string& text) {
+        return text.substr(text.find("fingerprint"));
+    };
+    EXPECT_EQ(fingerprint(first.out), fingerprint(second.out));
+    for (const std::string& file : files) {
+        EXPECT_EQ(secret_in(file, "psk"), secret_in(shared, "psk"));
+        const std::string shown = run("hapnet-peer", {"key", "show", file}).out;
+        EXPECT_EQ(shown.find("no shared key"), std::string::npos) << shown;
+        EXPECT_EQ(shown.find(secret_in(shared, "psk")), std::string::npos);
+    }
+    EXPECT_EQ((first.out + second.out).find(secret_in(shared, "psk")), std::string::npos);
+    expect_refusal(add(0, "--make-shared"), 2, {"--make-shared", "already"});
 }
 
 TEST(Keygen, SaysWhatItNeeds)
@@ -295,6 +355,11 @@ TEST(Keygen, SaysWhatItNeeds)
     expect_refusal(run("hapnet-peer", {"key", "add", "x", "--id", "2"}), 2, {"--public"});
     expect_refusal(run("hapnet-peer", {"key", "add", "x", "--id", "2", "--public", "short"}), 2,
                    {"--public", "44 characters"});
+    const Circle circle;
+    const std::string all_ones = std::string(42, '/') + "8="; // not below 2^255 - 19
+    expect_refusal(
+        run("hapnet-peer", {"key", "add", circle.of(1), "--id", "2", "--public", all_ones}), 2,
+        {"--public", "not valid"});
     expect_refusal(run("hapnet-peer", {"key", "show", "/no/such.key"}), 2, {"/no/such.key"});
 }
 

@@ -6,9 +6,11 @@
 #include "tests/e2e/udp.hpp"
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -132,6 +134,45 @@ TEST(PeerUsage, PrintsAnAlgorithmThatItTakesFromAFileAgain)
     expect_refusal(run_peer_with({"--algorithm", file}), 2,
                    {"--algorithm", file + ":2:1: ", "did you mean 'fade_after'?"});
     std::filesystem::remove(file);
+}
+
+/// The code of a shared object runs as soon as it is loaded.
+TEST(PeerUsage, RunsNoCodeOfAnAlgorithmWhereItOnlyPrintsOrRefuses)
+{
+    const TemporaryFolder folder;
+    const auto loaded = folder.file("loaded");
+    setenv("HAPNET_LOADED", loaded.c_str(), 1);
+    const std::string own = HAPNET_EXAMPLE_LEAVING;
+    const auto file = folder.file("own.toml");
+    std::ofstream{file} << "algorithm = \"shared-object\"\nfile = \"" << own << "\"\n";
+    for (const std::string& algorithm : {own, file}) {
+        const auto printed = run("hapnet-peer", {"--print-algorithm", algorithm});
+        EXPECT_EQ(printed.exit, 0) << printed.err;
+        EXPECT_NE(printed.out.find(own), std::string::npos) << printed.out;
+        for (const std::vector<std::string>& more : std::initializer_list<std::vector<std::string>>{
+                 {"--print-algorithm", "base"}, {"--help"}, {"--version"}}) {
+            std::vector<std::string> words{"--algorithm", algorithm};
+            words.insert(words.end(), more.begin(), more.end());
+            EXPECT_EQ(run("hapnet-peer", words).exit, 0);
+        }
+        expect_refusal(run_peer_with({"--algorithm", algorithm, "--task", "T99"}), 2, {"--task"});
+        expect_refusal(run_peer_with({"--algorithm", algorithm, "--record", ""}), 2, {"--record"});
+    }
+    const auto experiment = folder.file("own-experiment.toml");
+    std::ofstream{experiment} << "kind = \"table1\"\ntitle = \"own\"\nduration = \"6s\"\n"
+                                 "seeds = 1\nalgorithms = [\"leaving\"]\ntasks = [\"T1\"]\n"
+                                 "[both]\ndelay = \"40ms\"\n[algorithm.leaving]\n"
+                                 "algorithm = \"shared-object\"\nfile = \""
+                              << own << "\"\n";
+    const auto planned = run("hapnet-lab", {"plan", experiment, "--out", folder.file("plan")});
+    EXPECT_EQ(planned.exit, 0) << planned.err;
+    EXPECT_EQ(text_of(loaded), "") << "a command ran code of the shared object";
+    // The file tells of it where it is loaded; and that it ends the program is no success.
+    const auto played = run("hapnet-lab", {"run", folder.file("plan")}, 60s);
+    EXPECT_EQ(played.exit, 1);
+    EXPECT_NE(played.err.find(own + " has called exit()"), std::string::npos) << played.err;
+    EXPECT_EQ(text_of(loaded), "loaded\n");
+    unsetenv("HAPNET_LOADED");
 }
 
 TEST(PeerUsage, PlaysOverARealNetworkOnlyWhenToldThatItIsInsecure)

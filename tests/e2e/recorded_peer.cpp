@@ -21,6 +21,7 @@
 #include <stdexcept>
 #include <string>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
@@ -167,6 +168,7 @@ private:
             tell({.is_trouble = true});
             throw std::runtime_error{"the servo met what it cannot handle"};
         case Trouble::abort: tell({.is_trouble = true}); std::abort();
+        case Trouble::exit: tell({.is_trouble = true}); std::exit(0);
         case Trouble::wild_write: {
             tell({.is_trouble = true});
             void* const page = mmap(nullptr, 4096, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -248,6 +250,7 @@ RecordedPeer::RecordedPeer(const RecordedPlay& asked)
     std::fflush(stdout); // or the child would print it, too
     pid_ = fork();
     if (pid_ == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); // should the test program be killed
         if (asked.terminal >= 0) {
             take_over(asked.terminal);
         } else if (asked.blocked) {

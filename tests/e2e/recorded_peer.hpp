@@ -23,6 +23,7 @@ enum class Trouble : std::uint8_t {
     device_lost, // the device says that it has been unplugged
     nonsense,    // ... that it is at a place that is no number
     docked,      // ... that its stylus lies in its holder
+    exit,        // in the servo: code that it calls ends the program with exit code 0
     mute,        // the device, which sets the rhythm, calls nobody any more
 };
 

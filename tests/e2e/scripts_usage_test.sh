@@ -26,7 +26,7 @@ refuses package --out ''
 refuses bench web --json
 refuses demo --out
 refuses experiment fig7 --out
-says "name a subject*usage: scripts/soak.sh all|*" soak
+says "name a subject*usage: scripts/soak.sh SUBJECT*" soak
 says "name a subject*" soak --quick
 says "one subject, not 'scene' and 'all'*" soak scene all
 says "SECONDS is a whole number*" fuzz --all

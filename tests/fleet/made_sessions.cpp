@@ -6,6 +6,7 @@
 #include "lab/experiment/parts.hpp"
 #include "lab/experiment/text.hpp"
 #include "lab/metrics/json.hpp"
+#include "lab/runner/checksums.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace hapnet::lab {
 namespace {
@@ -45,10 +47,13 @@ int write_all(const std::filesystem::path& folder)
     const auto plan = nlohmann::json::parse(text_of(folder / "plan.json"));
     const auto files = plan.at("files").get<std::map<std::string, std::string>>();
     const auto program = plan.at("program").get<std::string>();
+    const auto name = plan.at("experiment").get<std::string>();
+    experiment::Overrides overrides;
+    overrides.quick = plan.at("quick").get<bool>();
+    overrides.settings = plan.at("settings").get<std::vector<std::string>>();
     const auto whole = experiment::load_experiment(
-        plan.at("experiment"),
-        [&](const std::string& name) -> base::Result<std::string> { return files.at(name); },
-        {plan.at("quick"), plan.at("settings")});
+        name, [&](const std::string& file) -> base::Result<std::string> { return files.at(file); },
+        overrides);
     if (!whole) return std::fprintf(stderr, "%s\n", whole.error().message.c_str()), 2;
 
     std::filesystem::create_directories(folder / "shards");
@@ -58,10 +63,9 @@ int write_all(const std::filesystem::path& folder)
     std::set<std::string> twins;
     std::size_t number = 0;
     const auto write = [&](const experiment::SessionSpec& spec, const std::string& key) {
-        out << nlohmann::ordered_json{{"key", key},
-                                      {"metrics", to_json(made_metrics(spec, ++number))}}
-                   .dump()
-            << '\n';
+        const nlohmann::ordered_json line{{"key", key},
+                                          {"metrics", to_json(made_metrics(spec, ++number))}};
+        out << runner::with_sum(line.dump()) << '\n';
     };
     for (const experiment::Experiment& part : parts_of(*whole)) {
         for (const experiment::Job& job : make_jobs(part)) {

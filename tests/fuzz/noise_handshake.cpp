@@ -72,12 +72,15 @@ void expect_read(NoiseKk& side, secure::Bytes message, secure::Bytes payload)
     base::ensure(std::ranges::equal(side.payload(), payload));
 }
 
-/// Reads what an attacker made of a genuine message: only the genuine one is accepted.
+/// Reads what an attacker made of a genuine message: only the genuine one is accepted, before and
+/// after others.
 void expect_refused(NoiseKk side, secure::Bytes made_up, secure::Bytes genuine)
 {
     if (std::ranges::equal(made_up, genuine)) return;
     side.read(made_up);
     base::ensure(finish(side) == NoiseKk::Progress::refused);
+    side.read(genuine);
+    base::ensure(finish(side) == NoiseKk::Progress::done);
 }
 
 } // namespace

@@ -17,6 +17,9 @@ known = {"build", "ulimits", "networks", "volumes", "command"}
 document = yaml.safe_load(pathlib.Path(sys.argv[1]).read_text())
 assert document.keys() == {"services", "networks", "volumes"}, f"unknown: {document.keys()}"
 assert len(document["services"]) == 3, f"services: {list(document['services'])}"
+used = [volume.split(":")[0] for service in document["services"].values()
+        for volume in service.get("volumes", [])]
+assert len(used) == len(set(used)), f"services share a volume, and so their keys: {used}"
 for name, service in document["services"].items():
     assert service.keys() <= known, f"{name}: unknown: {service.keys() - known}"
     dockerfile = pathlib.Path(service["build"]["dockerfile"])

@@ -79,7 +79,17 @@ with_command() {
     service "$1" "${words[@]}" "${@:2}" >"$work/$1.log" 2>&1
 }
 
-service left keygen --peers 2 --out /keys >"$work/keygen.log" || fail "no keys"
+# As the file says: each makes its key in its own volume, and learns the other's public key.
+declare -A told=() ids=([left]=1 [right]=2)
+for peer in left right; do
+    service "$peer" keygen --own --id "${ids[$peer]}" --out /keys/own.key >"$work/keygen.log" ||
+        fail "no key of $peer"
+    told[$peer]=$(grep -o -e '--id.*' "$work/keygen.log")
+done
+# shellcheck disable=SC2086 # words
+{ service left key add /keys/own.key ${told[right]} &&
+    service right key add /keys/own.key ${told[left]}; } >"$work/keys.log" ||
+    fail "keys: $(cat "$work/keys.log")"
 with_command emulator --control /out/emulator.sock --stats /out/emulator.json &
 emulator=$!
 for _ in {1..300}; do

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "web/core/feed.hpp"
 
+#include "proto/base/clock_pair.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -119,13 +120,23 @@ const PeerFrame::Heard* Feed::heard_by(std::size_t place, std::uint16_t from) co
     return found == heard.end() ? nullptr : &*found;
 }
 
+bool Feed::share_clock(std::size_t a, std::size_t b) const
+{
+    if (peers_[a].boot_id.empty() || peers_[a].boot_id != peers_[b].boot_id) return false;
+    const auto* heard = heard_by(a, peers_[b].id);
+    if (heard == nullptr || std::isnan(heard->offset_ms)) return true;
+    const double uncertainty_ms = std::isnan(heard->uncertainty_ms) ? 0.0 : heard->uncertainty_ms;
+    return !base::are_two_clocks(base::from_seconds(heard->offset_ms * 1e-3),
+                                 base::from_seconds(uncertainty_ms * 1e-3));
+}
+
 Feed::Pair Feed::pair_of(std::size_t a, std::size_t b) const
 {
     Pair pair{.a = a, .b = b, .apart = {}};
     if (!newest_[a].frame || !newest_[b].frame) return pair;
     pair.force_apart_n = std::abs(newest_[a].frame->force_n - newest_[b].frame->force_n);
     double ahead_ms = 0.0;
-    if (peers_[a].boot_id.empty() || peers_[a].boot_id != peers_[b].boot_id) {
+    if (!share_clock(a, b)) {
         const auto* heard = heard_by(a, peers_[b].id);
         if (heard == nullptr || std::isnan(heard->offset_ms)) return pair;
         ahead_ms = heard->offset_ms;

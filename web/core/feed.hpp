@@ -32,6 +32,9 @@ public:
     /// The peers, in the order of their ids. Other ones than before: all begins anew.
     void set_peers(std::vector<Source> peers);
     [[nodiscard]] const std::vector<Source>& peers() const { return peers_; }
+    /// Whether two of them are on one clock: they name the same boot, and the offset that the first
+    /// has found does not rule it out.
+    [[nodiscard]] bool share_clock(std::size_t a, std::size_t b) const;
 
     /// `place` is that in peers().
     void take_peer(std::size_t place, PeerFrame frame);

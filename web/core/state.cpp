@@ -45,8 +45,7 @@ Json place_of(const Json& scene, Json& scenes)
     return scenes.size() - 1;
 }
 
-Json peer_json(const PeerState& peer, std::size_t place, const std::string& first_boot_id,
-               Json& scenes)
+Json peer_json(const PeerState& peer, std::size_t place, Json& scenes)
 {
     Json json{{"id", peer.id()},
               {"letter", std::string(1, static_cast<char>('A' + static_cast<int>(place % 26)))},
@@ -58,8 +57,7 @@ Json peer_json(const PeerState& peer, std::size_t place, const std::string& firs
           "elapsed_s", "tick_rate_hz", "governor", "fault", "boot_id"}) {
         json[key] = member(peer.shown, key);
     }
-    const bool is_same = !peer.boot_id().empty() && peer.boot_id() == first_boot_id;
-    json["clock"] = is_same ? "same" : "offset";
+    json["clock"] = peer.shares_clock ? "same" : "offset";
     json["error"] = text_or_null(peer.error);
     return json;
 }
@@ -85,7 +83,7 @@ nlohmann::ordered_json state_json(double at_s, const EmulatorState& emulator,
     Json scenes = Json::array();
     Json all = Json::array();
     for (std::size_t i = 0; i < peers.size(); ++i) {
-        all.push_back(peer_json(peers[i], i, peers.front().boot_id(), scenes));
+        all.push_back(peer_json(peers[i], i, scenes));
     }
     Json json{{"mode", "live"},
               {"at_s", at_s},

@@ -28,6 +28,7 @@ struct PeerState {
     nlohmann::ordered_json shown = nullptr; // its last reply to show
     nlohmann::ordered_json scene = nullptr; // its reply to scene
     std::string error{};
+    bool shares_clock = false; // with the first of the peers
 
     /// 0: not known yet.
     [[nodiscard]] std::uint16_t id() const;

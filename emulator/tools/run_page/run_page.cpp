@@ -178,14 +178,14 @@ std::string figures_of(const RunRecord& run)
         std::span<const Fate> fates;
         if (run.fates) fates = is_up ? run.fates->up : run.fates->down;
         const double received = of.value("received", 0.0);
-        const RunDirection one{
-            .direction = direction,
-            .statistics = of,
-            .conditions = has_changed ? nullptr
-                          : is_up     ? &path.up
-                                      : &path.down,
-            .fates = fates,
-            .spacing_s = received > 0.0 ? statistics.value("duration_s", 0.0) / received : 0.0};
+        const double length_s = statistics.value("duration_s", 0.0);
+        const RunDirection one{.direction = direction,
+                               .statistics = of,
+                               .conditions = has_changed ? nullptr
+                                             : is_up     ? &path.up
+                                                         : &path.down,
+                               .fates = fates,
+                               .spacing_s = received > 0.0 ? length_s / received : 0.0};
         panels += delay_figure(one) + lateness_figure(one, statistics.value("budget_us", 1000.0)) +
                   loss_runs_figure(one);
         strips += loss_figure(one);

@@ -7,8 +7,8 @@
  * The object exports hapnet_describe(), which describes the algorithm. Of each of its functions
  * the first argument is the algorithm's memory: `state_bytes` zeroed bytes, aligned for any type,
  * which the program allocates, copies as bytes, and frees. So the memory holds no pointer into
- * itself or to memory of the algorithm's own. The functions do no I/O, read no clock, take no
- * memory and keep no globals: the program calls them from its haptic loop, in virtual time from
+ * itself or to memory of the algorithm's own. The functions return, do no I/O, read no clock, take
+ * no memory and keep no globals: the program calls them from its haptic loop, in virtual time from
  * several threads, each with a memory of its own, and plays a record again by them.
  *
  * Units: metres, m/s, newtons, nanoseconds (of the program's own clock, whose zero means nothing).

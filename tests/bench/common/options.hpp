@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/disk/result_file.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 
 #include <algorithm>
 #include <map>
@@ -66,7 +66,7 @@ public:
     }
 
 private:
-    std::map<std::string, net::ResultFile> files_;
+    std::map<std::string, disk::ResultFile> files_;
 };
 
 /// The program of a bench: the exit code of `measure`, which takes Options.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "proto/base/text.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/net/result_file.hpp"
 #include "proto/plot/plot.hpp"
 #include "tests/bench/common/host.hpp"
 #include "tests/bench/common/rows.hpp"
@@ -159,8 +159,8 @@ Row duration_row(const Options& options, base::Duration took)
 base::Result<int> run(const Options& options)
 {
     if (options.baseline) run_baseline(*options.baseline);
-    std::optional<net::ResultFile> json;
-    std::optional<net::ResultFile> plot;
+    std::optional<disk::ResultFile> json;
+    std::optional<disk::ResultFile> plot;
     if (options.json) json.emplace(*options.json, "--json");
     if (options.plot) plot.emplace(*options.plot, "--plot");
     pin_prober();

@@ -4,7 +4,8 @@
 #
 # The emulator as a bridge between two interfaces, with a host in a network of its own behind each:
 # frames of every kind pass byte for byte, both families and a VLAN with their delays, it tells the
-# sender of what is too big, a loop ends it, and it says what it lacks.
+# sender of what is too big, a loop or a lost interface ends it, and it says what it lacks. Relays
+# say that they have lost their address.
 # Usage: bridge_test.sh FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
 
@@ -160,6 +161,70 @@ code=0
 wait "$bridge" || code=$?
 ((code == 1)) || fail "a loop ended the bridge with $code"
 grep -q 'a loop: ' "$folder/looped" || fail "the loop is not told"
+
+# Without an interface nothing passes: the run ends, says why, and is not valid.
+# ends_without WIRE REASON COMMAND...: a bridge of two new interfaces; the command takes one away.
+ends_without() {
+    local wire=$1 reason=$2 side
+    shift 2
+    for side in 7 8; do
+        ip link add "wire$side" type veth peer name "end$side"
+        ip link set "wire$side" up
+        ip link set "end$side" up
+    done
+    "$emulator" bridge wire7 wire8 --stats "$folder/lost.json" >"$folder/lost" 2>&1 &
+    bridge=$!
+    await ready "$folder/lost"
+    "$@"
+    code=0
+    wait "$bridge" || code=$?
+    ((code == 1)) || fail "$*: the bridge ended with $code, not 1"
+    grep -q "NOT VALID: the interface $wire $reason" "$folder/lost" || fail "$*: no word of it"
+    jq -e --arg start "the interface $wire $reason" '.valid == false and
+        (.invalid_because[0] | startswith($start))' "$folder/lost.json" >"$folder/said" ||
+        fail "$*: the statistics do not tell"
+    for side in 7 8; do ip link delete "wire$side" 2>"$folder/said" || true; done
+}
+ends_without wire7 'has gone' ip link delete wire7
+ends_without wire8 'has gone' ip link delete end8
+ends_without wire7 'is down' ip link set wire7 down
+ends_without wire8 'is down' ip link set wire8 down
+code=0
+"$emulator" between -- sh -c 'ip link delete eth0; exec sleep 1000' --- sleep 1000 \
+    >"$folder/lost" 2>&1 || code=$?
+((code == 1)) || fail "without a wire between ended with $code, not 1"
+grep -q 'NOT VALID: the interface wire-a has gone' "$folder/lost" || fail 'between says nothing'
+
+# A relay goes on without its address, which may come back, but the run is not valid.
+# loses_address WHERE OPTION...: what listens there loses $address for a while.
+loses_address() {
+    local where=$1 relay
+    rm -f "$folder/relay"
+    "$emulator" "${@:2}" --stats "$folder/relay.json" >"$folder/relay" 2>&1 &
+    relay=$!
+    await ready "$folder/relay"
+    ip address delete "$address" dev lo
+    await "this machine has lost the address of $where" "$folder/relay"
+    ip address add "$address" dev lo "${flags[@]}"
+    await "the address of $where is back" "$folder/relay"
+    kill "$relay"
+    code=0
+    wait "$relay" || code=$?
+    ((code == 1)) || fail "$where: the relay ended with $code, not 1"
+    jq -e '.valid == false and (.invalid_because[0] | startswith("this machine has lost"))' \
+        "$folder/relay.json" >"$folder/said" || fail "$where: the statistics do not tell"
+}
+ip link set lo up
+address=10.7.0.1/32
+flags=()
+ip address add "$address" dev lo
+loses_address 10.7.0.1:7801 --listen-a 10.7.0.1:7801 --a 10.7.0.1 --listen-b 127.0.0.1:0
+loses_address 10.7.0.1:7802 --listen 10.7.0.1:7802 --allow 10.7.0.0/16 --upstream 127.0.0.1:9
+loses_address 10.7.0.1:7803 --link 1-2=127.0.0.1:0,10.7.0.1:7803,127.0.0.1,10.7.0.1
+address=fd07::1/128
+flags=(nodad)
+ip address add "$address" dev lo nodad
+loses_address '\[fd07::1\]:7804' --listen-a '[fd07::1]:7804' --a '[fd07::1]' --listen-b 127.0.0.1:0
 
 code=0
 "$emulator" bridge wire1 nosuch >"$folder/refused" 2>&1 || code=$?

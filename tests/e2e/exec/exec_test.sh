@@ -130,8 +130,11 @@ for _ in {1..400}; do
     grep -q on "$folder/out" && break
     sleep 0.05
 done
+# The inits, and what they have started.
 readarray -t children < <(ps -o pid= --ppid "$run")
-((${#children[@]} >= 2)) || fail "fewer than two processes: the command and its way out"
+readarray -t started < <(ps -o pid= --ppid "$(tr -d ' ' < <(IFS=, && echo "${children[*]}"))")
+((${#started[@]} >= 2)) || fail "fewer than two processes: the command and its way out"
+children+=("${started[@]}")
 kill -KILL "$run"
 for _ in {1..200}; do
     left=$(ps -o stat= -p "$(tr -d ' ' < <(IFS=, && echo "${children[*]}"))" | grep -vc Z || true)

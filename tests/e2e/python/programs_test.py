@@ -6,9 +6,11 @@ import csv
 import io
 import os
 import socket
+import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 from hapnet import Emulator, Lab, Peer, ProgramFailed, Refused, read_record
@@ -128,6 +130,43 @@ class TwoPeers(unittest.TestCase):
             moved += abs(tick["hip_x"]) > 0
         self.assertGreater(moved, 100)
         self.assertEqual(len(record.messages.column("bytes")[0]), 117)  # a hello comes first
+
+
+class AScript(unittest.TestCase):
+    """Programs that a script has started from a thread of its own, which has ended."""
+
+    text = """
+import sys, threading
+from hapnet import Emulator
+network = Emulator(delay="1ms")
+starter = threading.Thread(target=network.start)
+starter.start()
+starter.join()
+assert network.is_running()
+print(network._process.pid, flush=True)
+sys.stdin.read()
+"""
+
+    def test_leaves_no_program_behind_when_it_is_killed(self):
+        script = subprocess.Popen(
+            [sys.executable, "-c", self.text], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+        )
+        emulator = int(script.stdout.readline())
+        time.sleep(0.5)
+        self.assertTrue(self.is_alive(emulator))
+        script.kill()
+        script.communicate()
+        deadline = time.monotonic() + 20.0
+        while self.is_alive(emulator):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+
+    def is_alive(self, pid):
+        try:
+            with open(f"/proc/{pid}/stat", encoding="ascii") as file:
+                return file.read().rsplit(") ", 1)[1][0] != "Z"
+        except FileNotFoundError:
+            return False
 
 
 class ALab(unittest.TestCase):

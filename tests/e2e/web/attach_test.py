@@ -13,7 +13,7 @@ import tempfile
 import time
 import unittest
 
-from served import BIN, PROGRAM, Live, Server
+from served import BIN, PROGRAM, Live, Server, children_of, is_alive
 
 
 def program(name):
@@ -184,6 +184,18 @@ class Attach(unittest.TestCase):
         self.assertEqual([(pair["a"], pair["b"]) for pair in frame["pairs"]],
                          [(1, 2), (1, 3), (2, 3)])
         live.close()
+
+    def test_what_it_has_started_ends_when_it_is_killed(self):
+        server = self.serve("--stage", "--out", self.folder)
+        server.wait_for(lambda now: len(now["peers"]) == 2
+                        and all(peer["state"] == "running" for peer in now["peers"]))
+        started = children_of(server.process.pid)
+        self.assertEqual(len(started), 3)
+        server.stop(signal.SIGKILL)
+        deadline = time.monotonic() + 20
+        while any(is_alive(process) for process in started):
+            self.assertLess(time.monotonic(), deadline, "a program outlives hapnet-web")
+            time.sleep(0.05)
 
     def test_virtual_time_of_a_lab_is_sought_and_gives_equal_numbers(self):
         control = f"{self.folder}/lab.sock"

@@ -25,6 +25,15 @@ def children_of(pid):
     return found
 
 
+def is_alive(pid):
+    """Whether it runs; a zombie does not."""
+    try:
+        with open(f"/proc/{pid}/stat", encoding="ascii", errors="replace") as file:
+            return file.read().rsplit(") ", 1)[1][0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
 class Live:
     """A WebSocket at /live, by hand."""
 

@@ -174,6 +174,25 @@ class Web(unittest.TestCase):
         for client in held + [slow]:
             client.close()
 
+    def test_live_sockets_without_the_token_count_as_connections(self):
+        def descriptors():
+            return len(os.listdir(f"/proc/{self.server.process.pid}/fd"))
+
+        before = descriptors()
+        held = []
+        try:
+            for i in range(200):
+                held.append(Live(self.port, None if i % 2 else "0" * len(self.token)))
+                if i % 20 == 19:
+                    self.assertEqual(self.ask("GET", "/api/state")[0], 200)
+            self.assertLessEqual(descriptors() - before, 40, "32 connections, and a few under way")
+            live = Live(self.port, self.token)  # among them a page with the token gets in
+            self.assertEqual((live.status, live.read()["type"]), (101, "hello"))
+            live.close()
+        finally:
+            for one in held:
+                one.close()
+
     def test_the_page_is_small_when_it_is_packed(self):
         index = self.ask("GET", "/")[1]
         known = set(re.findall(r'/a/[0-9a-f]+/[\w./-]+', index.decode()))

@@ -5,7 +5,9 @@
 #include "emulator/core/fates/fates.hpp"
 #include "proto/base/version.hpp"
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -229,9 +231,17 @@ TEST_F(RecorderFiles, ThatCannotBeWrittenAreRefusedAtOnce)
 TEST_F(RecorderFiles, OnAFullDiskAreReportedAtTheEnd)
 {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-    Recorder recorder{{{}, "/dev/full"}};
+    Recorder recorder{{"/dev/full", "/dev/full"}};
+    const std::vector<std::byte> payload(40);
+    for (std::uint64_t number = 0; number < 100; ++number) {
+        recorder.lane().on_fate(0, Direction::up, number, fate_of(number));
+        recorder.lane().on_arrival({CaptureSide::a, false, base::TimePoint{1s}, {}, {}, payload},
+                                   fate_of(number));
+    }
     EXPECT_THROW(recorder.finish(), std::system_error);
     EXPECT_TRUE(recorder.has_failed());
+    EXPECT_EQ(recorder.fates_lost(), 100U);
+    EXPECT_EQ(recorder.capture_lost(), 100U);
 }
 
 TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
@@ -242,6 +252,7 @@ TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
     rlimit small = before;
     small.rlim_cur = 300'000;
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    std::uint64_t lost = 0;
     {
         Recorder recorder{{path("fates.csv"), {}}};
         for (std::uint64_t number = 0; number < 20'000; ++number) { // 600 KB, in several writes
@@ -249,6 +260,7 @@ TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
         }
         EXPECT_THROW(recorder.finish(), std::system_error);
         EXPECT_TRUE(recorder.has_failed());
+        lost = recorder.fates_lost();
     }
     EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     const auto kept = text("fates.csv");
@@ -256,6 +268,43 @@ TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
     EXPECT_LE(kept.size(), 300'000U);
     EXPECT_EQ(kept.back(), '\n'); // whole rows
     EXPECT_EQ(names(), std::vector<std::string>{"fates.csv"});
+    const auto rows = static_cast<std::uint64_t>(std::ranges::count(kept, '\n')) - 1;
+    EXPECT_EQ(rows + lost, 20'000U) << "each fate is in the file or counted";
+}
+
+TEST_F(RecorderFiles, OfWhichOneCannotBeWrittenTellWhatItLacksAndTheOtherIsWhole)
+{
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+    const std::vector<std::byte> payload(40);
+    const CapturedPacket came{CaptureSide::a, false, base::TimePoint{1s}, {}, {}, payload};
+    Recorder recorder{{"/dev/full", path("capture.pcapng")}};
+    for (std::uint64_t number = 0; number < 10'000; ++number) {
+        recorder.lane().on_fate(0, Direction::down, number, fate_of(number));
+        recorder.lane().on_arrival(came, fate_of(number));
+    }
+    const auto not_taken = recorder.capture_lost();
+    EXPECT_THROW(recorder.finish(), std::system_error);
+    EXPECT_EQ(recorder.fates_lost(), 10'000U);
+    EXPECT_EQ(blocks_of(text("capture.pcapng")).packets + not_taken, 10'000U);
+    EXPECT_EQ(recorder.capture_lost(), not_taken);
+}
+
+TEST_F(RecorderFiles, OfAFullDiskStillHoldTheLastSeconds)
+{
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+    Recorder recorder{{.capture = "/dev/full", .kept = 10s, .keep_in = path("")}};
+    const std::vector<std::byte> payload(40);
+    const auto come = [&](std::chrono::seconds at) {
+        recorder.lane().on_arrival({CaptureSide::a, false, base::TimePoint{at}, {}, {}, payload},
+                                   fate_of(4));
+    };
+    come(1s);
+    while (!recorder.has_failed()) std::this_thread::yield();
+    come(2s);
+    ASSERT_TRUE(recorder.keep("trap-1", base::TimePoint{1s}));
+    EXPECT_THROW(recorder.finish(), std::system_error);
+    EXPECT_EQ(blocks_of(text("trap-1.pcapng")).packets, 2U);
+    EXPECT_EQ(recorder.capture_lost(), 2U);
 }
 
 TEST(Recorder, WithoutAFileDoesNothing)

@@ -300,16 +300,26 @@ TEST(KeyedSession, IsFoundAgainAfterBothSidesWereLookedForElsewhere)
 
 TEST(KeyedSession, DoesNotNoticeThatItsKeyIsRenewed)
 {
-    Setting setting = keyed_setting("[both]\ndelay = \"40ms\"");
-    setting.length = 125s;
-    VirtualWorld world{setting};
-    world.run_for(124s);
-    for (const std::size_t side : {0U, 1U}) {
-        EXPECT_EQ(key_of(world, side).counts.rekeys, 1U);
-        EXPECT_FALSE(has_event(world, side, Event::lost));
-        EXPECT_FALSE(has_event(world, side, Event::restarted));
-        const Counters& counters = world.side(side).peer().counters();
-        EXPECT_LE(counters.sent - counters.states, 150U);
+    for (const bool is_bad : {false, true}) {
+        Setting setting =
+            keyed_setting(is_bad ? "[both]\ndelay = \"40ms\"\njitter = \"15ms\"\norder = \"free\"\n"
+                                   "loss = \"30%\""
+                                 : "[both]\ndelay = \"40ms\"");
+        setting.length = 125s;
+        VirtualWorld world{setting};
+        world.run_for(124s);
+        for (const std::size_t side : {0U, 1U}) {
+            const Status::Key key = key_of(world, side);
+            EXPECT_EQ(key.counts.rekeys, 1U);
+            EXPECT_EQ(key.counts.unknown_key + key.counts.forged, 0U);
+            EXPECT_FALSE(has_event(world, side, Event::lost));
+            EXPECT_FALSE(has_event(world, side, Event::restarted));
+            const Counters& counters = world.side(side).peer().counters();
+            EXPECT_EQ(counters.other_session + counters.malformed, 0U);
+            if (!is_bad) {
+                EXPECT_LE(counters.sent - counters.states, 150U);
+            }
+        }
     }
 }
 

@@ -96,13 +96,22 @@ TEST(Analysis, TakesTheNewestTermsOfASession)
     EXPECT_EQ(analysis.a.ticks, 5U);
 }
 
-TEST(Analysis, IgnoresTheEchoOffsetWithinOneBoot)
+TEST(Analysis, IgnoresTheEchoOffsetWithinOneBootUnlessItRulesOneClockOut)
 {
-    Recording a{1};
-    Recording b{2};
-    a.session({.start = start, .length = 1s, .remote_offset = 8s, .session = 1});
-    b.session(1s);
-    EXPECT_EQ(analysis_of(a, b).clock.offset, 0s);
+    for (const base::Duration offset : {base::Duration{4ms}, base::Duration{-8s}}) {
+        Recording a{1};
+        Recording b{2};
+        a.session({.start = start,
+                   .length = 1s,
+                   .remote_offset = offset,
+                   .offset_uncertainty = 5ms,
+                   .session = 1});
+        b.session(1s);
+        const auto clock = analysis_of(a, b).clock;
+        const bool is_ruled_out = offset == -8s;
+        EXPECT_EQ(clock.method, is_ruled_out ? ClockMethod::echo : ClockMethod::same_boot);
+        EXPECT_EQ(clock.offset, is_ruled_out ? offset : base::Duration{0});
+    }
 }
 
 TEST(Analysis, ReckonsWithTheSkewOfTheEchoClock)

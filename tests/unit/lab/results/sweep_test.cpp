@@ -100,5 +100,37 @@ TEST_F(Swept, ResultReadsBackAsItWas)
     EXPECT_FALSE(played_cell_from(nlohmann::json::object()));
 }
 
+TEST(PlayedCell, IsRefusedWithTheKeyThatIsMissingOrHasAnotherType)
+{
+    PlayedCell cell;
+    cell.real.task = cell.simulated.task = cell.perfect.task = device::Task::t3;
+    const nlohmann::json whole = to_json(cell);
+    const auto refusal = [](const nlohmann::json& json) {
+        const auto played = played_cell_from(json);
+        return played ? "" : played.error().message;
+    };
+    ASSERT_EQ(refusal(whole), "");
+    for (const char* key : {"real", "virtual", "perfect", "invalid_because"}) {
+        auto without = whole;
+        without.erase(key);
+        EXPECT_NE(refusal(without).find(key), std::string::npos) << key;
+    }
+    const std::vector<std::pair<const char*, nlohmann::json>> wrong{{"real", 5},
+                                                                    {"virtual", "x"},
+                                                                    {"perfect", nullptr},
+                                                                    {"missed_ticks", -1},
+                                                                    {"missed_ticks", 1.5},
+                                                                    {"missed_ticks", "7"},
+                                                                    {"longest_gap_ms", -1},
+                                                                    {"longest_gap_ms", "x"},
+                                                                    {"invalid_because", "late"},
+                                                                    {"invalid_because", {1}}};
+    for (const auto& [key, value] : wrong) {
+        auto other = whole;
+        other[key] = value;
+        EXPECT_NE(refusal(other).find(key), std::string::npos) << key << " " << value;
+    }
+}
+
 } // namespace
 } // namespace hapnet::lab::results

@@ -4,12 +4,14 @@
 #include "lab/experiment/claims.hpp"
 #include "lab/experiment/text.hpp"
 #include "lab/results/result_files.hpp"
+#include "lab/runner/checksums.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/result_tables.hpp"
 #include "lab/runner/runner.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +19,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <sys/resource.h>
+#include <system_error>
 
 namespace hapnet::lab::runner::runner_test {
 
@@ -274,8 +278,74 @@ TEST_F(SessionFile, KeepsHowFarCopiesAreApartAfterSilence)
         EXPECT_EQ(ends_of_silence(*again), (std::vector{apart_m, apart_m}));
         EXPECT_EQ(again->counts().played, 0U);
     }
-    std::ofstream{path, std::ios::app} << R"({"key":"k","metrics":{},"apart_m":"far"})" << '\n';
+    std::ofstream{path, std::ios::app} << with_sum(R"({"key":"k","metrics":{},"apart_m":"far"})")
+                                       << '\n';
     EXPECT_EQ(open()->damaged_lines(), 1U);
+}
+
+TEST_F(SessionFile, PlaysASessionAgainWhoseLineWasChangedByADigit)
+{
+    std::ignore = run_whole(known_limits(), runner_of(*open(), 1), stop);
+    const auto whole = text();
+    const auto limits = [&] {
+        const auto store = open();
+        const auto findings = run_whole(known_limits(), runner_of(*store, 1), stop);
+        EXPECT_EQ(store->counts().played, 1U);
+        return limits_of(known_limits(), findings->value());
+    };
+    std::string changed = whole;
+    const auto at = changed.find("\"scored_s\":", changed.size() / 2) + 11;
+    changed[at] = changed[at] == '9' ? '8' : static_cast<char>(changed[at] + 1);
+    ASSERT_NE(changed, whole);
+    std::ofstream{path} << changed;
+    const auto line =
+        1 + std::count(changed.begin(), changed.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    {
+        const auto store = open();
+        EXPECT_EQ(store->damaged_lines(), 1U);
+        EXPECT_EQ(store->damage(), "1 line lacks the right checksum (" + path + ":" +
+                                       std::to_string(line) +
+                                       "): cut off, changed, or written by an older version");
+    }
+    const auto mended = limits();
+    std::filesystem::remove(path);
+    const auto fresh = run_whole(known_limits(), runner_of(*open(), 1), stop);
+    EXPECT_EQ(mended, limits_of(known_limits(), fresh->value()));
+}
+
+TEST_F(SessionFile, UsesNoLineWithoutAChecksum)
+{
+    std::ignore = run_whole(known_limits(), runner_of(*open(), 1), stop);
+    std::istringstream lines{text()};
+    std::string old, line;
+    std::size_t sessions = 0;
+    for (; std::getline(lines, line); old += line + '\n') {
+        const auto sum = line.find(",\"sum\":");
+        if (sum == std::string::npos) continue;
+        line = line.substr(0, sum) + '}'; // as version 0.2 wrote it
+        ++sessions;
+    }
+    std::ofstream{path} << old;
+    const auto store = open();
+    EXPECT_EQ(store->damaged_lines(), sessions);
+    std::ignore = run_whole(known_limits(), runner_of(*store, 1), stop);
+    EXPECT_EQ(store->counts().reused, 0U);
+}
+
+TEST_F(SessionFile, OfADiskThatIsFullKeepsNoPartOfALine)
+{
+    const auto store = open();
+    const auto before = text();
+    std::signal(SIGXFSZ, SIG_IGN); // a file that is too long stands for a full disk
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    rlimit small = limit;
+    small.rlim_cur = before.size() + 20;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    EXPECT_THROW(std::ignore = run_whole(known_limits(), runner_of(*store, 1), stop),
+                 std::system_error);
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    EXPECT_EQ(text(), before);
 }
 
 TEST(PlayInVirtualTime, OfASessionThatEndsInSilenceTellsHowFarCopiesAreApart)
@@ -294,6 +364,7 @@ TEST(ResultTables, JoinTheLinesOfPartsWhoseColumnsDiffer)
 {
     const std::filesystem::path folder = testing::TempDir();
     ResultTables tables{folder};
+    std::filesystem::create_symlink(folder / "victim", folder / "t.csv.part");
     const std::vector<LeadingCell> first{{"value", "1ms"}}, second{{"value", "2,ms"}};
     tables.add({"t.csv", "a,b\n1,2\n"}, first);
     tables.add({"t.csv", "a,c\n3,\"4,5\"\n"}, second);
@@ -302,6 +373,8 @@ TEST(ResultTables, JoinTheLinesOfPartsWhoseColumnsDiffer)
     std::ostringstream out;
     out << std::ifstream{folder / "t.csv"}.rdbuf();
     EXPECT_EQ(out.str(), "value,a,b,c\n1ms,1,2,\n\"2,ms\",3,,\"4,5\"\n1ms,6,7,\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "victim")) << "lines waited where a link leads";
+    std::filesystem::remove(folder / "t.csv.part");
 }
 
 TEST(ProgressText, SaysHowMuchIsLeftOnceAPartIsDone)

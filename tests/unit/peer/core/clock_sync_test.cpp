@@ -393,6 +393,38 @@ TEST(ClockSync, IsOneClockOnOneMachine)
     EXPECT_EQ(clock.estimate()->uncertainty, 0s);
 }
 
+TEST(ClockSync, BelievesInOneClockOnlyOnceASampleAllowsIt)
+{
+    ClockSync clock;
+    clock.set_same_clock();
+    EXPECT_FALSE(clock.estimate());
+    clock.add(sample(start, 10ms, 20ms, 7h)); // the same boot, in another time namespace
+    ASSERT_TRUE(clock.estimate());
+    EXPECT_LT(std::abs(ms(clock.estimate()->offset - 7h)), 5.1);
+    EXPECT_EQ(clock.estimate()->uncertainty, 15ms);
+    EXPECT_EQ(clock.jumps(), 0U);
+}
+
+TEST(ClockSync, EndsTheBeliefInOneClockWhenEightSamplesInARowRuleItOut)
+{
+    ClockSync clock;
+    clock.set_same_clock();
+    clock.add(sample(start, 10ms, 10ms, 0s));
+    base::TimePoint now = start;
+    const auto add = [&](base::Duration ahead) {
+        clock.add(sample(now += 10ms, 10ms, 10ms, ahead));
+    };
+    for (int i = 0; i < 100; ++i) add(i % 8 == 0 ? 0s : base::Duration{3s}); // damaged ones
+    EXPECT_EQ(clock.trusted()->offset, 0s);
+    for (int i = 0; i < 8; ++i) add(3s); // a virtual machine was stopped for a while
+    EXPECT_EQ(clock.estimate()->offset, 3s);
+    EXPECT_EQ(clock.jumps(), 1U);
+    EXPECT_TRUE(clock.is_in_doubt());
+    for (int i = 0; i < 300; ++i) add(3s);
+    EXPECT_EQ(clock.trusted()->offset, 3s);
+    EXPECT_EQ(clock.jumps(), 1U);
+}
+
 TEST(ClockSync, IsUnknownAgainAfterAReset)
 {
     ClockSync clock;

@@ -69,6 +69,23 @@ TEST(Handshake, ConvertsTheStartBetweenClocksThatDiffer)
     }
 }
 
+TEST(Handshake, ConvertsTheStartWhereClocksDifferAlthoughBothSidesNameTheSameBoot)
+{
+    for (const base::Duration ahead :
+         {base::Duration{0}, base::Duration{26h}, -base::Duration{2s}, base::Duration{40 * 24h}}) {
+        Meeting meeting{far};
+        meeting.boot = 5; // two time namespaces, or two virtual machines of one snapshot
+        for (const std::size_t side : {0U, 1U}) meeting.restart(side);
+        meeting.ahead[1] = ahead;
+        meeting.run_for(2s);
+        ASSERT_TRUE(meeting.agree()) << ahead.count();
+        EXPECT_LE(meeting.start_error(), 1ns) << ahead.count();
+        const bool is_one = ahead == base::Duration{0};
+        EXPECT_EQ(meeting.sides[1]->clock()->offset, -ahead);
+        EXPECT_EQ(meeting.sides[1]->clock()->uncertainty, is_one ? 0ms : 160ms);
+    }
+}
+
 TEST(Handshake, IsSilentOnceBothKnowTheStart)
 {
     Meeting meeting{far};

@@ -70,7 +70,12 @@ public:
     [[nodiscard]] base::TimePoint clock(std::size_t side) const { return now + ahead[side]; }
 
     void kill(std::size_t side) { sides[side].reset(); }
-    void restart(std::size_t side) { sides[side].emplace(introduction(side, runs_++)); }
+    void restart(std::size_t side)
+    {
+        Introduction self = introduction(side, runs_++);
+        self.boot = boot;
+        sides[side].emplace(self);
+    }
 
     /// Both are in the same session and know the same things of it.
     [[nodiscard]] bool agree() const
@@ -91,6 +96,7 @@ public:
     base::TimePoint now{std::chrono::hours{1}};
     std::array<std::optional<Handshake>, 2> sides;
     std::array<base::Duration, 2> ahead{};
+    std::uint32_t boot = 0; // of both machines, as those that are restarted say it
     std::array<int, 2> hellos{};
 
 private:

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/monitor.hpp"
 
+#include "proto/record/reader.hpp"
+
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -56,6 +58,7 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
     testing::internal::CaptureStderr(); // a file: before the limit
     std::exception_ptr failure;
     bool was_whole_at_first = false;
+    std::uint64_t lost = 0;
     {
         loop::Journal journal;
         net::TextQueue screen{STDERR_FILENO};
@@ -73,6 +76,7 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
         monitor.finish();
         while (!screen.is_done()) std::this_thread::yield();
         EXPECT_FALSE(monitor.is_record_whole());
+        lost = monitor.rows_lost();
         failure = monitor.record_failure();
         EXPECT_FALSE(journal.take());
     }
@@ -82,6 +86,10 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
     EXPECT_EQ(count_of("goes on without it", said), 1U) << said;
     EXPECT_EQ(count_of(path, said), 1U) << said;
     EXPECT_LE(std::filesystem::file_size(path), 16'384U);
+    const auto record = record::read(path);
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_GT(record->ticks.size(), 10U);
+    EXPECT_EQ(record->ticks.size() + lost, 3000U) << "each row is in the record or counted";
     std::filesystem::remove(path);
 }
 

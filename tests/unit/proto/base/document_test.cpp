@@ -25,6 +25,21 @@ TEST(Document, NamesTheFormatOfATextThatIsNotToml)
     }
 }
 
+TEST(Document, SaysThatAFileIsNoText)
+{
+    const auto says = [](std::string_view text, std::string_view words) {
+        EXPECT_EQ(refusal(text).substr(0, words.size()), words) << refusal(text);
+    };
+    says(std::string_view{"\x7f"
+                          "ELF\2\1\1\0",
+                          8},
+         "this is no text: it has the byte 0x7f here");
+    says(std::string_view{"a = 1\n\0", 7}, "this is no text: it has the byte 0x00 here");
+    says("a = \"\x1b[2J\"\n", "this is no text: it has the byte 0x1b here");
+    says("name = \"caf\xe9\"\n", "this is no text in UTF-8: save it in that encoding");
+    EXPECT_EQ(refusal("a\t=\t1\r\n"), "read");
+}
+
 /// "LINE:COLUMN: what is wrong".
 std::string placed_refusal(std::string_view text)
 {

@@ -30,6 +30,13 @@ private:
     int descriptor_;
 };
 
+TEST(TerminalLine, ShowsControlCharactersOfItsTextInsteadOfObeyingThem)
+{
+    const Terminal terminal{80};
+    TerminalLine line{terminal.descriptor()};
+    EXPECT_EQ(line.shown("a\x1b[2J\n"), "\r\x1b[Ka\\u001B[2J\\u000A");
+}
+
 TEST(TerminalLine, WritesOverItselfAndMakesRoomForOtherText)
 {
     const Terminal terminal{80};

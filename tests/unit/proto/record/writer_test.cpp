@@ -4,11 +4,14 @@
 #include "proto/record/header.hpp"
 #include "proto/record/reader.hpp"
 #include "proto/record/writer.hpp"
+#include "tests/support/another_user.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <sys/resource.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -170,6 +173,60 @@ TEST(RecordFile, BelongsToOneWriterAtATimeAndIsNotEmptiedByAnother)
 TEST(RecordFile, ThrowsWhenTheDiskIsFull)
 {
     EXPECT_THROW(Writer("/dev/full", config), std::system_error);
+}
+
+TEST(RecordFile, EndsWithTheLastWholeRowOnADiskThatFillsUpAndKnowsHowManyItHas)
+{
+    const TemporaryPath file;
+    std::signal(SIGXFSZ, SIG_IGN); // a file that is too long stands for a full disk
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit small = before;
+    small.rlim_cur = 30'000;
+    std::uint64_t rows = 0;
+    {
+        Writer writer{file.text(), config};
+        EXPECT_EQ(writer.rows(), 0U);
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+        const auto write = [&] {
+            for (std::uint64_t i = 0; i < 1000; ++i) writer.write(tick(i));
+        };
+        EXPECT_THROW(write(), std::system_error);
+        rows = writer.rows();
+    }
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    EXPECT_EQ(rows, (30'000 - header_line(config).size() - 1) / row_bytes);
+    const auto record = read(file.text());
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_EQ(record->ticks.size(), rows);
+    EXPECT_FALSE(record->cut_off);
+}
+
+TEST(RecordFile, DoesNotEmptyAFileThatHasAnotherNameBesides)
+{
+    const TemporaryPath file;
+    const std::string victim = file.text() + "-victim";
+    std::ofstream{victim} << "old";
+    std::filesystem::create_hard_link(victim, file.path());
+    EXPECT_THROW(Writer(file.text(), config), std::system_error);
+    EXPECT_EQ(std::filesystem::file_size(victim), 3U);
+    std::filesystem::remove(victim);
+}
+
+TEST(RecordFile, DoesNotFollowALinkOfAnotherUser)
+{
+    if (!test::is_root()) GTEST_SKIP() << "only root can make a link of another user";
+    const TemporaryPath file;
+    const std::string victim = file.text() + "-victim";
+    std::ofstream{victim} << "old";
+    std::filesystem::create_symlink(victim, file.path());
+    ASSERT_EQ(lchown(file.text().c_str(), test::another_user, test::another_user), 0);
+    EXPECT_THROW(Writer(file.text(), config), std::system_error);
+    EXPECT_EQ(std::filesystem::file_size(victim), 3U);
+    ASSERT_EQ(lchown(file.text().c_str(), 0, 0), 0);
+    EXPECT_NO_THROW(Writer(file.text(), config)) << "one's own";
+    EXPECT_TRUE(read(victim));
+    std::filesystem::remove(victim);
 }
 
 TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)

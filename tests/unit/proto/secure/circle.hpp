@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/bytes.hpp"
 #include "proto/base/random.hpp"
 #include "proto/secure/association.hpp"
 #include "tests/unit/proto/secure/hex.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -64,7 +66,7 @@ using namespace std::chrono_literals;
 struct Setting {
     std::uint8_t id = 1;
     std::uint32_t run = 11;
-    std::uint8_t shared = 9;       // names the pre-shared key
+    std::uint8_t shared = 9;       // names the pre-shared key; 0: none
     std::uint8_t other_key_of = 0; // whose public key it expects; 0: the other id's
     bool may_roam = true;
     bool knows_place = true;
@@ -113,6 +115,8 @@ struct Network {
     base::Duration jitter{0};
     double duplicates = 0.0;
     std::uint64_t seed = 1;
+    std::optional<Place> redirected_from{};          // all comes from there, whoever sent it
+    std::function<bool(const Datagram&)> drops = {}; // besides what is lost by chance
 };
 
 class World {
@@ -195,6 +199,8 @@ private:
         Datagram datagram{std::move(bytes), sender.place, 1 - from, now_};
         seen_.push_back(datagram);
         if (sides_[static_cast<std::size_t>(1 - from)].place != to) return; // nobody is there
+        if (network_.drops && network_.drops(datagram)) return;
+        datagram.from = network_.redirected_from.value_or(datagram.from);
         ++count_;
         const bool is_doubled = random_.uniform(count_, 0) < network_.duplicates;
         for (const std::uint32_t copy : {1U, 2U}) {

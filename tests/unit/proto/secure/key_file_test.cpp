@@ -5,6 +5,7 @@
 #include "tests/unit/proto/secure/circle.hpp"
 
 #include <gtest/gtest.h>
+#include <set>
 
 namespace hapnet::secure {
 
@@ -56,7 +57,11 @@ TEST(KeyFile, HasAFingerprintThatTellsAnyOtherKeyApart)
 {
     auto files = three();
     const std::string fingerprint = files[0].fingerprint();
-    EXPECT_EQ(fingerprint.size(), 19U);
+    EXPECT_EQ(fingerprint.size(), 12U * 6U - 1U);
+    for (std::size_t i = 0; i < fingerprint.size(); ++i) {
+        const bool is_digit = fingerprint[i] >= '0' && fingerprint[i] <= '9';
+        EXPECT_TRUE(i % 6 == 5 ? fingerprint[i] == ' ' : is_digit) << fingerprint;
+    }
     EXPECT_EQ(files[1].fingerprint(), fingerprint);
     EXPECT_EQ(files[2].fingerprint(), fingerprint);
     files[1].others.back().key[7] ^= std::byte{1};
@@ -98,14 +103,38 @@ TEST(KeyFile, IsRefusedWithTheLineAndTheCureAndWithoutTheSecret)
               "peer.key:1:1: missing key 'secret': make keys with 'hapnet-peer keygen'");
 }
 
-TEST(KeyFile, RefusesAPublicKeyOfLowOrder)
+TEST(KeyFile, HasAFingerprintOfWhichEveryDigitDependsOnEveryKey)
 {
-    const std::string zeros = to_base64(PublicKey{});
-    const std::string text = print_key_file(three()[0]);
+    auto files = three();
+    std::vector<std::string> seen;
+    for (int i = 0; i < 40; ++i) {
+        files[0].others.front().key[3] = static_cast<std::byte>(i);
+        seen.push_back(files[0].fingerprint());
+    }
+    for (std::size_t digit = 0; digit < seen.front().size(); ++digit) {
+        if (digit % 6 == 5) continue;
+        std::set<char> found;
+        for (const std::string& each : seen) found.insert(each.at(digit));
+        EXPECT_GE(found.size(), 7U) << digit; // of ten; fewer once in 50 000
+    }
+}
+
+TEST(KeyFile, RefusesAPublicKeyOfLowOrderAndOneThatIsNotCanonical)
+{
+    const auto files = three();
+    PublicKey with_high_bit = public_key_of(files[1].own);
+    with_high_bit.back() |= std::byte{0x80};
+    PublicKey prime_and_nine{}; // another way to write 9
+    prime_and_nine.fill(std::byte{0xff});
+    prime_and_nine.front() = std::byte{0xed + 9};
+    prime_and_nine.back() = std::byte{0x7f};
+    const std::string text = print_key_file(files[0]);
     const std::size_t key = text.find("public = \"") + 10;
-    EXPECT_EQ(
-        complaint_about(std::string{text}.replace(key, 44, zeros)),
-        "peer.key:6:1: the public key of peer 2 is not valid; make keys with 'hapnet-peer keygen'");
+    for (const PublicKey& wrong : {PublicKey{}, with_high_bit, prime_and_nine}) {
+        EXPECT_EQ(complaint_about(std::string{text}.replace(key, 44, to_base64(wrong))),
+                  "peer.key:6:1: the public key of peer 2 is not valid; make keys with "
+                  "'hapnet-peer keygen'");
+    }
 }
 
 TEST(Entropy, RepeatsItselfFromTheSameSecretAndNeverElse)

@@ -152,10 +152,40 @@ TEST(NoiseKk, RefusesEitherMessageWithAnyBitChanged)
             }
             message[byte] ^= std::byte{1} << (byte % 8);
             reader.read(message);
-            // The curve ignores the last bit of a key; the hash does not.
+            // The curve would ignore the last bit of a key.
             EXPECT_EQ(run(reader), NoiseKk::Progress::refused) << "byte " << byte;
         }
     }
+}
+
+TEST(NoiseKk, ReadsTheGenuineMessageAfterItHasRefusedOthers)
+{
+    Pair pair;
+    const auto read = [](NoiseKk& reader, const PublishedMessage& message) {
+        const Text genuine = from_hex(message.sealed);
+        for (const std::size_t byte : {std::size_t{0}, std::size_t{31}, genuine.size() - 1}) {
+            Text forged = genuine;
+            forged[byte] ^= std::byte{0x80};
+            reader.read(forged);
+            EXPECT_EQ(run(reader), NoiseKk::Progress::refused);
+        }
+        for (const Text& other : {Text{}, Text(genuine.size())}) { // a key of low order
+            reader.read(other);
+            EXPECT_EQ(run(reader), NoiseKk::Progress::refused);
+        }
+        reader.read(genuine);
+        ASSERT_EQ(run(reader), NoiseKk::Progress::done);
+        EXPECT_EQ(to_hex(reader.payload()), message.payload);
+    };
+    pair.a.write(from_hex(published[0].payload));
+    run(pair.a);
+    read(pair.b, published[0]);
+    pair.b.write(from_hex(published[1].payload));
+    run(pair.b);
+    EXPECT_EQ(to_hex(pair.b.message()), published[1].sealed);
+    read(pair.a, published[1]);
+    EXPECT_EQ(to_hex(pair.a.split().handshake), published_hash);
+    EXPECT_EQ(to_hex(pair.b.split().handshake), published_hash);
 }
 
 TEST(NoiseKk, RefusesEveryOtherLength)

@@ -39,6 +39,24 @@ TEST(Primitives, ShareNothingWithAKeyOfLowOrder)
     EXPECT_FALSE(diffie_hellman(own, one));
 }
 
+TEST(Primitives, ShareNothingWithAKeyThatIsNotCanonical)
+{
+    const Secret own =
+        secret_from_hex("77076d0a7318a57d3c16c17251b26645df4c2f87ebc0992ab177fba51db92c2a");
+    const Secret other =
+        secret_from_hex("5dab087e624a8a4b79e17f8b83800ee66f3bb1292618b6fd1c2f8b27ff88e0eb");
+    PublicKey key = public_key_of(other);
+    EXPECT_TRUE(diffie_hellman(own, key));
+    key.back() |= std::byte{0x80}; // the curve leaves this bit out
+    EXPECT_FALSE(diffie_hellman(own, key));
+    key.fill(std::byte{0xff});
+    key.back() = std::byte{0x7f};
+    for (int low = 0; low <= 0xff; ++low) { // around the prime, 2^255 - 19
+        key.front() = static_cast<std::byte>(low);
+        EXPECT_EQ(diffie_hellman(own, key).has_value(), low < 0xed - 1) << low; // -1: low order
+    }
+}
+
 TEST(Primitives, HashAsPythonsHashlibDoes)
 {
     EXPECT_EQ(to_hex(hash(bytes_of("abc"))),

@@ -51,6 +51,20 @@ TEST(Pairing, KnowsNothingBesideTheTrackAndAcrossAGap)
     EXPECT_FALSE(apart(track, Track{}, base::Duration{0}));
 }
 
+TEST(Feed, TakesOneBootForOneClockUnlessAnEchoRulesThatOut)
+{
+    Feed feed;
+    feed.set_peers({{1, "a boot"}, {2, "a boot"}, {3, "another boot"}});
+    EXPECT_TRUE(feed.share_clock(0, 1));
+    EXPECT_FALSE(feed.share_clock(0, 2));
+    for (const double offset_ms : {-8.0, 8.0, 5000.0}) {
+        PeerFrame frame;
+        frame.heard.push_back({.from = 2, .offset_ms = offset_ms, .uncertainty_ms = 10.0});
+        feed.take_peer(0, frame);
+        EXPECT_EQ(feed.share_clock(0, 1), offset_ms < 10.0) << offset_ms;
+    }
+}
+
 TEST(History, KeepsThePeaksOfEightRows)
 {
     History history;

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace hapnet::net {
+
+/// A command as a child process, with all processes that it starts. They belong to a process of
+/// this program, the init of the command, and none of them outlives this object or this program,
+/// whatever ends it:
+///
+/// - A command with its own network has its own PID namespace, in which the init is process 1. The
+///   kernel kills all processes in it when the init ends.
+/// - Where the system refuses that, and for other commands, the init is a subreaper
+///   (PR_SET_CHILD_SUBREAPER): it kills its descendants when this program has ended.
+class ChildCommand {
+public:
+    struct Setup {
+        std::vector<std::string> words; // the command and its arguments
+        /// In a network namespace of its own and, where the system grants it, in a PID namespace
+        /// of its own with a /proc that shows it.
+        bool has_own_network = false;
+        bool has_own_group = false;             // a process group, and /dev/null as its stdin
+        int output = -1;                        // its stdout and stderr; -1: those of this process
+        std::vector<std::string> environment{}; // "NAME=value", besides the environment of this one
+        std::string hosts{};                    // lines that it reads after those of /etc/hosts
+        std::string name_servers{};             // the text of its /etc/resolv.conf; "": as it is
+        /// What it does in its network once prepare() says so, before it runs the command. Throws
+        /// std::system_error.
+        std::function<void()> prepare{};
+    };
+
+    /// Starts the init, which waits for prepare() and go(). The process must have one thread.
+    /// Throws std::system_error when it cannot have what the setup asks for.
+    explicit ChildCommand(const Setup& setup);
+    /// Kills the command and all processes that it has started, and waits for their end.
+    ~ChildCommand();
+    ChildCommand(const ChildCommand&) = delete;
+    ChildCommand& operator=(const ChildCommand&) = delete;
+
+    /// Has it prepare its network; returns when that is done. Throws what it failed of.
+    void prepare();
+    /// Runs the command. Throws std::system_error when there is no such command.
+    void go();
+
+    /// The init, which is in the network of the command as long as this object lives.
+    [[nodiscard]] pid_t pid() const { return pid_; }
+    /// Readable or hung up once the command has ended.
+    [[nodiscard]] int descriptor() const { return ended_; }
+    /// Its exit code, 128 + n when signal n killed it; nullopt while it runs. Processes that it has
+    /// left in the background may still run then.
+    [[nodiscard]] std::optional<int> exit_code();
+    /// To it, and to its group if it has one of its own. Nothing when it has ended.
+    void signal(int number);
+
+private:
+    bool start(const Setup& setup, bool has_own_processes);
+    bool await_report();
+    void give_terminal_back() const;
+
+    pid_t pid_ = -1;
+    int init_ = -1;     // a socket: orders to the init, and a report of each step
+    int ended_ = -1;    // a pipe from the init: the exit code of the command
+    int terminal_ = -1; // whose keys went to this process and the command when that started
+    bool has_own_processes_ = false;
+    std::optional<int> exit_code_;
+};
+
+} // namespace hapnet::net

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/net/child_command.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace hapnet::net {
+
+/// One message to the init of a command.
+struct InitOrder {
+    enum class Kind : std::uint8_t {
+        prepare, // answered by a report
+        go,      // likewise, once the command runs
+        signal,  // the number goes to the command
+        end      // kill all that the command has started, and end
+    };
+    Kind kind = Kind::end;
+    int number = 0;
+};
+
+/// One message from it: a step is done, or what it failed of.
+struct InitReport {
+    enum class Kind : std::uint8_t {
+        done,
+        refused, // no PID namespace, or no /proc for it
+        failed
+    };
+    Kind kind = Kind::done;
+    int error = 0;
+    std::array<char, 512> what{}; // a text that ends with zero
+};
+
+/// What the init of a command shares with the program that has started it.
+struct InitEnds {
+    int orders = -1; // a socket of messages
+    int ended = -1;  // takes the exit code of the command, an int
+    int parent = -1; // readable once the program has ended (a pidfd)
+};
+
+/// The life of the init of a command, in the process that was made for it. It ends with the
+/// program, or with the order `end`. `is_first`: the process is the first of a PID namespace.
+[[noreturn]] void live_as_init(const ChildCommand::Setup& setup, const InitEnds& ends,
+                               bool is_first);
+
+} // namespace hapnet::net

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/net/file_limit.hpp"
+
+#include <csignal>
+
+namespace hapnet::net {
+
+void survive_file_limit()
+{
+    struct sigaction before {};
+    // Whoever ignores it already has what is wanted, and so have the commands that it starts.
+    if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
+    struct sigaction nothing {};
+    nothing.sa_handler = [](int) {}; // unlike SIG_IGN it ends with exec()
+    sigemptyset(&nothing.sa_mask);
+    nothing.sa_flags = SA_RESTART;
+    sigaction(SIGXFSZ, &nothing, nullptr);
+}
+
+} // namespace hapnet::net
