@@ -24,10 +24,10 @@ constexpr const char* footer =
 
 Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay or plain
 delay both ways. Times need a unit (ns us ms s min h), shares a %. A change takes effect between two
-datagrams;
-the answer names the first datagram of each direction that it holds for. A setting holds until the
-timeline of the profile changes the same key. With --for it ends by itself, even if hapnet-ctl is
-gone by then.
+datagrams; the answer names the first datagram of each direction that it holds for. A setting holds
+until the timeline of the profile changes the same key. With --for it ends by itself, even if
+hapnet-ctl is gone by then. Files that a setting or a profile names are sent along, from here or
+from beside the profile.
 
 A peer answers show, stats, watch, wait, keep, stop and estop. Its settings cannot be changed while
 it runs.

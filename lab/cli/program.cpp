@@ -37,13 +37,15 @@ namespace {
 
 constexpr std::string_view program = "hapnet-lab";
 
-void print(std::string_view text)
+void write_out(std::string_view bytes)
 {
-    const std::string shown = base::visible_lines(text);
-    if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size()) {
         throw std::system_error{errno, std::generic_category(), "cannot write the result"};
     }
 }
+
+/// Text: names in it may come from a file.
+void print(std::string_view text) { write_out(base::visible_lines(text)); }
 
 /// Of more than two.
 base::Result<int> run_circle(const AnalyseCommand& command)
@@ -91,7 +93,7 @@ base::Result<int> run_join(const ExportCommand& command)
                           " (B): " + session.error().message);
     }
     if (command.as_mcap) {
-        records::write_mcap(*session, print);
+        records::write_mcap(*session, write_out);
         return 0;
     }
     print(records::joined_csv_header() + '\n');
@@ -106,7 +108,7 @@ base::Result<int> run(const ExportCommand& command)
     const auto record = read_record(command.record);
     if (!record) return tl::unexpected{record.error()};
     if (command.as_mcap) {
-        records::write_mcap(*record, print);
+        records::write_mcap(*record, write_out);
         return 0;
     }
     const auto zero = records::csv_zero(*record);
