@@ -35,6 +35,11 @@ ControlDesk::ControlDesk(Setup setup) : setup_{std::move(setup)}
 
 ControlDesk::~ControlDesk() { close(); }
 
+void ControlDesk::begin()
+{
+    if (!has_begun_.exchange(true)) wake_.signal();
+}
+
 void ControlDesk::reload()
 {
     wants_reload_.store(true);
@@ -51,6 +56,7 @@ void ControlDesk::close()
 
 void ControlDesk::run()
 {
+    while (!has_begun_.load() && !is_closing_.load()) wake_.wait();
     std::vector<int> descriptors{wake_.descriptor()};
     if (server_) descriptors.push_back(server_->descriptor());
     const control::DoWork& work = setup_.emulation.work;

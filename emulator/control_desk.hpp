@@ -37,9 +37,10 @@ public:
             look{};
     };
 
-    /// Begins: what `setup` refers to outlives it. Throws std::system_error when the socket cannot
-    /// be made or the folder not be opened. The signals that are to reach the calling thread alone
-    /// are blocked already. Without anything to do there is no thread.
+    /// Makes the socket and the thread, which waits for begin(). What `setup` refers to outlives
+    /// it. Throws std::system_error when the socket cannot be made or the folder not be opened. The
+    /// signals that are to reach the calling thread alone are blocked already. Without anything to
+    /// do there is no thread.
     explicit ControlDesk(Setup setup);
     /// Ends the thread. What clients have asked is given up.
     ~ControlDesk();
@@ -48,6 +49,9 @@ public:
 
     // By the thread that relays.
 
+    /// From now on it does the work of turns(), and leaves to the desk what the desk uses. May be
+    /// called again.
+    void begin();
     /// The work that it is to do.
     [[nodiscard]] control::Turns& turns() { return turns_; }
     [[nodiscard]] const control::Turns& turns() const { return turns_; }
@@ -66,6 +70,7 @@ private:
     std::unique_ptr<control::Server> server_;
     net::WakeEvent wake_;
     std::atomic<bool> wants_reload_{false};
+    std::atomic<bool> has_begun_{false};
     std::atomic<bool> is_closing_{false};
     std::thread thread_; // last: it uses the others
 };

@@ -119,6 +119,7 @@ public:
         std::vector<int> descriptors = part.descriptors();
         descriptors.push_back(stop.descriptor());
         control::Turns& turns = desk_->turns();
+        desk_->begin();
         descriptors.push_back(turns.descriptor());
         if (!workers.empty()) descriptors.push_back(workers.descriptor());
         if (addresses_.descriptor() >= 0) descriptors.push_back(addresses_.descriptor());

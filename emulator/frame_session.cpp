@@ -96,6 +96,7 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
     descriptors_.push_back(frames_.a().socket.descriptor());
     descriptors_.push_back(frames_.b().socket.descriptor());
     control::Turns& turns = desk_->turns();
+    desk_->begin();
     descriptors_.push_back(turns.descriptor());
     deadline = base::earlier(deadline, turns.next_deadline());
     deadline = base::earlier(deadline, paths_.next_change());

@@ -67,8 +67,8 @@ class SnapshotHistogram : public DurationHistogram {
 public:
     SnapshotHistogram() = default;
     ~SnapshotHistogram() = default;
-    SnapshotHistogram(const SnapshotHistogram& other) : DurationHistogram{} { assign(other); }
-    SnapshotHistogram(SnapshotHistogram&& other) noexcept : DurationHistogram{} { assign(other); }
+    SnapshotHistogram(const SnapshotHistogram& other) : SnapshotHistogram{} { assign(other); }
+    SnapshotHistogram(SnapshotHistogram&& other) noexcept : SnapshotHistogram{} { assign(other); }
     SnapshotHistogram& operator=(const SnapshotHistogram& other)
     {
         assign(other);

@@ -178,6 +178,7 @@ public:
     /// Until it is told to end; each client sends a datagram every 10 ms.
     void run()
     {
+        desk_->begin();
         auto next_send = net::monotonic_now();
         std::size_t client = 0;
         auto& part = *port_.parts().front();
