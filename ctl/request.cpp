@@ -72,7 +72,7 @@ base::Result<void> add_profile(const std::string& file, nlohmann::ordered_json& 
     if (const auto document = base::parse_document(*text)) add_names(*document, names);
     request["profile"] = *std::move(text);
     request["file"] = is_input ? "(standard input)" : file;
-    // What a profile names lies beside it.
+    // Files that a profile names lie beside the profile.
     return add_files(names, is_input ? "" : std::filesystem::path{file}.parent_path(), request);
 }
 

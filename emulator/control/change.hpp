@@ -20,17 +20,18 @@
 
 namespace hapnet::emulator {
 
-/// What a profile of several paths is to each of them, made before they are told of it.
+/// The scripts that the paths of a run follow after `apply` of a profile: one for each path with
+/// settings of its own, and one that all others share.
 class Scripts {
 public:
     explicit Scripts(const Profile& profile);
 
-    /// Of those that have nothing of their own in it, it is the same.
+    /// The script of a path; paths without settings of their own share one.
     [[nodiscard]] const std::shared_ptr<const Script>& of(std::string_view path) const;
-    /// The paths that have.
+    /// The names of the paths with settings of their own.
     [[nodiscard]] const std::vector<std::string>& mentioned() const { return mentioned_; }
 
-    /// To follow it.
+    /// Tells each path to follow its script. The scripts outlive the command.
     [[nodiscard]] Paths::CommandFor command() const;
 
 private:
@@ -46,7 +47,7 @@ struct NextNumbers {
     std::uint64_t down = 0;
 };
 
-/// What a command has done.
+/// The outcome of a command.
 struct Effect {
     std::uint64_t generation = 0;
     bool has_changed = false;

@@ -37,7 +37,7 @@ private:
         std::uint64_t duplicated = 0;
         std::array<std::uint64_t, drop_causes.size()> dropped{};
     };
-    /// What was seen of one direction of a path.
+    /// The counters of one direction of a path at a look.
     struct Seen {
         Pulse pulse; // since the look before
         Counts counts;

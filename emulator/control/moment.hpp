@@ -13,14 +13,14 @@
 
 namespace hapnet::emulator {
 
-/// What decides for a path, as it was at a moment.
+/// A copy of the director of a path.
 struct Decider {
     std::string name;
-    bool is_there = false; // the path
+    bool is_there = false; // the path; false: it is still to come
     Director director;
 };
 
-/// What is known of all paths at a moment.
+/// Copies of all directors of a run, from one moment.
 struct Moment {
     std::vector<Decider> deciders; // see AllPaths::deciders()
     std::uint64_t generation = 0;
@@ -28,7 +28,7 @@ struct Moment {
     std::optional<base::TimePoint> next_change;
 };
 
-/// Looks by a step of the emulation's work.
+/// Copies them in one step of the emulation's work, after catching up with `now`.
 [[nodiscard]] Moment moment_of(Emulation& emulation, base::TimePoint now);
 
 } // namespace hapnet::emulator

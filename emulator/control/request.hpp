@@ -25,7 +25,7 @@ using SettingText = std::pair<std::string, std::string>;
 /// The texts of the files that a request names, as it brings them along; nullopt: it brings none,
 /// and names those of the emulator's folder.
 using SentFiles = std::optional<std::map<std::string, std::string>>;
-/// How long they may be together.
+/// The most bytes of all texts of one request together.
 inline constexpr std::size_t sent_bytes_max = std::size_t{1} << 20;
 
 /// A profile as it was sent, the name of a built-in one, or a sentence of tc-netem.
@@ -60,7 +60,7 @@ using control::WatchRequest;
 using Request = std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest,
                              StatsRequest, WaitRequest, WatchRequest, KeepRequest, StopRequest>;
 
-/// How many settings one request may make, and how many files it may bring.
+/// The most settings, and the most files, of one request.
 inline constexpr std::size_t settings_max = 64;
 inline constexpr std::size_t files_max = 64;
 /// A profile of 1 MiB and as much in files, both as JSON writes them.

@@ -55,7 +55,7 @@ void strip(Director::Override& one, const Patch& up, const Patch& down)
     strip(one.down, down);
 }
 
-/// Whether `patch` sets something that `later` sets, too.
+/// Whether both patches set the same setting.
 bool meets(const Patch& patch, const Patch& later)
 {
     bool does = false;
@@ -64,7 +64,7 @@ bool meets(const Patch& patch, const Patch& later)
     return does;
 }
 
-/// The same of one that others may share.
+/// Takes both patches out of an override that other directors may share: they keep theirs.
 void strip(std::shared_ptr<const Director::Override>& one, const Patch& up, const Patch& down)
 {
     if (!meets(one->up, up) && !meets(one->down, down)) return;

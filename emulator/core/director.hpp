@@ -75,7 +75,7 @@ public:
 
     /// The conditions that hold at the time of the last call.
     [[nodiscard]] const Path& path() const { return *path_; }
-    /// The same, for whoever goes on using them. Never null.
+    /// The same conditions, to be shared with the links. Never null.
     [[nodiscard]] const std::shared_ptr<const Path>& shared_path() const { return path_; }
 
     /// 1 at first, and one more whenever path() has changed or another profile was applied.
