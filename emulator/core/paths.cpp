@@ -123,17 +123,27 @@ void Paths::advance_all(base::TimePoint now)
 {
     const auto before = generations();
     Twins twins;
+    const auto is_due = [&](const Director& director) {
+        return base::is_due(director.next_change(), now) && director.now() <= now;
+    };
     for (const Named& one : paths_) {
         const Director& director = one.path->director();
-        const bool is_due = base::is_due(director.next_change(), now) && director.now() <= now;
-        if (is_due) {
+        if (is_due(director)) {
             one.path->follow(twins.advanced(director, now), now);
         } else {
             one.path->advance(now);
         }
     }
-    for (Absent& one : absent_) one.director.advance(now);
-    if (newcomers_) newcomers_->advance(now);
+    // Those that come later stay twins of those that are there.
+    const auto advance = [&](Director& director) {
+        if (is_due(director)) {
+            director = twins.advanced(director, now);
+        } else {
+            director.advance(now);
+        }
+    };
+    for (Absent& one : absent_) advance(one.director);
+    if (newcomers_) advance(*newcomers_);
     if (generations() != before) ++generation_;
     find_next_change();
 }
