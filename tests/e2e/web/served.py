@@ -80,7 +80,8 @@ class Live:
         while not kind & 0x80:
             kind, more = self.read_fragment()
             body += more
-        message = json.loads(body)
+        self.text = body.decode()  # of the newest message, as it came
+        message = json.loads(self.text)
         if message["type"] == "frame":
             self.send({"ack": message["n"]})
         return message
