@@ -62,6 +62,7 @@ WORDS = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r"/tmp/\w+", "PLACE"),
     (r"governor[= ](ramping|active|ready)", "governor STATE"),
     (r"(?m)^(valid|NOT VALID(\n  .*)*)$", "VALIDITY"),  # a peer that the machine kept waiting
+    (r"(?<=  received) +\d+/s", " #/s"),  # of a peer: as wide as its column
     (r"; NOT VALID as a measurement: .*", ""),
     (r"(?<=passed   read       )\d+ reports", "# reports"),
     (r"(?m)(?<=\d  )#*$", "BAR"),  # of a histogram
