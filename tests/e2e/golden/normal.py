@@ -23,7 +23,9 @@ DIFFERENT_MIN = 30
 
 # What names the build, the host or the wall time. The pattern is what stays, up to the value.
 MASKS = [(re.compile(pattern), replacement) for pattern, replacement in (
-    (r"\d+\.\d+\.\d+ \(commit [^)]*\)", "VERSION (commit COMMIT, COMPILER)"),
+    (r"\d+\.\d+\.\d+ \(commit [^)]*\)( [0-9a-f]{16})?", "VERSION (commit COMMIT, COMPILER)"),
+    (r'("key":"[^"]* )[0-9a-f]{16}"', r'\1BUILD"'),  # of a session: the build is part of the hash
+    (r'"sum":"[0-9a-f]+"', '"sum":"OF THE LINE"'),
     (r'("(?:version|commit|compiler|start|boot_id)": ?)"[^"]*"', r'\1"MASKED"'),
     (r'("(?:wall_time_s|processor_time_s|speed_ratio|started_unix_s)": ?)[\d.e+-]+', r"\g<1>0.0"),
     (r'(?<="host": )\{[^}]*\}', lambda found: re.sub(
