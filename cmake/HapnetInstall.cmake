@@ -19,7 +19,7 @@ add_library(hapnet_proto INTERFACE)
 target_link_libraries(hapnet_proto INTERFACE
     hapnet_record hapnet_wire hapnet_secure hapnet_net hapnet_disk hapnet_base)
 
-set(hapnet_archives hapnet_base hapnet_base_document hapnet_disk hapnet_wire hapnet_record
+set(hapnet_archives hapnet_base hapnet_base_texts hapnet_disk hapnet_wire hapnet_record
     hapnet_secure hapnet_net hapnet_scene hapnet_emulator_core hapnet_emulator_profiles
     hapnet_device hapnet_peer_core hapnet_peer_line hapnet_lab_core)
 foreach(library IN LISTS hapnet_archives ITEMS hapnet_proto hapnet_requirements)

@@ -39,7 +39,7 @@ get_property(programs GLOBAL PROPERTY HAPNET_PROGRAM_TARGETS)
 # Apart from the rest are toml++, which brings names of the standard library that ours would be
 # mistaken for, and hapnet-ctl, whose names are those of hapnet-emulator.
 set(shells hapnet_emulator_shell hapnet_lab_shell hapnet_peer_shell) # all but the programs' main()
-list(REMOVE_ITEM libraries hapnet_base hapnet_base_document hapnet_emulator_control ${shells})
+list(REMOVE_ITEM libraries hapnet_base hapnet_base_texts hapnet_emulator_control ${shells})
 list(REMOVE_ITEM programs hapnet-ctl)
 # The longest first, and two of about equal length, for two cores.
 set(emulator_and_lab ${libraries})
@@ -49,4 +49,4 @@ hapnet_tidy_unit(tidy_libraries ${libraries})
 hapnet_tidy_unit(tidy_emulator_and_lab ${emulator_and_lab})
 hapnet_tidy_unit(tidy_programs ${shells} ${programs})
 hapnet_tidy_unit(tidy_control hapnet_emulator_control hapnet-ctl)
-hapnet_tidy_unit(tidy_base hapnet_base hapnet_base_document)
+hapnet_tidy_unit(tidy_base hapnet_base hapnet_base_texts)

@@ -4,7 +4,7 @@
 
 #include "device/capabilities.hpp"
 #include "device/governor/energy.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"

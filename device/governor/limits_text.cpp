@@ -3,6 +3,7 @@
 #include "device/governor/limits_text.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/fields.hpp"
 
 #include <cmath>
 #include <spdlog/fmt/fmt.h>

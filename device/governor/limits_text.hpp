@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device/governor/limits.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/field_table.hpp"
 #include "proto/base/result.hpp"
 
 #include <span>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device/simulated/signal_history.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/probability.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/reading.hpp"

@@ -3,6 +3,7 @@
 #include "device/simulated/operator.hpp"
 
 #include "proto/base/built_in.hpp"
+#include "proto/base/fields.hpp"
 
 #include <span>
 #include <spdlog/fmt/fmt.h>

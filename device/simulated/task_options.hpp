@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
 
 #include <chrono>

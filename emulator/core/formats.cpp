@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/formats.hpp"
 
-#include "proto/base/fields.hpp"
+#include "proto/base/ramp.hpp"
 
 namespace hapnet::emulator {
 

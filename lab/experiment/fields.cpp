@@ -3,6 +3,7 @@
 #include "lab/experiment/fields.hpp"
 
 #include "peer/core/circle.hpp"
+#include "proto/base/fields.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/experiment/experiment.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 
 namespace hapnet::lab::experiment {
 

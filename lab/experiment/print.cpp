@@ -4,6 +4,7 @@
 #include "lab/experiment/fields.hpp"
 #include "lab/experiment/text.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/base/fields.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -23,29 +24,30 @@ std::string below_head(const std::string& name, const std::string& lines)
     return lines.empty() ? "" : fmt::format("\n[{}]\n{}", name, lines);
 }
 
-template <base::Described T>
-Written written(const T& value, const std::string& prefix = {})
+Written written(const base::FieldTable& fields, const void* value, const std::string& prefix = {})
 {
     Written text;
-    const auto add_table = [&](const std::string& name, const auto& part) {
-        const Written own = written(part, name + '.');
-        text.tables += below_head(name, own.lines) + own.tables;
-    };
-    base::for_each_field(
-        [&]<typename Member>(const auto& field, const Member& member) {
-            const std::string name = prefix + std::string{field.key};
-            if constexpr (base::Described<Member>) {
-                add_table(name, member);
-            } else if constexpr (requires {
-                                     requires base::Described<typename Member::value_type>;
-                                 }) {
-                if (member) add_table(name, *member);
-            } else if (const auto line = base::field_text(field, member)) {
-                text.lines += fmt::format("{} = {}\n", field.key, *line);
-            }
-        },
-        value);
+    for (const base::FieldRow& row : fields.rows) {
+        const base::ValueKind& plain = row.kind->plain();
+        const void* member = row.in(value);
+        const bool is_maybe = row.kind != &plain;
+        if (plain.shape != base::ValueKind::Shape::record) {
+            const auto line = base::field_text(row, value);
+            if (line) text.lines += fmt::format("{} = {}\n", row.key, *line);
+        } else if (!is_maybe || row.kind->size(member) > 0) {
+            const std::string name = prefix + std::string{row.key};
+            const Written own = written(
+                plain.table(), is_maybe ? row.kind->element_at(member, 0) : member, name + '.');
+            text.tables += below_head(name, own.lines) + own.tables;
+        }
+    }
     return text;
+}
+
+template <base::Described T>
+Written written(const T& value)
+{
+    return written(base::field_table<T>(), &value);
 }
 
 Written written_kind(const Kind& kind)

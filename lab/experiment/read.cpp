@@ -7,6 +7,7 @@
 #include "lab/experiment/text.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/built_in.hpp"
+#include "proto/base/fields.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>

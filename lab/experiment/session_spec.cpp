@@ -5,6 +5,7 @@
 #include "emulator/core/profile/text.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/ensure.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/text.hpp"
 #include "scene/text/text.hpp"
 

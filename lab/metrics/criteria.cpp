@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/criteria.hpp"
 
+#include "proto/base/fields.hpp"
+
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
@@ -22,20 +24,18 @@ std::string comment(std::string_view about)
 }
 
 /// A line for each field below a comment that describes it; tables follow with a head of their own.
-template <base::Described T>
-std::string commented_lines(const T& value)
+std::string commented_lines(const base::FieldTable& fields, const void* value)
 {
     std::string text;
-    base::for_each_field(
-        [&](const auto& field, const auto& member) {
-            using Member = std::remove_cvref_t<decltype(member)>;
-            if constexpr (base::Described<Member> && !std::is_same_v<Member, ByOrder>) {
-                text += fmt::format("\n[{}]\n{}", field.key, commented_lines(member));
-            } else if (const auto printed = base::field_text(field, member)) {
-                text += fmt::format("{}{} = {}\n", comment(field.about), field.key, *printed);
-            }
-        },
-        value);
+    for (const base::FieldRow& row : fields.rows) {
+        const bool is_table = row.kind->shape == base::ValueKind::Shape::record;
+        if (is_table && row.kind != &base::kind_of<ByOrder>()) {
+            text += fmt::format("\n[{}]\n{}", row.key,
+                                commented_lines(row.kind->table(), row.in(value)));
+        } else if (const auto printed = base::field_text(row, value)) {
+            text += fmt::format("{}{} = {}\n", comment(row.about), row.key, *printed);
+        }
+    }
     return text;
 }
 
@@ -79,7 +79,7 @@ std::string print_criteria(const Criteria& criteria)
     return "# When a session is usable, and when it is good. A convention that makes sessions\n"
            "# comparable, not a finding about people. docs/design/metrics.md defines each "
            "metric.\n\n" +
-           commented_lines(criteria);
+           commented_lines(base::field_table<Criteria>(), &criteria);
 }
 
 } // namespace hapnet::lab::metrics

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/metrics/high_pass.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/result.hpp"
 
 #include <array>

@@ -38,19 +38,6 @@ constexpr auto fields_of(base::Tag<WrittenMount>)
                         base::member("offset_m", &WrittenMount::offset_m));
 }
 
-/// A list of ids. In place: GCC 12 takes an optional vector for one that may not be initialized.
-struct WrittenIds {
-    base::InplaceVector<std::uint16_t, peer::circle_max> all;
-};
-
-bool read_json(const nlohmann::json& json, WrittenIds& ids)
-{
-    std::vector<std::uint16_t> all;
-    if (!base::read_json(json, all) || all.size() > peer::circle_max) return false;
-    for (const auto id : all) ids.all.push_back(id);
-    return true;
-}
-
 /// What of the configuration in a record's header the forces of the session depend on.
 struct WrittenConfig {
     std::uint16_t peer_id = 0;
@@ -62,7 +49,7 @@ struct WrittenConfig {
     double duration_s = 0.0;
     std::string task;
     std::optional<std::string> boot_id{};
-    std::optional<WrittenIds> peers{}; // the others; older ones have one
+    std::optional<std::vector<std::uint16_t>> peers{}; // the others; older ones have one
     std::optional<std::uint16_t> wait_for{};
     std::string scene_toml;
     std::string algorithm_toml;
@@ -108,7 +95,7 @@ std::string_view validate(const WrittenConfig& config)
     if (!(config.stiffness_max_n_per_m.value_or(0.0) >= 0.0)) {
         return "'stiffness_max_n_per_m' is negative";
     }
-    if (config.peers && !can_play(config.peers->all.all(), config.peer_id)) {
+    if (config.peers && !can_play(*config.peers, config.peer_id)) {
         return "'peers' are not up to seven others by their ids, ascending";
     }
     return config.mount.scale > 0.0 ? "" : "'mount': the scale is not positive";
@@ -142,7 +129,7 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     settings.introduction.id = written->peer_id;
     settings.introduction.nonce = written->nonce;
     if (written->peers) {
-        const auto others = written->peers->all.all();
+        const auto others = *written->peers;
         settings.roster.others.assign(others.begin(), others.end());
     }
     settings.roster.wait_for = written->wait_for.value_or(0);

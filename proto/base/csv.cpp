@@ -2,6 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "proto/base/csv.hpp"
 
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <variant>
+
 namespace hapnet::base {
 
 namespace {
@@ -63,6 +73,108 @@ tl::unexpected<Error> fail_at(const std::string& path, std::size_t line, const s
     return fail(fmt::format("{}:{}: {}", path, line, what));
 }
 
+using Shape = ValueKind::Shape;
+
+/// The text of a value, with so many decimals if any are named.
+std::string cell_text(const ValueKind& kind, const void* value, std::optional<int> decimals)
+{
+    if (kind.shape == Shape::maybe) {
+        if (kind.size(value) == 0) return "";
+        return cell_text(*kind.element, kind.element_at(value, 0), decimals);
+    }
+    ensure(kind.get != nullptr);
+    const Leaf leaf = kind.get(value);
+    if (const auto* number = std::get_if<double>(&leaf)) {
+        if (!std::isfinite(*number)) return "";
+        return decimals ? fmt::format("{:.{}f}", *number, *decimals) : fmt::format("{}", *number);
+    }
+    if (const auto* text = std::get_if<std::string>(&leaf)) return csv_quoted(*text);
+    return std::visit([](const auto& own) { return fmt::format("{}", own); }, leaf);
+}
+
+/// What a cell has to be when it is not: "a number".
+std::string expected_in_cell(const ValueKind& plain)
+{
+    switch (plain.shape) {
+    case Shape::choice: return fmt::format("one of {}", fmt::join(plain.names, ", "));
+    case Shape::flag: return "true or false";
+    case Shape::whole:
+    case Shape::number: return "a number";
+    default: return "a text";
+    }
+}
+
+template <typename T>
+std::optional<Leaf> number_in(std::string_view cell)
+{
+    T value{};
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
+    return Leaf{value};
+}
+
+/// nullopt: no value of that shape stands in the cell.
+std::optional<Leaf> leaf_in(std::string_view cell, Shape shape)
+{
+    switch (shape) {
+    case Shape::flag:
+        if (cell != "true" && cell != "false") return std::nullopt;
+        return Leaf{cell == "true"};
+    case Shape::whole:
+        return cell.starts_with('-') ? number_in<std::int64_t>(cell)
+                                     : number_in<std::uint64_t>(cell);
+    case Shape::number: {
+        const auto number = number_in<double>(cell);
+        if (number && !std::isfinite(std::get<double>(*number))) return std::nullopt;
+        return number;
+    }
+    default: return Leaf{std::string{cell}};
+    }
+}
+
+/// The rows that a table of these values has as columns.
+std::vector<const FieldRow*> columns_for(const FieldTable& fields,
+                                         std::span<const void* const> values)
+{
+    std::vector<const FieldRow*> columns;
+    for (const FieldRow& row : fields.rows) {
+        const auto fills = [&](const void* value) { return row.kind->size(row.in(value)) > 0; };
+        if (!row.is_spare || std::ranges::any_of(values, fills)) columns.push_back(&row);
+    }
+    return columns;
+}
+
+/// The texts that text(row) gives, with commas.
+template <typename TextOf>
+std::string with_commas(std::span<const FieldRow* const> columns, const TextOf& text)
+{
+    std::string line;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (i > 0) line += ',';
+        line += text(*columns[i]);
+    }
+    return line;
+}
+
+std::vector<const FieldRow*> all_columns(const FieldTable& fields)
+{
+    std::vector<const FieldRow*> columns;
+    for (const FieldRow& row : fields.rows) columns.push_back(&row);
+    return columns;
+}
+
+std::string header_of(std::span<const FieldRow* const> columns)
+{
+    return with_commas(columns, [](const FieldRow& row) { return row.key; });
+}
+
+std::string line_of(std::span<const FieldRow* const> columns, const void* value)
+{
+    return with_commas(columns, [&](const FieldRow& row) {
+        return cell_text(*row.kind, row.in(value), row.decimals);
+    });
+}
+
 } // namespace
 
 Result<CsvTable> parse_csv(std::string_view text, const std::string& path)
@@ -98,6 +210,64 @@ std::string csv_quoted(std::string_view cell)
         out += c;
     }
     return out + '"';
+}
+
+std::string cell_of(const ValueKind& kind, const void* value)
+{
+    return cell_text(kind, value, std::nullopt);
+}
+
+bool read_cell(const ValueKind& kind, std::string_view cell, void* value)
+{
+    if (kind.shape == Shape::maybe) {
+        if (!kind.remake(value, cell.empty() ? 0 : 1)) return false;
+        return cell.empty() || read_cell(*kind.element, cell, kind.at(value, 0));
+    }
+    ensure(kind.set != nullptr);
+    const auto leaf = leaf_in(cell, kind.shape);
+    return leaf && kind.set(value, *leaf);
+}
+
+std::string csv_header(const FieldTable& fields) { return header_of(all_columns(fields)); }
+
+std::string csv_line(const FieldTable& fields, const void* value)
+{
+    return line_of(all_columns(fields), value);
+}
+
+std::string csv_text(const FieldTable& fields, std::span<const void* const> values)
+{
+    const auto columns = columns_for(fields, values);
+    std::string text = header_of(columns) + '\n';
+    for (const void* value : values) text += line_of(columns, value) + '\n';
+    return text;
+}
+
+Result<void> read_csv(const FieldTable& fields, std::string_view text, const std::string& path,
+                      const std::function<void*()>& add)
+{
+    const auto table = parse_csv(text, path);
+    if (!table) return tl::unexpected{table.error()};
+    std::vector<std::pair<const FieldRow*, std::size_t>> columns; // and where they stand
+    for (const FieldRow& row : fields.rows) {
+        const auto found = std::ranges::find(table->columns, row.key);
+        if (found != table->columns.end()) {
+            columns.emplace_back(&row, static_cast<std::size_t>(found - table->columns.begin()));
+        } else if (!row.is_spare && !table->lines.empty()) {
+            return fail_at(path, 1, fmt::format("expected a column '{}'", row.key));
+        }
+    }
+    for (const CsvTable::Line& line : table->lines) {
+        void* const value = add();
+        for (const auto& [row, column] : columns) {
+            const std::string& cell = line.cells[column];
+            if (read_cell(*row->kind, cell, row->in(value))) continue;
+            return fail_at(path, line.number,
+                           fmt::format("{}: expected {}, found '{}'", row->key,
+                                       expected_in_cell(row->kind->plain()), cell));
+        }
+    }
+    return {};
 }
 
 } // namespace hapnet::base

@@ -23,6 +23,13 @@ concept Named = std::is_enum_v<Enum> && requires
     names_of(Tag<Enum>{});
 };
 
+/// A struct with a description of its fields (describe.hpp).
+template <typename T>
+concept Described = requires
+{
+    fields_of(Tag<T>{});
+};
+
 template <typename... Texts>
 [[nodiscard]] constexpr auto names(Texts... texts)
 {

@@ -240,8 +240,8 @@ std::string in_quotes(std::string_view text)
     return "'" + visible(doubled) + "'";
 }
 
-std::string value_text(Duration value) { return quoted(to_text(value)); }
-std::string value_text(Probability value) { return quoted(to_text(value)); }
+std::string value_text(Duration value) { return base::quoted(to_text(value)); }
+std::string value_text(Probability value) { return base::quoted(to_text(value)); }
 std::string value_text(double value)
 {
     // Of a whole number TOML would forget the sign of zero.
@@ -249,7 +249,7 @@ std::string value_text(double value)
 }
 std::string value_text(std::uint8_t value) { return fmt::format("{}", value); }
 std::string value_text(std::uint32_t value) { return fmt::format("{}", value); }
-std::string value_text(const std::string& value) { return quoted(value); }
+std::string value_text(const std::string& value) { return base::quoted(value); }
 
 std::string list_text(const std::vector<std::string>& elements)
 {

@@ -3,6 +3,7 @@
 #include "scene/text/text.hpp"
 
 #include "proto/base/built_in.hpp"
+#include "proto/base/fields.hpp"
 #include "scene/text/fields.hpp"
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 #include "lab/experiment/fields.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/record/field_types.hpp"
 #include "proto/record/fields.hpp"
 #include "scene/text/fields.hpp"

@@ -4,7 +4,7 @@
 
 #include "emulator/core/fate.hpp"
 #include "emulator/core/packet.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 

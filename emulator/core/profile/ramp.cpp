@@ -3,7 +3,7 @@
 #include "emulator/core/profile/ramp.hpp"
 
 #include "proto/base/ensure.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/ramp.hpp"
 
 #include <algorithm>
 #include <cmath>

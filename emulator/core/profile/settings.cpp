@@ -28,8 +28,7 @@ Stage read_stage(const Node& node, Reading& reading)
     if (std::holds_alternative<Node::Table>(node.value)) {
         base::read_table(node, stage, reading);
     } else {
-        constexpr auto first = std::get<0>(base::description<Stage>.members);
-        base::read_field(first, node, stage.*first.member, reading);
+        base::read_field(base::field_table<Stage>().rows.front(), node, &stage, reading);
     }
     if (const auto valid = validate(stage); !valid) {
         reading.complain(node.place, valid.error().message);
@@ -54,13 +53,10 @@ Rate read_rate(const Node& node, Reading& reading)
                                                  base::in_quotes(name), known));
     }
     base::read_fields(table, rate.trace.emplace());
-    base::for_each_field(
-        [&](const auto& field, auto& member) {
-            if (field.key == limit_key) return;
-            const Node* value = table.find(field.key);
-            if (value != nullptr) base::read_field(field, *value, member, reading);
-        },
-        rate);
+    for (const base::FieldRow& row : base::field_table<Rate>().rows) {
+        const Node* value = row.key == limit_key ? nullptr : table.find(row.key);
+        if (value != nullptr) base::read_field(row, *value, &rate, reading);
+    }
     table.finish();
     const auto loaded = reading.is_good() ? rate.trace->load(reading) : base::Result<void>{};
     if (!loaded) reading.complain(node.place, loaded.error().message);
@@ -76,7 +72,7 @@ std::string stage_text(const Stage& stage)
     constexpr auto first = std::get<0>(base::description<Stage>.members);
     Stage as_short;
     as_short.*first.member = stage.*first.member;
-    return stage == as_short ? *base::field_text(first, stage.*first.member)
+    return stage == as_short ? *base::field_text(base::field_table<Stage>().rows.front(), &stage)
                              : table_text(base::field_texts(stage, base::Print::needed));
 }
 

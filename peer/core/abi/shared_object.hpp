@@ -4,7 +4,7 @@
 
 #include "peer/core/abi/algorithm.h"
 #include "peer/core/sync/situation.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/result.hpp"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "peer/core/remote.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
 
 #include <chrono>

@@ -7,7 +7,7 @@
 #include "peer/core/sync/base_options.hpp"
 #include "peer/core/sync/recent_age.hpp"
 #include "peer/core/sync/situation.hpp"
-#include "proto/base/fields.hpp"
+#include "proto/base/describe.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include "peer/core/sync/text.hpp"
 
 #include "proto/base/built_in.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/text.hpp"
 
 #include <span>
@@ -22,33 +23,29 @@ template <typename One>
 using OptionsOf = std::remove_cvref_t<decltype(std::declval<One>().options())>;
 
 /// The words besides a number that a field takes, for a person: "; drop | take".
-template <typename Field, typename Value>
-std::string choices(const Field& field, const Value& /*value*/)
+std::string choices(const base::FieldRow& row)
 {
     std::vector<std::string_view> words;
-    if constexpr (base::Named<Value>) {
-        words.assign(base::names_of_enum<Value>.begin(), base::names_of_enum<Value>.end());
-    } else if constexpr (std::is_same_v<Value, Horizon>) {
+    if (row.kind->shape == base::ValueKind::Shape::choice) {
+        words.assign(row.kind->names.begin(), row.kind->names.end());
+    } else if (row.kind == &base::kind_of<Horizon>()) {
         words.assign(horizon_names.begin(), horizon_names.end());
-    } else if (!field.absent.empty()) {
-        words = {field.absent, "a time"};
+    } else if (!row.absent.empty()) {
+        words = {row.absent, "a time"};
     }
     return words.empty() ? "" : fmt::format("; {}", fmt::join(words, " | "));
 }
 
 /// A line for every parameter, with a few words about it.
-template <typename Options>
+template <base::Described Options>
 std::string explained(const Options& options)
 {
     std::string text;
-    base::for_each_field(
-        [&](const auto& field, const auto& value) {
-            // A parameter always has a text: an absent one has a word for it.
-            const std::string line =
-                fmt::format("{} = {}", field.key, *base::field_text(field, value));
-            text += fmt::format("{:<42} # {}{}\n", line, field.about, choices(field, value));
-        },
-        options);
+    for (const base::FieldRow& row : base::field_table<Options>().rows) {
+        // A parameter always has a text: an absent one has a word for it.
+        const std::string line = fmt::format("{} = {}", row.key, *base::field_text(row, &options));
+        text += fmt::format("{:<42} # {}{}\n", line, row.about, choices(row));
+    }
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include "proto/base/csv.hpp"
 #include "proto/base/fields_json.hpp"
 
+#include <array>
 #include <chrono>
 #include <gtest/gtest.h>
 
@@ -75,6 +76,21 @@ constexpr auto fields_of(Tag<Finish>)
                   field("time_s", &Finish::time_s, Decimals{2}), field("best_s", &Finish::best_s),
                   field("gait", &Finish::gait), field("valid", &Finish::valid),
                   field("laps", &Finish::laps));
+}
+
+/// A whole number of one byte, a list that may be missing, a list of fixed length, a struct.
+struct Lane {
+    std::uint8_t laps = 0;
+    std::optional<std::vector<double>> strides{};
+    std::array<int, 2> offset{};
+    Saddle rider{};
+
+    friend bool operator==(const Lane&, const Lane&) = default;
+};
+constexpr auto fields_of(Tag<Lane>)
+{
+    return fields("lane", member("laps", &Lane::laps), member("strides", &Lane::strides),
+                  member("offset", &Lane::offset), member("rider", &Lane::rider));
 }
 
 namespace {
@@ -181,6 +197,28 @@ TEST(Fields, AreTheObjectOfJson)
     EXPECT_EQ(json_of(std::numeric_limits<double>::quiet_NaN()).dump(), "null");
 }
 
+TEST(Fields, AreReadFromJsonOnlyWhereTheirTypesHaveTheValue)
+{
+    const auto read = [](const std::string& laps, const std::string& strides) {
+        Lane lane;
+        const auto json = nlohmann::json::parse(R"({"laps":)" + laps + R"(,"strides":)" + strides +
+                                                R"(,"offset":[-1,2],"rider":{"straps":3}})");
+        return read_json(json, lane) ? std::optional{lane} : std::nullopt;
+    };
+    const auto lane = read("255", "[1, 2.5]");
+    ASSERT_TRUE(lane);
+    EXPECT_EQ(*lane, (Lane{255, {{1.0, 2.5}}, {-1, 2}, {3}}));
+    EXPECT_EQ(json_of(*lane).dump(),
+              R"({"laps":255,"strides":[1.0,2.5],"offset":[-1,2],"rider":{"straps":3}})");
+    EXPECT_FALSE(read("256", "[]"));
+    EXPECT_FALSE(read("-1", "[]"));
+    EXPECT_FALSE(read("1.0", "[]"));
+    EXPECT_FALSE(read("1", R"(["x"])"));
+    EXPECT_FALSE(read("1", "5"));
+    EXPECT_FALSE(read("true", "[]"));
+    EXPECT_EQ(read("1", "null"), (Lane{1, std::nullopt, {-1, 2}, {3}}));
+}
+
 TEST(Fields, AreTheColumnsOfATable)
 {
     const std::vector<Finish> results{{"a,b", 2.005, 0.5, Gait::walk, true, 1},
@@ -202,14 +240,17 @@ TEST(Fields, ATableWithoutAColumnOrWithAWrongCellIsRefusedByLine)
                   .error()
                   .message,
               "r.csv:2: gait: expected one of walk, trot, gallop, found 'hop'");
-}
-
-TEST(Fields, HaveSomethingBetweenTwoValuesWhereAllHave)
-{
-    EXPECT_EQ(between(Rider{60.0, 100ms}, Rider{80.0, 200ms}, 0.25), (Rider{65.0, 125ms}));
-    EXPECT_EQ(between(Rider{60.0, 100ms}, Rider{80.0, std::nullopt}, 0.25), std::nullopt);
-    EXPECT_EQ(between(Saddle{1}, Saddle{4}, 0.5)->straps, 3U); // 2.5 rounds away from zero
-    EXPECT_EQ(between(Gait::walk, Gait::trot, 0.5), std::nullopt);
+    for (const std::string laps : {"-1", "1.5", "4294967296", "", "x"}) {
+        EXPECT_EQ(read_csv<Finish>(
+                      "horse,time_s,best_s,gait,valid,laps\nx,1,,trot,true," + laps + "\n", "r.csv")
+                      .error()
+                      .message,
+                  "r.csv:2: laps: expected a number, found '" + laps + "'");
+    }
+    EXPECT_EQ(read_csv<Finish>("horse,time_s,best_s,gait,valid,laps\nx,inf,,trot,true,1\n", "r.csv")
+                  .error()
+                  .message,
+              "r.csv:2: time_s: expected a number, found 'inf'");
 }
 
 } // namespace

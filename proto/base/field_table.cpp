@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/field_table.hpp"
+
+#include "proto/base/ensure.hpp"
+#include "proto/base/text.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <tuple>
+#include <utility>
+
+namespace hapnet::base {
+
+namespace {
+
+/// What to write into a field that is missing: `write sd = "10ms"`, or the names to choose from.
+std::string cure_of_missing(const FieldRow& row)
+{
+    const ValueKind& plain = row.kind->plain();
+    if (plain.shape == ValueKind::Shape::choice) {
+        return fmt::format("use one of {}", fmt::join(plain.names, ", "));
+    }
+    const std::string example = row.written->example(row.format);
+    if (!example.empty()) return fmt::format("write {} = {}", row.key, example);
+    return fmt::format("expected {}", row.written->describe(row.format));
+}
+
+/// The rows of a struct in the struct, whose defaults are those in `usual`.
+void add_key_rows(std::vector<KeyRow>& rows, const FieldTable& fields, const void* usual,
+                  const std::string& prefix)
+{
+    for (const FieldRow& row : fields.rows) {
+        const std::string key = prefix + std::string{row.key};
+        const ValueKind& plain = row.kind->plain();
+        if (plain.shape == ValueKind::Shape::record) {
+            const FieldTable& inner = plain.table();
+            const bool is_maybe = row.kind != &plain;
+            const auto first = rows.size();
+            add_key_rows(rows, inner, is_maybe ? inner.defaults : row.in(usual), key + '.');
+            auto about = row.about;
+            if (about.ends_with('.')) about.remove_suffix(1);
+            for (auto i = first; i < rows.size() && !about.empty(); ++i) {
+                rows[i].about = fmt::format("{}: {}", about, rows[i].about);
+            }
+            continue;
+        }
+        // What is printed where another member is set has no default there.
+        const bool has_default = !row.is_required && !row.printed_if;
+        std::string by_default{row.is_required ? KeyRow::required : ""};
+        if (has_default) by_default = field_text(row, usual).value_or("");
+        rows.push_back({key, allowed(row), by_default, std::string{row.about}});
+    }
+}
+
+/// One line, whose bars do not end a cell.
+std::string cell(std::string_view text)
+{
+    std::string line;
+    for (const char c : text) {
+        if (c == '|') line += '\\';
+        line += c == '\n' ? ' ' : c;
+    }
+    return line;
+}
+
+} // namespace
+
+const void* FieldRow::in(const void* owner) const
+{
+    return static_cast<const std::byte*>(owner) + offset;
+}
+
+void* FieldRow::in(void* owner) const { return static_cast<std::byte*>(owner) + offset; }
+
+std::string allowed(const FieldRow& row)
+{
+    ensure(row.written != nullptr);
+    std::string text;
+    const ValueKind& plain = row.kind->plain();
+    if (plain.shape == ValueKind::Shape::choice) {
+        for (const std::string_view name : plain.names) {
+            text += fmt::format("{}`{}`", text.empty() ? "" : ", ", quoted(name));
+        }
+    } else {
+        text = row.written->describe(row.format);
+    }
+    if (!row.absent.empty()) text += fmt::format(", or `{}`", quoted(row.absent));
+    return text;
+}
+
+void read_field(const FieldRow& row, const Node& node, void* owner, Reading& reading)
+{
+    ensure(row.written != nullptr);
+    void* const member = row.in(owner);
+    const ValueKind& kind = *row.kind;
+    if (kind.shape != ValueKind::Shape::maybe) {
+        return row.written->read(row.format, node, member, reading);
+    }
+    const auto* word = std::get_if<std::string>(&node.value);
+    if (!row.absent.empty() && word != nullptr && *word == row.absent) {
+        std::ignore = kind.remake(member, 0);
+        return;
+    }
+    const bool is_new = kind.size(member) == 0;
+    if (is_new) std::ignore = kind.remake(member, 1);
+    row.written->read(row.format, node, kind.at(member, 0), reading);
+    if (is_new && !reading.is_good()) std::ignore = kind.remake(member, 0);
+}
+
+std::optional<std::string> field_text(const FieldRow& row, const void* owner)
+{
+    ensure(row.written != nullptr);
+    const void* member = row.in(owner);
+    if (row.kind->shape == ValueKind::Shape::maybe) {
+        if (row.kind->size(member) == 0) {
+            return row.absent.empty() ? std::nullopt : std::optional{quoted(row.absent)};
+        }
+        member = row.kind->element_at(member, 0);
+    }
+    return row.written->print(row.format, member);
+}
+
+void read_fields(const FieldTable& fields, TableReader& table, void* target)
+{
+    for (const FieldRow& row : fields.rows) {
+        const Node* node = table.find(row.key);
+        if (node == nullptr && row.is_required) {
+            std::ignore = table.require(row.key, cure_of_missing(row));
+        }
+        if (node != nullptr) read_field(row, *node, target, table.reading());
+    }
+}
+
+void read_table(const FieldTable& fields, const Node& node, void* target, Reading& reading)
+{
+    const auto* entries = std::get_if<Node::Table>(&node.value);
+    if (entries == nullptr) return complain_of(node, "a table", reading);
+    TableReader table{*entries, node.place, reading};
+    read_fields(fields, table, target);
+    table.finish();
+}
+
+std::vector<std::string> field_texts(const FieldTable& fields, const void* value, Print print)
+{
+    std::vector<std::string> texts;
+    for (const FieldRow& row : fields.rows) {
+        const auto text = field_text(row, value);
+        bool is_printed = print == Print::all || row.is_always_printed;
+        if (row.printed_if) {
+            is_printed |= *static_cast<const bool*>(
+                static_cast<const void*>(static_cast<const std::byte*>(value) + *row.printed_if));
+        }
+        if (text && (is_printed || text != field_text(row, fields.defaults))) {
+            texts.push_back(fmt::format("{} = {}", row.key, *text));
+        }
+    }
+    return texts;
+}
+
+std::string field_lines(const FieldTable& fields, const void* value, const std::string& prefix)
+{
+    std::string lines;
+    for (const FieldRow& row : fields.rows) {
+        const std::string key = prefix + std::string{row.key};
+        if (row.kind->shape == ValueKind::Shape::record) {
+            lines += field_lines(row.kind->table(), row.in(value), key + '.');
+        } else if (const auto text = field_text(row, value)) {
+            lines += key + " = " + *text + '\n';
+        }
+    }
+    return lines;
+}
+
+std::vector<KeyRow> key_rows(const FieldTable& fields, const std::string& prefix,
+                             const void* defaults)
+{
+    std::vector<KeyRow> rows;
+    add_key_rows(rows, fields, defaults, prefix);
+    return rows;
+}
+
+std::string markdown(const std::vector<KeyRow>& rows)
+{
+    std::string text = "| key | value | default | meaning |\n|---|---|---|---|\n";
+    for (const KeyRow& row : rows) {
+        const bool is_value = !row.by_default.empty() && row.by_default != KeyRow::required;
+        const std::string usual = is_value ? fmt::format("`{}`", row.by_default) : row.by_default;
+        text += fmt::format("| `{}` | {} | {} | {} |\n", row.key, cell(row.values), cell(usual),
+                            cell(row.about));
+    }
+    return text;
+}
+
+std::size_t detail::offset_in(const void* whole, const void* part)
+{
+    return static_cast<std::size_t>(static_cast<const std::byte*>(part) -
+                                    static_cast<const std::byte*>(whole));
+}
+
+} // namespace hapnet::base

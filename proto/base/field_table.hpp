@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/reading.hpp"
+#include "proto/base/value_kind.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::base {
+
+// What the fields of a struct are, as data. Code that reads and prints structs takes such a table
+// and a pointer to the struct, and knows no types. fields.hpp makes the tables from descriptions,
+// and has the same functions for a struct whose type is known.
+
+/// How texts of values of one type are read and printed in one format: the functions of a format
+/// (formats.hpp), given the format and a value without their types.
+struct WrittenAs {
+    void (*read)(const void* format, const Node& node, void* value, Reading& reading);
+    std::string (*print)(const void* format, const void* value);
+    std::string (*describe)(const void* format);
+    std::string (*example)(const void* format); // empty: the format has none
+};
+
+/// A member of a struct, as fields.hpp describes it.
+struct FieldRow {
+    std::string_view key;
+    std::string_view about;
+    std::string_view absent;
+    std::size_t offset = 0; // from the struct's first byte
+    const ValueKind* kind = nullptr;
+    const void* format = nullptr;
+    const WrittenAs* written = nullptr;      // nullptr: no text has it
+    std::optional<int> decimals{};           // in a cell of CSV; nullopt: as many as it takes
+    std::optional<std::size_t> printed_if{}; // where the bool is that says so
+    bool is_required = false;
+    bool is_always_printed = false;
+    bool is_spare = false;
+
+    [[nodiscard]] const void* in(const void* owner) const;
+    [[nodiscard]] void* in(void* owner) const;
+};
+
+struct FieldTable {
+    std::string_view name;          // of the struct where a text names it: the law of a loss
+    const void* defaults = nullptr; // a struct with them
+    std::vector<FieldRow> rows;
+};
+
+/// What may be written into a field, for people: "a time from 0ms to 10s".
+[[nodiscard]] std::string allowed(const FieldRow& row);
+
+/// One member from its value in a text.
+void read_field(const FieldRow& row, const Node& node, void* owner, Reading& reading);
+/// Its value as TOML; nullopt: an optional without a value.
+[[nodiscard]] std::optional<std::string> field_text(const FieldRow& row, const void* owner);
+
+void read_fields(const FieldTable& fields, TableReader& table, void* target);
+void read_table(const FieldTable& fields, const Node& node, void* target, Reading& reading);
+
+/// Which fields are printed: all, or those that are required or differ from the default.
+enum class Print { all, needed };
+
+[[nodiscard]] std::vector<std::string> field_texts(const FieldTable& fields, const void* value,
+                                                   Print print);
+[[nodiscard]] std::string field_lines(const FieldTable& fields, const void* value,
+                                      const std::string& prefix = {});
+
+/// A row of a table of keys, as people read it.
+struct KeyRow {
+    std::string key;
+    std::string values;     // what may be written: "a time from 0ms to 10s"
+    std::string by_default; // as it is written, or "required"; empty: there is none
+    std::string about;
+
+    static constexpr std::string_view required = "required";
+};
+
+/// `defaults`: a struct that has them.
+[[nodiscard]] std::vector<KeyRow> key_rows(const FieldTable& fields, const std::string& prefix,
+                                           const void* defaults);
+
+/// Rows as a table of Markdown, as it stands in the docs.
+[[nodiscard]] std::string markdown(const std::vector<KeyRow>& rows);
+
+namespace detail {
+
+[[nodiscard]] std::size_t offset_in(const void* whole, const void* part);
+
+} // namespace detail
+
+} // namespace hapnet::base

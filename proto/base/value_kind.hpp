@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/names.hpp"
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace hapnet::base {
+
+struct FieldTable;
+
+/// The table of a described struct (field_table.hpp).
+template <Described T>
+[[nodiscard]] const FieldTable& field_table();
+
+/// A value without parts, as JSON and cells of CSV know it.
+using Leaf = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
+
+/// What code that does not know a type can do with its values. `void` pointers are to values of
+/// that type. One constant for each type, however many fields are of it.
+struct ValueKind {
+    enum class Shape : std::uint8_t {
+        opaque, // only a format of its own reads and prints it
+        flag,
+        whole, // a whole number
+        number,
+        text,
+        choice, // one of `names`
+        maybe,  // a list of one element at most
+        list,
+        record // a described struct
+    };
+
+    Shape shape = Shape::opaque;
+    bool is_signed = false; // a whole number that may be negative
+    std::span<const std::string_view> names{};
+
+    // flag, whole, number, text and choice
+    Leaf (*get)(const void* value) = nullptr;
+    /// False, and the value stays, where the leaf is of another kind or out of range.
+    bool (*set)(void* value, const Leaf& leaf) = nullptr;
+
+    // maybe and list
+    const ValueKind* element = nullptr;
+    std::size_t (*size)(const void* value) = nullptr;
+    /// So many elements, all new; false where the list cannot have so many.
+    bool (*remake)(void* value, std::size_t count) = nullptr;
+    void* (*at)(void* value, std::size_t index) = nullptr;
+
+    // record
+    const FieldTable& (*table)() = nullptr;
+
+    /// An element that is not to be changed.
+    [[nodiscard]] const void* element_at(const void* value, std::size_t index) const
+    {
+        return at(const_cast<void*>(value), index); // NOLINT(*-const-cast): it is only looked up
+    }
+    /// Of the value itself, or of the one that it may hold.
+    [[nodiscard]] const ValueKind& plain() const
+    {
+        return shape == Shape::maybe ? *element : *this;
+    }
+};
+
+namespace detail {
+
+/// A whole number from a leaf; nullopt: none of this type.
+template <std::integral T>
+[[nodiscard]] std::optional<T> whole_from(const Leaf& leaf)
+{
+    const auto within = [](auto number) {
+        return std::in_range<T>(number) ? std::optional{static_cast<T>(number)} : std::nullopt;
+    };
+    if (const auto* number = std::get_if<std::uint64_t>(&leaf)) return within(*number);
+    if (const auto* number = std::get_if<std::int64_t>(&leaf)) return within(*number);
+    return std::nullopt;
+}
+
+[[nodiscard]] std::optional<double> number_from(const Leaf& leaf);
+/// Its place among the names; nullopt: it is none of them.
+[[nodiscard]] std::optional<std::size_t> choice_from(const Leaf& leaf,
+                                                     std::span<const std::string_view> names);
+
+/// Value kinds by type; the primary one knows nothing about the values.
+template <typename T>
+struct Kind {
+    static constexpr ValueKind kind{};
+};
+
+/// What a leaf gives for a T.
+template <typename T>
+[[nodiscard]] std::optional<T> value_from(const Leaf& leaf)
+{
+    if constexpr (Named<T>) {
+        const auto index = choice_from(leaf, names_of_enum<T>);
+        return index ? std::optional{static_cast<T>(*index)} : std::nullopt;
+    } else if constexpr (std::is_same_v<T, double>) {
+        return number_from(leaf);
+    } else if constexpr (std::integral<T> && !std::is_same_v<T, bool>) {
+        return whole_from<T>(leaf);
+    } else {
+        const auto* value = std::get_if<T>(&leaf);
+        return value != nullptr ? std::optional{*value} : std::nullopt;
+    }
+}
+
+template <typename T>
+[[nodiscard]] Leaf get_leaf(const void* value)
+{
+    const T& own = *static_cast<const T*>(value);
+    if constexpr (Named<T>) {
+        return std::string{name_of(own)};
+    } else if constexpr (std::signed_integral<T>) {
+        return std::int64_t{own};
+    } else if constexpr (std::unsigned_integral<T> && !std::is_same_v<T, bool>) {
+        return std::uint64_t{own};
+    } else {
+        return own;
+    }
+}
+
+template <typename T>
+bool set_leaf(void* value, const Leaf& leaf)
+{
+    auto read = value_from<T>(leaf);
+    if (read) *static_cast<T*>(value) = *std::move(read);
+    return read.has_value();
+}
+
+template <typename T>
+[[nodiscard]] constexpr ValueKind leaf_kind(ValueKind::Shape shape)
+{
+    return {.shape = shape,
+            .is_signed = std::signed_integral<T>,
+            .get = get_leaf<T>,
+            .set = set_leaf<T>};
+}
+
+template <>
+struct Kind<bool> {
+    static constexpr ValueKind kind = leaf_kind<bool>(ValueKind::Shape::flag);
+};
+template <std::integral T>
+struct Kind<T> {
+    static constexpr ValueKind kind = leaf_kind<T>(ValueKind::Shape::whole);
+};
+template <>
+struct Kind<double> {
+    static constexpr ValueKind kind = leaf_kind<double>(ValueKind::Shape::number);
+};
+template <>
+struct Kind<std::string> {
+    static constexpr ValueKind kind = leaf_kind<std::string>(ValueKind::Shape::text);
+};
+
+template <Named Enum>
+struct Kind<Enum> {
+    static constexpr ValueKind kind{.shape = ValueKind::Shape::choice,
+                                    .names = names_of_enum<Enum>,
+                                    .get = get_leaf<Enum>,
+                                    .set = set_leaf<Enum>};
+};
+
+template <Described T>
+struct Kind<T> {
+    static constexpr ValueKind kind{.shape = ValueKind::Shape::record, .table = field_table<T>};
+};
+
+template <typename T>
+struct Kind<std::optional<T>> {
+    using Maybe = std::optional<T>;
+    static constexpr ValueKind kind{
+        .shape = ValueKind::Shape::maybe,
+        .element = &Kind<T>::kind,
+        .size =
+            [](const void* value) {
+                return std::size_t{static_cast<const Maybe*>(value)->has_value() ? 1U : 0U};
+            },
+        .remake =
+            [](void* value, std::size_t count) {
+                static_cast<Maybe*>(value)->reset();
+                if (count == 1) static_cast<Maybe*>(value)->emplace();
+                return count <= 1;
+            },
+        .at = [](void* value, std::size_t) -> void* { return &**static_cast<Maybe*>(value); }};
+};
+
+/// Of a container whose elements have addresses.
+template <typename List>
+[[nodiscard]] constexpr ValueKind list_kind(bool (*remake)(void* value, std::size_t count))
+{
+    return {.shape = ValueKind::Shape::list,
+            .element = &Kind<typename List::value_type>::kind,
+            .size = [](const void* value) { return static_cast<const List*>(value)->size(); },
+            .remake = remake,
+            .at = [](void* value, std::size_t index) -> void* {
+                return &(*static_cast<List*>(value))[index];
+            }};
+}
+
+template <typename T>
+requires(!std::is_same_v<T, bool>) // vector<bool> has no elements with addresses
+    struct Kind<std::vector<T>> {
+    static constexpr ValueKind kind = list_kind<std::vector<T>>([](void* value, std::size_t count) {
+        auto& own = *static_cast<std::vector<T>*>(value);
+        own.clear();
+        own.resize(count);
+        return true;
+    });
+};
+
+template <typename T, std::size_t size>
+struct Kind<std::array<T, size>> {
+    static constexpr ValueKind kind = list_kind<std::array<T, size>>(
+        [](void* /*value*/, std::size_t count) { return count == size; });
+};
+
+} // namespace detail
+
+/// The kind of T's values.
+template <typename T>
+[[nodiscard]] constexpr const ValueKind& kind_of()
+{
+    return detail::Kind<T>::kind;
+}
+
+} // namespace hapnet::base
