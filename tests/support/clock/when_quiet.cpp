@@ -77,7 +77,7 @@ public:
 
 private:
     static constexpr std::int64_t longest_max = 10 * ms;
-    static constexpr double late_max = 0.01; // later than 1 ms: the p99 of a valid run
+    static constexpr double late_max = 0.005; // of the ticks, missed by a whole one or more
     /// One that sleeps most of the time is woken soon, also where others are not: this looks at
     /// all.
     static constexpr double waited_max = 0.5;
