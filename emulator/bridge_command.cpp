@@ -55,7 +55,7 @@ base::Result<int> relay_frames(const BridgeOptions& options, const Scenario& sce
     if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
     net::print_now(fmt::format("ready a={} b={} seed={} timing={}\n", options.a, options.b,
-                               scenario.seed.value(), to_text(options.run.timing)));
+                               scenario.seed.value(), base::name_of(options.run.timing)));
     const std::array descriptors{stop.descriptor()};
     auto now = net::monotonic_now();
     while (!stop.requested() && !session.is_stopped() && !session.failure() &&

@@ -6,6 +6,7 @@
 #include "emulator/core/path_name.hpp"
 #include "emulator/paths_options.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/schemas.hpp"
 #include "emulator/spacing.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
@@ -534,16 +535,6 @@ private:
 
 } // namespace
 
-std::string_view to_text(Timing timing)
-{
-    switch (timing) {
-    case Timing::eco: return "eco";
-    case Timing::precise: return "precise";
-    case Timing::spin: return "spin";
-    }
-    return {};
-}
-
 net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
 {
     TypedCommands typed;
@@ -576,8 +567,10 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     ProbeOptions probing;
     const cli::Command& probe = add_probe(program, probing);
     FrameCommands frames{program};
+    const cli::SchemaCommand schema{program, {written_schemas().begin(), written_schemas().end()}};
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (schema.is_chosen()) return net::Answer{schema.text()};
     if (learn.is_chosen()) return AnyOptions{std::move(learning)};
     if (report.is_chosen()) return AnyOptions{std::move(reporting)};
     if (is_list) return net::Answer{preset_list('\n')};

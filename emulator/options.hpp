@@ -9,6 +9,7 @@
 #include "emulator/tools/predict.hpp"
 #include "emulator/typed_link.hpp"
 #include "proto/base/condition.hpp"
+#include "proto/base/names.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 #include "proto/cli/keep_options.hpp"
@@ -30,7 +31,7 @@ namespace hapnet::emulator {
 
 /// How much processor time may be spent on leaving on time.
 enum class Timing : std::uint8_t { eco, precise, spin };
-[[nodiscard]] std::string_view to_text(Timing timing);
+constexpr auto names_of(base::Tag<Timing>) { return base::names("eco", "precise", "spin"); }
 
 /// A setting of the conditions as it was typed: "up.delay", "300ms".
 struct TypedSetting {

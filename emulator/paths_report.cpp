@@ -138,14 +138,14 @@ std::string ready_line(const LinksRun& run)
                              relay->b().local.to_text());
     }
     return fmt::format("ready {}seed={} timing={}\n", links, run.scenario.seed.value(),
-                       to_text(run.options.timing));
+                       base::name_of(run.options.timing));
 }
 
 std::string ready_line(const UpstreamRun& run)
 {
     return fmt::format("ready listen={} upstream={} seed={} timing={}\n",
                        run.port.local().to_text(), run.port.server().to_text(),
-                       run.scenario.seed.value(), to_text(run.options.timing));
+                       run.scenario.seed.value(), base::name_of(run.options.timing));
 }
 
 nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)

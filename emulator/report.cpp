@@ -115,7 +115,7 @@ nlohmann::ordered_json head_of(const AnyRun& run, const RunState& state)
             {"commit", base::commit()},
             {"compiler", base::compiler()},
             {"seed", run.scenario.seed.value()},
-            {"timing", to_text(run.options.timing)},
+            {"timing", base::name_of(run.options.timing)},
             {"budget_us", json_in_us(run.options.budget)},
             {"duration_s", base::to_seconds(state.elapsed)},
             {"real_time",
@@ -171,7 +171,7 @@ std::string ready_line(const Run& run)
     return fmt::format("ready a={} b={} seed={} timing={}\n",
                        relay_of(run).a().socket.local().to_text(),
                        relay_of(run).b().socket.local().to_text(), run.scenario.seed.value(),
-                       to_text(run.options.timing));
+                       base::name_of(run.options.timing));
 }
 
 nlohmann::ordered_json statistics_of(const Run& run, const RunState& state)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/options.hpp"
 
+#include "lab/cli/schemas.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/fields.hpp"
 #include "lab/experiment/text.hpp"
@@ -455,15 +456,12 @@ void describe_program(cli::Command& program)
     program.require_command();
 }
 
-base::Result<void> check(const ReplayCommand& replay, const CompareCommand& compare)
+/// That the options of these do not contradict each other. `command`: that of `exported`.
+base::Result<void> check(const ReplayCommand& replay, const CompareCommand& compare,
+                         const ExportCommand& exported, const cli::Command& command)
 {
     if ((replay.json && replay.csv) || (compare.json && compare.csv))
         return base::fail("--json and --csv exclude each other: give one of them");
-    return {};
-}
-
-base::Result<void> check(const ExportCommand& exported, const cli::Command& command)
-{
     if (exported.as_mcap && (command.is_given("--rows") || command.is_given("--csv")))
         return base::fail("--mcap has all that ticks and bodies hold: leave --csv and --rows out");
     if (!exported.other.empty() && exported.rows != ExportRows::ticks) {
@@ -534,10 +532,12 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     auto& real_time_command = program.command("real-time", "The last step of scripts/real-time.sh");
     add_real_time(real_time_command, real_time);
 
+    const cli::SchemaCommand schema{program, {written_schemas().begin(), written_schemas().end()}};
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (schema.is_chosen()) return net::Answer{schema.text()};
     if (list_command.is_chosen()) return net::Answer{list_of_names()};
-    if (auto good = check(replay, compare); !good) return tl::unexpected{good.error()};
-    if (auto good = check(exported, export_command); !good) return tl::unexpected{good.error()};
+    if (auto good = check(replay, compare, exported, export_command); !good)
+        return tl::unexpected{good.error()};
     if (auto fine = complete(play, play_command); !fine) return tl::unexpected{fine.error()};
     explain.sleeping = !no_sleeping;
     run.command = merge.command = fmt::format("{}", fmt::join(words, " "));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/cli/command_line.hpp"
 
+#include "peer/cli/schemas.hpp"
 #include "peer/doctor/findings.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
@@ -174,8 +175,10 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     check.option("--key", "FILE", "Also whether a session would take this key file",
                  cli::into(checking.key));
     KeyCommands keys{program};
+    const cli::SchemaCommand schema{program, schemas()};
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (schema.is_chosen()) return net::Answer{schema.text()};
     if (list.is_chosen()) return Command{std::move(listing)};
     if (prints_rules) return net::Answer{std::string{doctor::udev_rules()}};
     if (check.is_chosen()) return Command{std::move(checking)};

@@ -29,9 +29,9 @@ base::Result<int> run(const DoctorCommand& command)
         const auto file = secure::keys::read_key_file(*command.key);
         facts.key = {*command.key, file ? std::string{} : file.error().message};
     }
-    const auto findings = doctor::judge(facts);
-    net::print(command.json ? doctor::finding_json(findings) : doctor::finding_table(findings));
-    return doctor::has_bad(findings) ? net::exit_environment : 0;
+    const auto examined = doctor::examine(facts);
+    net::print(command.json ? doctor::json_text_of(examined) : doctor::text_of(examined));
+    return examined.has_bad ? net::exit_environment : 0;
 }
 
 base::Result<int> run(const KeyCommand& command)

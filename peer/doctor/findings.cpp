@@ -164,16 +164,6 @@ Finding on_key(const KeyFact& key)
 
 } // namespace
 
-std::string_view name_of(Level level)
-{
-    switch (level) {
-    case Level::ok: return "ok";
-    case Level::warning: return "warn";
-    case Level::bad: return "bad";
-    }
-    return "bad";
-}
-
 std::vector<Finding> judge(const Facts& facts)
 {
     std::vector<Finding> findings{on_priority(facts.timing), on_wake_ups(facts.timing),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstdint>
@@ -17,15 +18,25 @@ enum class Level : std::uint8_t {
     warning, // it works, but worse than it could
     bad,     // something that is there cannot be used
 };
-[[nodiscard]] std::string_view name_of(Level level);
+constexpr auto names_of(base::Tag<Level>) { return base::names("ok", "warn", "bad"); }
 
 /// One thing that was looked at.
 struct Finding {
     std::string subject;
     Level level = Level::ok;
     std::string text;
-    std::string cure{}; // one line, "" where all is well
+    std::optional<std::string> cure{}; // one line; nullopt where all is well
 };
+constexpr auto fields_of(base::Tag<Finding>)
+{
+    return base::fields(
+        "finding",
+        base::member("fix", &Finding::cure, "A command or step that would mend it, in one line."),
+        base::member("level", &Finding::level,
+                     "ok; warn: it works, but worse than it could; bad: it cannot be used."),
+        base::member("subject", &Finding::subject, "What was looked at."),
+        base::member("text", &Finding::text, "What was found, in a sentence."));
+}
 
 /// What the kernel grants to a loop at 1 kHz.
 struct Timing {

@@ -9,9 +9,23 @@
 
 namespace hapnet::peer::doctor {
 
+/// What `hapnet-peer doctor --json` prints.
+struct Examination {
+    bool has_bad = false;
+    std::vector<Finding> findings;
+};
+constexpr auto fields_of(base::Tag<Examination>)
+{
+    return base::fields(
+        "doctor",
+        base::member("bad", &Examination::has_bad, "Whether something there cannot be used."),
+        base::member("findings", &Examination::findings, "All that was looked at."));
+}
+
+[[nodiscard]] Examination examine(const Facts& facts);
+
 /// A line for each finding, and under it what to do.
-[[nodiscard]] std::string finding_table(const std::vector<Finding>& findings);
-[[nodiscard]] std::string finding_json(const std::vector<Finding>& findings);
-[[nodiscard]] bool has_bad(const std::vector<Finding>& findings);
+[[nodiscard]] std::string text_of(const Examination& examination);
+[[nodiscard]] std::string json_text_of(const Examination& examination);
 
 } // namespace hapnet::peer::doctor

@@ -21,6 +21,7 @@ const std::vector<Folder>& map()
     static const std::vector<Folder> folders{
         {"proto/base", true, {}},
         {"proto/cli", false, {"proto/base"}},
+        {"proto/output", true, {"proto/base"}},
         {"proto/plot", true, {"proto/base"}},
         {"proto/wire", true, {"proto/base"}},
         {"proto/disk", false, {"proto/base"}},
@@ -57,7 +58,8 @@ const std::vector<Folder>& map()
         {"peer",
          false,
          {"peer/core", "peer/shared_object", "peer/line", "peer/control", "device/catalogue",
-          "proto/record", "proto/secure/keys", "proto/telemetry", "proto/control", "proto/cli"}},
+          "proto/output", "proto/record", "proto/secure/keys", "proto/telemetry", "proto/control",
+          "proto/cli"}},
         {"web/core", true, {"proto/control/core"}},
         {"web", false, {"web/core", "proto/net", "proto/cli"}},
         {"lab/cli", false, {"lab/runner", "peer/shared_object", "proto/cli", "proto/control"}},

@@ -9,6 +9,7 @@ schemas_test.py REPOSITORY BIN_DIR. Without jsonschema it is left out.
 
 import json
 import re
+import subprocess
 import sys
 import tempfile
 import tomllib
@@ -72,6 +73,26 @@ with tempfile.TemporaryDirectory() as place:
                     validate(schema, json.loads(document), output.label)
     finally:
         programs.stop_all()
+
+# The schemas that the programs print are those of the docs.
+names = {"statistics": "{}", "predict": "prediction", "verify": "verification"}
+printed = set()
+for program in ("emulator", "peer", "lab"):
+    def schema_printed(word, program=program):
+        return subprocess.run([Path(folder) / f"hapnet-{program}", "schema", word], check=True,
+                              capture_output=True, text=True).stdout
+
+    for line in schema_printed("--list").splitlines():
+        name, title = line.split(maxsplit=1)
+        file = names.get(name, name).format(program)
+        printed.add(file)
+        text = schema_printed(name)
+        if text != (repository / f"docs/formats/schemas/{file}.schema.json").read_text():
+            faults.append(f"hapnet-{program} schema {name} is not {file}.schema.json")
+        if json.loads(text)["title"] != title:
+            faults.append(f"hapnet-{program} schema --list calls {name} '{title}'")
+if rest := validators.keys() - printed - {"bench"}:
+    faults.append(f"no program prints the schemas {rest}")
 
 forms = {"manifest": validators["manifest"].schema["$defs"]["experiment"],
          "sessions": validators["sessions"].schema["oneOf"][0]}

@@ -59,7 +59,7 @@ TEST(EmulatorOptions, HaveACompleteHelp)
     EXPECT_EQ(cli::help_faults("hapnet-emulator", prints), std::vector<std::string>{});
     EXPECT_EQ(cli::listed_commands(prints({"--help"}).value()),
               (std::vector<std::string>{"check", "predict", "verify", "report", "learn", "probe",
-                                        "between", "exec", "bridge"}));
+                                        "between", "exec", "bridge", "schema"}));
     EXPECT_EQ(prints({"--help"})->rfind("Usage: hapnet-emulator [OPTIONS]\n", 0), 0U);
 }
 

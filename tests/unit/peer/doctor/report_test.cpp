@@ -68,7 +68,7 @@ TEST(Doctor, FindsNothingToMendOnAGoodMachine)
 {
     for (const Finding& one : judge(a_good_machine())) {
         EXPECT_EQ(one.level, Level::ok) << one.subject << ": " << one.text;
-        EXPECT_EQ(one.cure, "") << one.subject;
+        EXPECT_FALSE(one.cure) << one.subject;
     }
 }
 
@@ -76,8 +76,9 @@ TEST(Doctor, GivesAOneLineCureForAllThatCouldBeBetter)
 {
     const auto expect_cure = [](const Finding& one, Level level, const char* words) {
         EXPECT_EQ(one.level, level) << one.subject;
-        EXPECT_NE(one.cure.find(words), std::string::npos) << one.subject << ": " << one.cure;
-        EXPECT_EQ(one.cure.find('\n'), std::string::npos) << one.subject;
+        ASSERT_TRUE(one.cure) << one.subject;
+        EXPECT_NE(one.cure->find(words), std::string::npos) << one.subject << ": " << *one.cure;
+        EXPECT_EQ(one.cure->find('\n'), std::string::npos) << one.subject;
     };
     expect_cure(finding_on("real time", [](Facts& f) { f.timing.fifo = false; }), Level::warning,
                 "/etc/security/limits.d");
@@ -128,7 +129,7 @@ TEST(Doctor, SaysHowToSetADateThatIsYearsBehind)
     EXPECT_EQ(finding_on("date", [](Facts&) {}).level, Level::ok);
     const Finding one = finding_on("date", [](Facts& f) { f.is_date_set = false; });
     EXPECT_EQ(one.level, Level::warning);
-    EXPECT_NE(one.cure.find("timedatectl"), std::string::npos);
+    EXPECT_NE(one.cure.value().find("timedatectl"), std::string::npos);
 }
 
 TEST(Doctor, SaysWhyAKeyFileWouldBeRefused)
@@ -146,12 +147,12 @@ TEST(Doctor, PrintsATableAndJsonWithEveryFinding)
 {
     Facts facts = a_good_machine();
     facts.has_firewire_driver = false;
-    const auto findings = judge(facts);
-    EXPECT_TRUE(has_bad(findings));
-    EXPECT_NE(finding_table(findings).find("fix: sudo modprobe"), std::string::npos);
-    const auto json = nlohmann::json::parse(finding_json(findings));
+    const Examination examined = examine(facts);
+    EXPECT_TRUE(examined.has_bad);
+    EXPECT_NE(text_of(examined).find("fix: sudo modprobe"), std::string::npos);
+    const auto json = nlohmann::json::parse(json_text_of(examined));
     EXPECT_EQ(json["bad"], true);
-    ASSERT_EQ(json["findings"].size(), findings.size());
+    ASSERT_EQ(json["findings"].size(), examined.findings.size());
     EXPECT_TRUE(json["findings"][0]["fix"].is_null());
 }
 
@@ -187,7 +188,7 @@ TEST_F(FakeRoot, FindsDevicesAndWhetherTheyMayBeOpened)
     EXPECT_EQ(nodes[3].path, "/dev/hidraw6");
     const auto findings = judge(found);
     EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& one) {
-        return one.cure.find(
+        return one.cure.value_or("").find(
                    R"(ATTRS{idVendor}=="eb03", ATTRS{idProduct}=="2402", TAG+="uaccess")") !=
                std::string::npos;
     }));

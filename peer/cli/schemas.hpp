@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/cli/schema_command.hpp"
+
+#include <span>
+#include <vector>
+
+namespace hapnet::peer {
+
+/// The schemas of all that the program prints and writes.
+[[nodiscard]] std::vector<cli::DocumentSchema> schemas();
+
+/// Those of docs/formats/schemas.
+[[nodiscard]] std::span<const cli::DocumentSchema> written_schemas();
+
+} // namespace hapnet::peer

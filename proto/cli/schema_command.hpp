@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/cli/command.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::cli {
+
+/// A kind of document that a program prints or writes, and its JSON Schema.
+struct DocumentSchema {
+    std::string_view name;           // as `schema NAME` takes it
+    std::string_view written;        // the schema's text, where it is not made
+    std::string (*make)() = nullptr; // of a described struct (proto/output/schema.hpp)
+
+    [[nodiscard]] std::string text() const
+    {
+        return make != nullptr ? make() : std::string{written};
+    }
+};
+
+/// `schema [--list | NAME]`, a command of every program that prints JSON.
+class SchemaCommand {
+public:
+    SchemaCommand(Command& program, std::vector<DocumentSchema> documents);
+    SchemaCommand(const SchemaCommand&) = delete;
+    SchemaCommand& operator=(const SchemaCommand&) = delete;
+    ~SchemaCommand() = default;
+
+    [[nodiscard]] bool is_chosen() const { return command_->is_chosen(); }
+    /// What it prints: the schema, or names and titles of all.
+    [[nodiscard]] std::string text() const;
+
+private:
+    std::vector<DocumentSchema> documents_; // by their names
+    Command* command_;
+    std::optional<std::size_t> chosen_;
+    bool lists_ = false;
+};
+
+} // namespace hapnet::cli

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/output/schema.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <map>
+#include <string>
+
+namespace hapnet::output {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Shape = base::ValueKind::Shape;
+
+/// Collects the structs that a struct has in it.
+class Definitions {
+public:
+    /// The keys of a struct, without a head.
+    Json object_of(const base::FieldTable& fields)
+    {
+        Json properties = Json::object();
+        Json required = Json::array();
+        for (const base::FieldRow& row : fields.rows) {
+            Json property = value_of(*row.kind);
+            if (!row.about.empty()) property["description"] = std::string{row.about};
+            properties[std::string{row.key}] = std::move(property);
+            required.push_back(std::string{row.key});
+        }
+        return {{"type", "object"}, {"properties", properties}, {"required", required}};
+    }
+
+    [[nodiscard]] const Json& all() const { return all_; }
+
+private:
+    Json value_of(const base::ValueKind& kind)
+    {
+        switch (kind.shape) {
+        case Shape::opaque: base::ensure(false); return {};
+        case Shape::flag: return {{"type", "boolean"}};
+        case Shape::whole: {
+            Json whole{{"type", "integer"}};
+            if (!kind.is_signed) whole["minimum"] = 0;
+            return whole;
+        }
+        // A number that is not finite is null.
+        case Shape::number: return {{"type", Json::array({"number", "null"})}};
+        case Shape::text: return {{"type", "string"}};
+        case Shape::choice: {
+            Json names = Json::array();
+            for (const std::string_view name : kind.names) names.push_back(std::string{name});
+            return {{"enum", names}};
+        }
+        case Shape::maybe: return or_null(value_of(*kind.element));
+        case Shape::list: return {{"type", "array"}, {"items", value_of(*kind.element)}};
+        case Shape::record: return reference_to(kind.table());
+        }
+        return {};
+    }
+
+    static Json or_null(Json schema)
+    {
+        if (schema.contains("type") && schema.at("type").is_string()) {
+            schema["type"] = Json::array({schema.at("type"), "null"});
+            return schema;
+        }
+        if (schema.contains("type")) return schema; // it may be null already
+        return {{"anyOf", Json::array({std::move(schema), Json{{"type", "null"}}})}};
+    }
+
+    Json reference_to(const base::FieldTable& fields)
+    {
+        const std::string name{fields.name};
+        const auto [known, is_new] = owners_.emplace(name, &fields);
+        base::ensure(known->second == &fields); // two structs of one name
+        if (is_new) {
+            all_[name]; // before what it refers to
+            all_[name] = object_of(fields);
+        }
+        return {{"$ref", "#/$defs/" + name}};
+    }
+
+    std::map<std::string, const base::FieldTable*> owners_;
+    Json all_ = Json::object();
+};
+
+} // namespace
+
+Json schema_of(const base::FieldTable& fields, std::string_view title)
+{
+    Definitions definitions;
+    const Json object = definitions.object_of(fields);
+    Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                {"$comment", "SPDX-FileCopyrightText: 2026 The Hapnet authors; "
+                             "SPDX-License-Identifier: MIT"},
+                {"title", std::string{title}}};
+    schema.update(object);
+    if (!definitions.all().empty()) schema["$defs"] = definitions.all();
+    return schema;
+}
+
+} // namespace hapnet::output
