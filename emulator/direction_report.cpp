@@ -46,7 +46,7 @@ Json json_of(const StreamTotals& stream, bool has_distributions)
     if (measured.delay_quantiles) delay.update(json_in_ms(measured.delay_quantiles));
     if (measured.delay && has_distributions) {
         using Milliseconds = std::chrono::duration<double, std::milli>;
-        delay["distribution"] = distribution_of<Milliseconds>(stream.delays);
+        delay["distribution"] = distribution_of<Milliseconds>(stream.delays.delays());
     }
     return {{"requested_delay_ms", json_in_ms(measured.requested_delay)},
             {"delay_ms", delay},
@@ -54,22 +54,22 @@ Json json_of(const StreamTotals& stream, bool has_distributions)
             {"gap_ms", json_in_ms(measured.gap)},
             {"clumped", or_null(measured.clumped_share)},
             {"missing_run_updates",
-             {{"count", measured.missing_runs},
-              {"mean", or_null(measured.missing_run_mean)},
-              {"max", measured.missing_run_max}}},
+             {{"count", measured.missing_runs.count},
+              {"mean", or_null(measured.missing_runs.mean())},
+              {"max", measured.missing_runs.max}}},
             {"reorder_extent",
-             {{"count", measured.reordered},
-              {"mean", or_null(measured.reorder_extent_mean)},
-              {"max", measured.reorder_extent_max},
+             {{"count", measured.reordered.count},
+              {"mean", or_null(measured.reordered.mean())},
+              {"max", measured.reordered.max},
               {"beyond_look_back", measured.beyond_look_back}}},
             {"age_ms",
-             {{"mean", json_in_ms(measured.age_mean)},
-              {"peak_mean", json_in_ms(measured.peak_age_mean)},
-              {"peak_max", json_in_ms(measured.peak_age_max)}}}};
+             {{"mean", json_in_ms(measured.age.mean)},
+              {"peak_mean", json_in_ms(measured.age.peak_mean)},
+              {"peak_max", json_in_ms(measured.age.peak_max)}}}};
 }
 
 /// "160.00 ms (sd 2.89)"
-std::string in_words(const Moments& moments)
+std::string in_words(const base::Moments& moments)
 {
     const auto in_ms = [](base::Duration duration) { return 1e3 * base::to_seconds(duration); };
     return fmt::format("{:.2f} ms (sd {:.2f})", in_ms(moments.mean),

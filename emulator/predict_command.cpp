@@ -61,38 +61,37 @@ Json json_of(const Predicted& predicted)
         dropped[std::string{to_text(cause)}] = of.statistics.dropped_by(cause);
     }
     const StreamReport& measured = of.measured;
-    return {
-        {"theory", describe(conditions, stream)},
-        {"warnings", warnings(conditions, stream, of)},
-        {"received", of.statistics.received},
-        {"delivered", of.statistics.delivered},
-        {"duplicated", of.statistics.duplicated},
-        {"corrupted", of.statistics.corrupted},
-        {"dropped", dropped},
-        {"loss",
-         {{"share", of.loss_share()},
-          {"runs", of.loss_runs},
-          {"run_mean", json_of(of.loss_run_mean())},
-          {"run_max", of.loss_run_max}}},
-        {"requested_delay_ms", json_in_ms(measured.requested_delay)},
-        {"delay_ms", json_in_ms(measured.delay)},
-        {"delay_quantiles_ms", json_in_ms(measured.delay_quantiles)},
-        {"settled", why.empty()},
-        {"unsettled_because", why.empty() ? Json(nullptr) : Json(why)},
-        {"precision", std::move(precision)},
-        {"added_by_queues_ms", in_ms(of.added_by_queues)},
-        {"jitter_ms", json_in_ms(measured.delay_variation)},
-        {"gap_ms", json_in_ms(measured.gap)},
-        {"clumped_share", json_of(measured.clumped_share)},
-        {"reordered_share", share_of(measured.reordered, of)},
-        {"reorder_extent",
-         {{"mean", json_of(measured.reorder_extent_mean)}, {"max", measured.reorder_extent_max}}},
-        {"age_ms",
-         {{"mean", json_in_ms(measured.age_mean)},
-          {"peak_max", json_in_ms(measured.peak_age_max)}}}};
+    return {{"theory", describe(conditions, stream)},
+            {"warnings", warnings(conditions, stream, of)},
+            {"received", of.statistics.received},
+            {"delivered", of.statistics.delivered},
+            {"duplicated", of.statistics.duplicated},
+            {"corrupted", of.statistics.corrupted},
+            {"dropped", dropped},
+            {"loss",
+             {{"share", of.loss_share()},
+              {"runs", of.loss_runs.count},
+              {"run_mean", json_of(of.loss_runs.mean())},
+              {"run_max", of.loss_runs.max}}},
+            {"requested_delay_ms", json_in_ms(measured.requested_delay)},
+            {"delay_ms", json_in_ms(measured.delay)},
+            {"delay_quantiles_ms", json_in_ms(measured.delay_quantiles)},
+            {"settled", why.empty()},
+            {"unsettled_because", why.empty() ? Json(nullptr) : Json(why)},
+            {"precision", std::move(precision)},
+            {"added_by_queues_ms", in_ms(of.added_by_queues)},
+            {"jitter_ms", json_in_ms(measured.delay_variation)},
+            {"gap_ms", json_in_ms(measured.gap)},
+            {"clumped_share", json_of(measured.clumped_share)},
+            {"reordered_share", share_of(measured.reordered.count, of)},
+            {"reorder_extent",
+             {{"mean", json_of(measured.reordered.mean())}, {"max", measured.reordered.max}}},
+            {"age_ms",
+             {{"mean", json_in_ms(measured.age.mean)},
+              {"peak_max", json_in_ms(measured.age.peak_max)}}}};
 }
 
-std::string in_words(const std::optional<Quantiles>& quantiles)
+std::string in_words(const std::optional<base::Quantiles>& quantiles)
 {
     if (!quantiles) return "none";
     return fmt::format("p50 {:.4g}, p90 {:.4g}, p99 {:.4g}, p99.9 {:.4g}, max {:.4g} ms",
@@ -100,7 +99,7 @@ std::string in_words(const std::optional<Quantiles>& quantiles)
                        in_ms(quantiles->p999), in_ms(quantiles->max));
 }
 
-std::string in_words(const std::optional<Moments>& moments)
+std::string in_words(const std::optional<base::Moments>& moments)
 {
     if (!moments) return "none";
     return fmt::format("mean {:.4g} ms, sd {:.4g} ms", in_ms(moments->mean),
@@ -137,9 +136,9 @@ std::string in_words(std::string_view title, const Predicted& predicted)
                         s.delivered, s.duplicated, s.corrupted,
                         stream.is_sealed ? ", which are refused and count as lost" : "");
     text += fmt::format("  loss       {:.4g} %", 100.0 * of.loss_share());
-    if (of.loss_runs > 0) {
-        text += fmt::format(", runs of {:.4g} on average, {} at most", *of.loss_run_mean(),
-                            of.loss_run_max);
+    if (of.loss_runs.count > 0) {
+        text += fmt::format(", runs of {:.4g} on average, {} at most", *of.loss_runs.mean(),
+                            of.loss_runs.max);
     }
     text += "\n";
     for (const DropCause cause :
@@ -153,11 +152,10 @@ std::string in_words(std::string_view title, const Predicted& predicted)
     text += fmt::format("             {}\n", in_words(measured.delay_quantiles));
     text += settling_in_words(predicted);
     text += fmt::format("  variation  {} (IPDV)\n", in_words(measured.delay_variation));
-    text += fmt::format("  reordered  {:.4g} %", 100.0 * share_of(measured.reordered, of));
-    if (measured.reordered > 0) {
-        text +=
-            fmt::format(", by {:.3g} places on average, {} at most",
-                        measured.reorder_extent_mean.value_or(0.0), measured.reorder_extent_max);
+    text += fmt::format("  reordered  {:.4g} %", 100.0 * share_of(measured.reordered.count, of));
+    if (measured.reordered.count > 0) {
+        text += fmt::format(", by {:.3g} places on average, {} at most",
+                            measured.reordered.mean().value_or(0.0), measured.reordered.max);
     }
     text += "\n";
     text += fmt::format("  clumped    {:.4g} % of the gaps are below 50 us\n",

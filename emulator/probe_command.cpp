@@ -42,9 +42,9 @@ ProbeJson json_of(const std::optional<tools::ProbeDelays>& delays)
     if (!delays) return nullptr;
     return {{"min", probe_ms(delays->min)},
             {"mean", probe_ms(delays->mean)},
-            {"p50", probe_ms(delays->p50)},
-            {"p99", probe_ms(delays->p99)},
-            {"max", probe_ms(delays->max)}};
+            {"p50", probe_ms(delays->quantiles.p50)},
+            {"p99", probe_ms(delays->quantiles.p99)},
+            {"max", probe_ms(delays->quantiles.max)}};
 }
 
 ProbeJson json_of(const tools::ProbeWay& way)
@@ -77,8 +77,9 @@ std::string line_of(const char* name, const std::optional<tools::ProbeDelays>& d
 {
     if (!delays) return "";
     return fmt::format("{:<18}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name,
-                       probe_ms(delays->min), probe_ms(delays->mean), probe_ms(delays->p50),
-                       probe_ms(delays->p99), probe_ms(delays->max));
+                       probe_ms(delays->min), probe_ms(delays->mean),
+                       probe_ms(delays->quantiles.p50), probe_ms(delays->quantiles.p99),
+                       probe_ms(delays->quantiles.max));
 }
 
 std::string losses_in_words(const tools::ProbeSummary& of)

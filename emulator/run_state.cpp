@@ -20,8 +20,8 @@ std::size_t look_at(const Link& link, WayState& state)
     state.stream = link.stream_statistics().totals();
     const StreamTotals& stream = state.stream;
     return sizeof(WayState) / 50 + state.statistics.lateness.filled_bytes() +
-           state.statistics.sojourn.filled_bytes() + stream.delays.filled_bytes() +
-           stream.variations.filled_bytes() + stream.gaps.filled_bytes();
+           state.statistics.sojourn.filled_bytes() + stream.delays.delays().filled_bytes() +
+           stream.delays.variations().filled_bytes() + stream.gaps.filled_bytes();
 }
 
 /// With the last `changes_max` changes.

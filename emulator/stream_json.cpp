@@ -12,13 +12,13 @@ nlohmann::ordered_json json_in_ms(std::optional<base::Duration> duration)
     return std::chrono::duration<double, std::milli>{*duration}.count();
 }
 
-nlohmann::ordered_json json_in_ms(const std::optional<Moments>& moments)
+nlohmann::ordered_json json_in_ms(const std::optional<base::Moments>& moments)
 {
     if (!moments) return nullptr;
     return {{"mean", json_in_ms(moments->mean)}, {"sd", json_in_ms(moments->sd)}};
 }
 
-nlohmann::ordered_json json_in_ms(const std::optional<Quantiles>& quantiles)
+nlohmann::ordered_json json_in_ms(const std::optional<base::Quantiles>& quantiles)
 {
     if (!quantiles) return nullptr;
     return {{"p50", json_in_ms(quantiles->p50)},

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/stream_statistics.hpp"
+#include "proto/base/figures/moments.hpp"
+#include "proto/base/figures/quantiles.hpp"
+#include "proto/base/time.hpp"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,8 +14,8 @@ namespace hapnet::emulator {
 // Numbers of a measured as every report writes them, in milliseconds; what is unknown is null.
 
 [[nodiscard]] nlohmann::ordered_json json_in_ms(std::optional<base::Duration> duration);
-[[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<Moments>& moments);
-[[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<Quantiles>& quantiles);
+[[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<base::Moments>& moments);
+[[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<base::Quantiles>& quantiles);
 
 /// The value, or null where it is unknown.
 template <typename T>

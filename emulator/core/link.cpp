@@ -276,11 +276,7 @@ void Link::on_sent(const Datagram& datagram, base::TimePoint at)
     statistics_.lateness.add(at - datagram.due);
     if (pulse_) pulse_->on_sent(at - datagram.arrival, at - datagram.due);
     if (setup_.has_stream_statistics) stream_statistics_.on_sent(datagram, at);
-    if (datagram.number >= beyond_highest_delivered_) {
-        beyond_highest_delivered_ = datagram.number + 1;
-    } else if (!datagram.is_copy) {
-        ++statistics_.reordered;
-    }
+    if (!expected_.add(datagram.number) && !datagram.is_copy) ++statistics_.reordered;
     release(datagram);
 }
 

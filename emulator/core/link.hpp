@@ -14,6 +14,7 @@
 #include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
+#include "proto/base/figures/arrivals.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
@@ -128,7 +129,7 @@ private:
     std::vector<Queued> displaced_; // until a later datagram is scheduled (Reordering by places)
     base::TimePoint last_arrival_;
     base::TimePoint last_due_ = base::TimePoint::min();
-    std::uint64_t beyond_highest_delivered_ = 0; // the highest number that left, plus one
+    base::NextExpected expected_; // to leave; copies count, too
     Statistics statistics_;
     StreamStatistics stream_statistics_;
     std::optional<Pulse> pulse_; // nullopt: nobody has asked for it

@@ -227,13 +227,14 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
             in_ms(*measured.requested_delay->sd), at_rate,
             in_percent(measured.clumped_share.value_or(0.0)), remedy_of(conditions)));
     }
-    if (has_jitter && conditions.order == Order::free && measured.reordered > 0) {
+    if (has_jitter && conditions.order == Order::free && measured.reordered.count > 0) {
         const auto delivered =
             static_cast<double>(prediction.statistics.delivered - prediction.statistics.duplicated);
-        list.push_back(fmt::format("order = \"free\" reorders {} of the datagrams {}, by up to {} "
-                                   "places",
-                                   in_percent(static_cast<double>(measured.reordered) / delivered),
-                                   at_rate, measured.reorder_extent_max));
+        list.push_back(
+            fmt::format("order = \"free\" reorders {} of the datagrams {}, by up to {} "
+                        "places",
+                        in_percent(static_cast<double>(measured.reordered.count) / delivered),
+                        at_rate, measured.reordered.max));
     }
     if (has_rate && load_of(conditions, stream) > limit_of(conditions.rate)) {
         list.push_back(fmt::format("the rate is less than the stream of {} B {} needs ({:.4g} "

@@ -5,7 +5,7 @@
 #include "emulator/core/emulated_path.hpp"
 #include "proto/base/ensure.hpp"
 
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace hapnet::emulator::tools {
@@ -29,20 +29,18 @@ public:
 
     void add_fate(bool is_lost)
     {
-        if (!is_lost) {
-            run_ = 0;
-            return;
+        if (is_lost) {
+            ++run_;
+        } else if (run_ > 0) {
+            result_.loss_runs.add(std::exchange(run_, 0));
         }
-        ++result_.lost;
-        if (run_ == 0) ++result_.loss_runs;
-        ++run_;
-        result_.loss_run_max = std::max(result_.loss_run_max, run_);
     }
 
     /// With what the link saw.
     [[nodiscard]] DirectionPrediction with(const Link& link) const
     {
         DirectionPrediction result = result_;
+        if (run_ > 0) result.loss_runs.add(run_);
         result.statistics = link.statistics();
         result.measured = link.stream_statistics().report();
         result.precision = delays_.precision();
@@ -56,7 +54,7 @@ public:
 private:
     DirectionPrediction result_;
     BatchMeans delays_;
-    std::uint64_t run_ = 0;
+    std::uint64_t run_ = 0; // of losses, not yet over
 };
 
 /// A stream on its way through a path.
@@ -139,13 +137,7 @@ private:
 double DirectionPrediction::loss_share() const
 {
     if (statistics.received == 0) return 0.0;
-    return static_cast<double>(lost) / static_cast<double>(statistics.received);
-}
-
-std::optional<double> DirectionPrediction::loss_run_mean() const
-{
-    if (loss_runs == 0) return std::nullopt;
-    return static_cast<double>(lost) / static_cast<double>(loss_runs);
+    return static_cast<double>(loss_runs.sum) / static_cast<double>(statistics.received);
 }
 
 bool DirectionPrediction::is_settled() const

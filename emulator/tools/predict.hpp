@@ -6,6 +6,7 @@
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
 #include "emulator/tools/batch_means.hpp"
+#include "proto/base/figures/tally.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
@@ -32,9 +33,8 @@ struct Stream {
 struct DirectionPrediction {
     Statistics statistics; // nothing in flight any more
     StreamReport measured;
-    std::uint64_t lost = 0;           // dropped, or damaged where that is refused
-    std::uint64_t loss_runs = 0;      // of losses in a row, by their numbers
-    std::uint64_t loss_run_max = 0;   // in datagrams
+    /// Runs of losses by their numbers: dropped, or damaged where that is refused.
+    base::Tally loss_runs;
     base::Duration added_by_queues{}; // mean delay beyond the drawn one: rate and order
     /// How far mean and deviation of the delay are known; nullopt: too little left.
     std::optional<Precision> precision;
@@ -42,7 +42,6 @@ struct DirectionPrediction {
     /// Whether both are known to settled_to, or there is no delay to be known.
     [[nodiscard]] bool is_settled() const;
     [[nodiscard]] double loss_share() const;
-    [[nodiscard]] std::optional<double> loss_run_mean() const;
 };
 
 struct Prediction {

@@ -6,30 +6,14 @@
 
 namespace hapnet::emulator::tools {
 
-void ProbeAnswerer::Session::count(std::uint64_t sequence)
-{
-    if (heard == 0 || sequence > highest) {
-        const auto first_new = heard == 0 ? 0 : highest + 1;
-        if (heard == 0 || sequence - highest >= window) {
-            seen.reset();
-        } else {
-            for (auto number = first_new; number < sequence; ++number) seen.reset(number % window);
-        }
-        highest = sequence;
-    } else if (highest - sequence >= window || seen.test(sequence % window)) {
-        return;
-    }
-    seen.set(sequence % window);
-    ++heard;
-}
-
 std::optional<ProbeMessage> ProbeAnswerer::answer(const ProbeMessage& question,
                                                   base::TimePoint received)
 {
     if (question.is_answer) return std::nullopt;
     Session& session = session_of(question.session);
     session.last = received;
-    session.count(question.sequence);
+    // One too old to tell is taken for a copy.
+    if (session.questions.add(question.sequence) == base::Seen::no) ++session.heard;
     ProbeMessage answer = question;
     answer.is_answer = true;
     answer.received = received;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "emulator/tools/probe_message.hpp"
+#include "proto/base/recent_numbers.hpp"
 #include "proto/base/time.hpp"
 
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,17 +27,11 @@ public:
     static constexpr std::size_t sessions_max = 64;
 
 private:
-    /// Questions further behind the highest than this are taken for copies.
-    static constexpr std::size_t window = 1024;
-
     struct Session {
         std::uint64_t id = 0;
-        std::uint64_t highest = 0;
-        std::bitset<window> seen{}; // by sequence number modulo the window
+        base::RecentNumbers<1024> questions{};
         std::uint64_t heard = 0;
         base::TimePoint last{};
-
-        void count(std::uint64_t sequence);
     };
 
     [[nodiscard]] Session& session_of(std::uint64_t id);

@@ -3,28 +3,24 @@
 #include "emulator/tools/probe_statistics.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/figures/delay_meter.hpp"
+#include "proto/base/figures/moments.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator::tools {
 
 namespace {
 
-/// Of values in no order; sorts them.
-std::optional<ProbeDelays> delays_of(std::vector<base::Duration>& values)
+std::optional<ProbeDelays> delays_of(const base::DurationSample& sample)
 {
-    if (values.empty()) return std::nullopt;
-    std::ranges::sort(values);
-    const auto quantile = [&](double q) {
-        const auto rank = std::ceil(q * static_cast<double>(values.size()));
-        return values[static_cast<std::size_t>(rank) - 1];
-    };
-    double sum = 0;
-    for (const auto value : values) sum += base::to_seconds(value);
-    const auto mean = base::from_seconds(sum / static_cast<double>(values.size()));
-    return ProbeDelays{values.front(), mean, quantile(0.5), quantile(0.99), values.back()};
+    const auto quantiles = sample.quantiles();
+    if (!quantiles) return std::nullopt;
+    base::RunningMoments moments;
+    for (const auto value : sample.values()) moments.add(value);
+    return ProbeDelays{std::ranges::min(sample.values()), moments.moments()->mean, *quantiles};
 }
 
 double milliseconds(base::Duration duration) { return 1e3 * base::to_seconds(duration); }
@@ -54,14 +50,10 @@ std::optional<ProbeReply> ProbeStatistics::on_answer(const ProbeMessage& answer,
     }
     heard_ = std::max(heard_, answer.heard);
     const bool is_copy = row.answers++ > 0;
-    if (is_copy) {
-        ++copies_;
-    } else {
+    answers_.add(answer.sequence, is_copy);
+    if (!is_copy) {
         row.there = there;
         row.back = back;
-        ++answered_;
-        if (answer.sequence + 1 < beyond_answered_) ++reordered_;
-        beyond_answered_ = std::max(beyond_answered_, answer.sequence + 1);
         longest_ = std::max(longest_, there + back);
     }
     return ProbeReply{answer.sequence, there + back, there, back, is_copy};
@@ -69,39 +61,37 @@ std::optional<ProbeReply> ProbeStatistics::on_answer(const ProbeMessage& answer,
 
 ProbeWay ProbeStatistics::way(base::Duration (*delay)(const Row&), bool is_known) const
 {
-    std::vector<base::Duration> delays;
-    std::vector<base::Duration> differences;
-    const Row* before = nullptr;
+    base::DelayMeter<base::DurationSample> meter;
     for (const Row& row : rows_) {
-        const bool is_answered = row.answers > 0;
-        if (is_answered) delays.push_back(delay(row));
-        if (is_answered && before != nullptr) {
-            differences.push_back(std::chrono::abs(delay(row) - delay(*before)));
+        if (row.answers > 0) {
+            meter.add(delay(row));
+        } else {
+            meter.pause();
         }
-        before = is_answered ? &row : nullptr;
     }
     ProbeWay way;
-    if (is_known) way.delay = delays_of(delays);
-    way.ipdv = delays_of(differences);
+    if (is_known) way.delay = delays_of(meter.delays());
+    way.ipdv = delays_of(meter.variations());
     return way;
 }
 
 ProbeSummary ProbeStatistics::summary() const
 {
+    const auto [beyond_answered, answered, copies, reordered] = answers_.counts();
     ProbeSummary summary{.sent = rows_.size(),
-                         .answered = answered_,
-                         .copies = copies_,
-                         .reordered = reordered_,
+                         .answered = answered,
+                         .copies = copies,
+                         .reordered = reordered,
                          .clocks_are_one = clocks_are_one()};
     summary.round_trip = way([](const Row& row) { return row.there + row.back; }, true);
     summary.there = way([](const Row& row) { return row.there; }, clocks_are_one());
     summary.back = way([](const Row& row) { return row.back; }, clocks_are_one());
     // What the other side has heard beyond the last question that was answered is not known.
-    const auto heard = std::clamp(heard_, answered_, beyond_answered_);
-    summary.there.lost = beyond_answered_ - heard;
-    summary.back.lost = heard - answered_;
-    summary.unknown = rows_.size() - beyond_answered_;
-    summary.round_trip.lost = rows_.size() - answered_;
+    const auto heard = std::clamp(heard_, answered, beyond_answered);
+    summary.there.lost = beyond_answered - heard;
+    summary.back.lost = heard - answered;
+    summary.unknown = rows_.size() - beyond_answered;
+    summary.round_trip.lost = rows_.size() - answered;
     return summary;
 }
 

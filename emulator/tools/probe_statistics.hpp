@@ -3,6 +3,8 @@
 #pragma once
 
 #include "emulator/tools/probe_message.hpp"
+#include "proto/base/figures/arrivals.hpp"
+#include "proto/base/figures/quantiles.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
@@ -26,9 +28,7 @@ struct ProbeReply {
 struct ProbeDelays {
     base::Duration min{};
     base::Duration mean{};
-    base::Duration p50{};
-    base::Duration p99{};
-    base::Duration max{};
+    base::Quantiles quantiles{};
 };
 
 struct ProbeWay {
@@ -65,11 +65,14 @@ public:
     std::optional<ProbeReply> on_answer(const ProbeMessage& answer, base::TimePoint arrived);
 
     [[nodiscard]] std::uint64_t sent() const { return rows_.size(); }
-    [[nodiscard]] bool all_answered() const { return answered_ == rows_.size(); }
+    [[nodiscard]] bool all_answered() const { return answers_.counts().received == rows_.size(); }
     [[nodiscard]] base::Duration longest_round_trip() const { return longest_; }
 
     /// Whether both ends read one clock: they are of one boot, and no delay by it is negative.
-    [[nodiscard]] bool clocks_are_one() const { return clocks_are_one_ && answered_ > 0; }
+    [[nodiscard]] bool clocks_are_one() const
+    {
+        return clocks_are_one_ && answers_.counts().received > 0;
+    }
 
     [[nodiscard]] ProbeSummary summary() const;
 
@@ -89,11 +92,8 @@ private:
     std::uint64_t session_;
     std::uint64_t boot_;
     std::vector<Row> rows_; // by sequence number
-    std::uint64_t answered_ = 0;
-    std::uint64_t copies_ = 0;
-    std::uint64_t reordered_ = 0;
-    std::uint64_t heard_ = 0;           // by the other side, as far as it said
-    std::uint64_t beyond_answered_ = 0; // the highest sequence number answered, plus one
+    base::ArrivalCounter answers_{0};
+    std::uint64_t heard_ = 0; // by the other side, as far as it said
     base::Duration longest_{};
     bool clocks_are_one_ = true;
 };

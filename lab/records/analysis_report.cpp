@@ -41,7 +41,7 @@ Json json_of(const std::optional<ForceDiscrepancy>& force)
     return {{"mean", number(force->mean)}, {"max", number(force->max)}};
 }
 
-Json json_of(const std::optional<metrics::Quantiles>& quantiles, double (*unit)(base::Duration))
+Json json_of(const std::optional<base::Quantiles>& quantiles, double (*unit)(base::Duration))
 {
     if (!quantiles) return nullptr;
     return {{"p50", unit(quantiles->p50)},
@@ -51,10 +51,10 @@ Json json_of(const std::optional<metrics::Quantiles>& quantiles, double (*unit)(
 
 Json json_of(const Path& path)
 {
-    return {{"sent", path.sent},
-            {"received", path.received},
-            {"duplicates", path.duplicates},
-            {"reordered", path.reordered},
+    return {{"sent", path.arrived.sent},
+            {"received", path.arrived.received},
+            {"duplicates", path.arrived.duplicates},
+            {"reordered", path.arrived.reordered},
             {"loss", number(path.loss)},
             {"packets_per_s", number(path.packets_per_s)},
             {"delay_ms", json_of(path.delay, ms)},
@@ -188,27 +188,27 @@ TextTable network_table(const Path& up, const Path& down)
     const auto add = [&](std::string_view name, const auto& cell) {
         table.rows.push_back({std::string{name}, {cell(up), cell(down)}});
     };
-    const auto count = [](std::uint64_t Path::*member) {
-        return [=](const Path& path) { return std::to_string(path.*member); };
+    const auto count = [](std::uint64_t base::ArrivalCounts::*member) {
+        return [=](const Path& path) { return std::to_string(path.arrived.*member); };
     };
-    const auto time = [](std::optional<metrics::Quantiles> Path::*of,
-                         base::Duration metrics::Quantiles::*member) {
+    const auto time = [](std::optional<base::Quantiles> Path::*of,
+                         base::Duration base::Quantiles::*member) {
         return [=](const Path& path) {
             const auto& found = path.*of;
             return number_text(found ? std::optional{ms((*found).*member)} : std::nullopt, 3);
         };
     };
-    add("sent", count(&Path::sent));
-    add("received", count(&Path::received));
-    add("duplicates", count(&Path::duplicates));
-    add("reordered", count(&Path::reordered));
+    add("sent", count(&base::ArrivalCounts::sent));
+    add("received", count(&base::ArrivalCounts::received));
+    add("duplicates", count(&base::ArrivalCounts::duplicates));
+    add("reordered", count(&base::ArrivalCounts::reordered));
     add("loss, %", [](const Path& path) { return number_text(scaled(path.loss, 1e2), 3); });
     add("sent per second", [](const Path& path) { return number_text(path.packets_per_s, 2); });
-    add("delay p50, ms", time(&Path::delay, &metrics::Quantiles::p50));
-    add("delay p99, ms", time(&Path::delay, &metrics::Quantiles::p99));
-    add("delay max, ms", time(&Path::delay, &metrics::Quantiles::max));
-    add("jitter p50, ms", time(&Path::jitter, &metrics::Quantiles::p50));
-    add("jitter p99, ms", time(&Path::jitter, &metrics::Quantiles::p99));
+    add("delay p50, ms", time(&Path::delay, &base::Quantiles::p50));
+    add("delay p99, ms", time(&Path::delay, &base::Quantiles::p99));
+    add("delay max, ms", time(&Path::delay, &base::Quantiles::max));
+    add("jitter p50, ms", time(&Path::jitter, &base::Quantiles::p50));
+    add("jitter p99, ms", time(&Path::jitter, &base::Quantiles::p99));
     return table;
 }
 
@@ -223,9 +223,9 @@ TextTable loops_table(const std::vector<std::pair<std::string, Loop>>& loops)
     };
     add("ticks per second", [](const Loop& loop) { return number_text(loop.rate_hz, 2); });
     add("ticks missed", [](const Loop& loop) { return std::to_string(loop.missed); });
-    for (const auto& [name, member] : {std::pair{"late p50, us", &metrics::Quantiles::p50},
-                                       {"late p99, us", &metrics::Quantiles::p99},
-                                       {"late max, us", &metrics::Quantiles::max}}) {
+    for (const auto& [name, member] : {std::pair{"late p50, us", &base::Quantiles::p50},
+                                       {"late p99, us", &base::Quantiles::p99},
+                                       {"late max, us", &base::Quantiles::max}}) {
         add(name, [member = member](const Loop& loop) {
             return number_text(loop.late ? std::optional{us((*loop.late).*member)} : std::nullopt,
                                3);
@@ -265,16 +265,15 @@ TextTable ways_table(const std::vector<PairAnalysis>& pairs)
                     {},
                     15};
     const auto add = [&](std::int64_t from, std::int64_t to, const Path& path) {
-        const auto time = [](const std::optional<metrics::Quantiles>& times,
-                             base::Duration metrics::Quantiles::*member) {
+        const auto time = [](const std::optional<base::Quantiles>& times,
+                             base::Duration base::Quantiles::*member) {
             return number_text(times ? std::optional{ms((*times).*member)} : std::nullopt, 3);
         };
         table.rows.push_back(
             {fmt::format("{} to {}", from, to),
-             {std::to_string(path.received), number_text(scaled(path.loss, 1e2), 3),
-              time(path.delay, &metrics::Quantiles::p50),
-              time(path.delay, &metrics::Quantiles::p99),
-              time(path.jitter, &metrics::Quantiles::p99)}});
+             {std::to_string(path.arrived.received), number_text(scaled(path.loss, 1e2), 3),
+              time(path.delay, &base::Quantiles::p50), time(path.delay, &base::Quantiles::p99),
+              time(path.jitter, &base::Quantiles::p99)}});
     };
     for (const PairAnalysis& pair : pairs) {
         add(pair.id_a, pair.id_b, pair.analysis.a_to_b);

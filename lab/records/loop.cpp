@@ -2,31 +2,29 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/loop.hpp"
 
-#include <vector>
-
 namespace hapnet::lab::records {
 
 Loop loop_of(const Side& side)
 {
     using record::Phase;
     Loop loop;
-    std::vector<base::Duration> late;
+    base::DurationSample late;
     base::TimePoint first{};
     base::TimePoint last{};
     for (const record::TickRow& row : side.ticks) {
         const bool counts = row.phase == Phase::running || row.phase == Phase::hands_off ||
                             row.phase == Phase::alone;
         if (!counts) continue;
-        if (late.empty()) first = row.due;
+        if (late.count() == 0) first = row.due;
         last = row.due;
         loop.missed += row.missed_before;
-        late.push_back(row.late);
+        late.add(row.late);
     }
-    loop.ticks = late.size();
+    loop.ticks = late.count();
     if (last > first) {
         loop.rate_hz = static_cast<double>(loop.ticks - 1) / base::to_seconds(last - first);
     }
-    loop.late = metrics::quantiles_of(std::move(late));
+    loop.late = late.quantiles();
     return loop;
 }
 

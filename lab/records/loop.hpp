@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/metrics/quantiles.hpp"
 #include "lab/records/session.hpp"
+#include "proto/base/figures/quantiles.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,7 @@ struct Loop {
     std::uint64_t missed = 0;
     /// nullopt with fewer than two ticks.
     std::optional<double> rate_hz;
-    std::optional<metrics::Quantiles> late;
+    std::optional<base::Quantiles> late;
 
     /// Share of the ticks due that were skipped, 0 to 1.
     [[nodiscard]] double missed_share() const

@@ -3,11 +3,11 @@
 #include "lab/records/path.hpp"
 
 #include "lab/records/message_view.hpp"
+#include "proto/base/figures/delay_meter.hpp"
 
 #include <algorithm>
-#include <cstddef>
+#include <cstdint>
 #include <unordered_set>
-#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -39,39 +39,33 @@ Sent sent_by(const Side& sender)
 /// `delay(received, sent)`: between two times on the two clocks.
 Path path_between(const Side& sender, const Side& receiver, const auto& delay)
 {
-    Path path;
-    std::uint32_t highest = 0;
-    std::optional<std::uint32_t> first; // that the record can have
+    base::ArrivalCounter arrivals{1};
     std::unordered_set<std::uint32_t> seen;
-    std::vector<base::Duration> delays;
+    std::optional<std::uint32_t> first; // that the record can have
+    base::DelayMeter<base::DurationSample> meter;
     for (const record::MessageRow& row : receiver.messages) {
         const auto message = view_of(row);
         if (!message || message->session != receiver.terms.session) continue;
-        if (!seen.insert(message->sequence).second) {
-            ++path.duplicates;
-            continue;
-        }
-        if (message->sequence < highest) ++path.reordered;
-        highest = std::max(highest, message->sequence);
+        const bool is_duplicate = !seen.insert(message->sequence).second;
+        arrivals.add(message->sequence, is_duplicate);
+        if (is_duplicate) continue;
         first = std::min(first.value_or(message->sequence), message->sequence);
-        delays.push_back(delay(row.received_at, message->sent));
-    }
-    std::vector<base::Duration> variations;
-    for (std::size_t i = 1; i < delays.size(); ++i) {
-        variations.push_back(std::chrono::abs(delays[i] - delays[i - 1]));
+        meter.add(delay(row.received_at, message->sent));
     }
     const Sent sent = sent_by(sender);
+    Path path{.arrived = arrivals.counts(),
+              .loss = {},
+              .delay = meter.delays().quantiles(),
+              .jitter = meter.variations().quantiles(),
+              .packets_per_s = sent.packets_per_s};
+    const std::uint64_t highest = path.arrived.sent;
+    const std::uint64_t before = receiver.begins_late && first ? *first - 1 : 0;
     // What came was sent, even if the sender was killed before it wrote that down.
-    const std::uint32_t before = receiver.begins_late && first ? *first - 1 : 0;
-    path.sent = std::max(sent.highest, highest) - before;
-    path.packets_per_s = sent.packets_per_s;
-    path.received = delays.size();
+    path.arrived.sent = std::max<std::uint64_t>(sent.highest, highest) - before;
     if (highest > 0) {
-        path.loss =
-            1.0 - static_cast<double>(path.received) / static_cast<double>(highest - before);
+        path.loss = 1.0 - static_cast<double>(path.arrived.received) /
+                              static_cast<double>(highest - before);
     }
-    path.delay = metrics::quantiles_of(std::move(delays));
-    path.jitter = metrics::quantiles_of(std::move(variations));
     return path;
 }
 

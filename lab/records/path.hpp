@@ -2,32 +2,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/metrics/quantiles.hpp"
 #include "lab/records/session.hpp"
+#include "proto/base/figures/arrivals.hpp"
+#include "proto/base/figures/quantiles.hpp"
 
-#include <cstdint>
 #include <optional>
 
 namespace hapnet::lab::records {
 
 /// What became of the state messages of one session on one way.
 struct Path {
-    /// By the sender's record; in a circle that knows it only of messages to the first other. To
-    /// the rest: up to the highest that came.
-    std::uint64_t sent = 0;
-    /// Different messages; a second copy counts under `duplicates`, and nowhere else.
-    std::uint64_t received = 0;
-    std::uint64_t duplicates = 0;
-    /// Came after a message with a higher sequence (RFC 4737, type-P-reordered).
-    std::uint64_t reordered = 0;
+    /// `sent` by the sender's record; in a circle that knows it only of messages to the first
+    /// other. To the rest: up to the highest that came.
+    base::ArrivalCounts arrived;
     /// Share of the sequences up to the highest received that never came, 0 to 1; nullopt when
     /// nothing came. Those after it may still have been on their way.
     std::optional<double> loss;
     /// From the sender's stamp to the kernel's receive stamp.
-    std::optional<metrics::Quantiles> delay;
+    std::optional<base::Quantiles> delay;
     /// |difference of the delays| of messages received one after another (RFC 3393, in the order
     /// of arrival).
-    std::optional<metrics::Quantiles> jitter;
+    std::optional<base::Quantiles> jitter;
     /// The rate at which the sender sent.
     std::optional<double> packets_per_s;
 };

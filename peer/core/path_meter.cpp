@@ -6,84 +6,30 @@
 
 namespace hapnet::peer {
 
-namespace {
-
-std::optional<TimeQuantiles> quantiles_of(const base::DurationHistogram& histogram)
-{
-    if (histogram.count() == 0) return std::nullopt;
-    return TimeQuantiles{
-        .p50 = *histogram.quantile(0.5), .p99 = *histogram.quantile(0.99), .max = *histogram.max()};
-}
-
-} // namespace
-
-void PathMeter::Delays::add(base::Duration apart, base::Duration ahead)
-{
-    delay_.add(apart - ahead);
-    // Without the clocks: these may be slewed from one to the next.
-    if (before_) jitter_.add(std::chrono::abs(apart - *before_));
-    before_ = apart;
-}
-
-void PathMeter::Delays::report_to(PathReport& report) const
-{
-    report.delay = quantiles_of(delay_);
-    report.jitter = quantiles_of(jitter_);
-}
-
 void PathMeter::on_state(const wire::State& state, base::TimePoint arrived,
                          const std::optional<ClockEstimate>& clock)
 {
-    const std::uint32_t highest_before = highest_;
-    if (is_duplicate(state.sequence)) {
-        ++duplicates_;
-        return;
-    }
-    ++received_;
-    const bool is_newest = state.sequence > highest_before;
-    if (!is_newest) ++reordered_;
+    using Arrival = base::ArrivalCounter::Arrival;
+    const bool is_duplicate = numbers_.add(state.sequence) == base::Seen::yes;
+    const Arrival arrival = arrivals_.add(state.sequence, is_duplicate);
+    if (arrival == Arrival::duplicate) return;
     if (!clock) {
         in_.pause();
         out_.pause();
-        newest_.reset();
+        age_.pause();
         return;
     }
     in_.add(arrived - state.sent, -clock->offset);
-    if (!is_newest) return;
+    if (arrival == Arrival::reordered) return;
     on_newest(state, arrived, -clock->offset);
     if (state.echo) on_echo(*state.echo, state.sent, clock->offset);
 }
 
-/// Also remembers it.
-bool PathMeter::is_duplicate(std::uint32_t sequence)
-{
-    if (sequence > highest_) {
-        const std::uint32_t missing = sequence - highest_ - 1;
-        if (missing >= looks_back) {
-            seen_.reset();
-        } else {
-            for (std::uint32_t i = 1; i <= missing; ++i) seen_.reset((highest_ + i) % looks_back);
-        }
-        highest_ = sequence;
-    } else if (highest_ - sequence >= looks_back) {
-        return false;
-    } else if (seen_.test(sequence % looks_back)) {
-        return true;
-    }
-    seen_.set(sequence % looks_back);
-    return false;
-}
-
 void PathMeter::on_newest(const wire::State& state, base::TimePoint arrived, base::Duration ahead)
 {
-    if (newest_ && arrived > newest_->arrived) {
-        const base::Duration held = arrived - newest_->arrived;
-        const base::Duration peak = newest_->delay + held;
-        age_area_s2_ += base::to_seconds(held) * base::to_seconds(newest_->delay + peak) / 2.0;
-        age_time_s_ += base::to_seconds(held);
-        age_peak_ = std::max(age_peak_, peak);
-    }
-    newest_ = Newest{.arrived = arrived, .delay = (arrived - state.sent) - ahead};
+    // Of states that arrive at the same time only the newest has an age.
+    if (age_.newest_arrived() >= arrived) age_.pause();
+    age_.add(arrived, (arrived - state.sent) - ahead);
 }
 
 /// `sent` by them, on their clock, which is `ahead` of ours.
@@ -95,34 +41,26 @@ void PathMeter::on_echo(const wire::Echo& echo, base::TimePoint sent, base::Dura
         echoed_ = echo.of;
         out_.add((sent - echo.age) - echo.of, ahead);
     }
-    if (!is_new && ages_there_ == 0) return;
+    if (!is_new && ages_there_.count() == 0) return;
     const base::Duration age = (sent - echo.of) - ahead;
-    age_there_s_ += base::to_seconds(age);
-    ++ages_there_;
+    ages_there_.add(age);
     age_there_peak_ = std::max(age_there_peak_, age);
 }
 
 PathsReport PathMeter::report() const
 {
-    PathsReport report;
-    report.arrived.sent = highest_;
-    report.arrived.received = received_;
-    report.arrived.duplicates = duplicates_;
-    report.arrived.reordered = reordered_;
-    if (highest_ > 0) {
-        const double missing = static_cast<double>(highest_) - static_cast<double>(received_);
-        report.arrived.loss = std::max(0.0, missing) / static_cast<double>(highest_);
+    const auto path_of = [](const DelayMeter& meter) {
+        return PathReport{meter.delays().quantiles(), meter.variations().quantiles(), {}};
+    };
+    PathsReport report{arrivals_.counts(), {}, path_of(in_), path_of(out_)};
+    if (const auto sent = static_cast<double>(report.arrived.sent); sent > 0.0) {
+        // Duplicates that came too late to tell count as received.
+        const double missing = sent - static_cast<double>(report.arrived.received);
+        report.loss = std::max(0.0, missing) / sent;
     }
-    in_.report_to(report.in);
-    out_.report_to(report.out);
-    if (age_time_s_ > 0.0) {
-        report.in.age =
-            StateAge{.mean = base::from_seconds(age_area_s2_ / age_time_s_), .peak_max = age_peak_};
-    }
-    if (ages_there_ > 0) {
-        report.out.age =
-            StateAge{.mean = base::from_seconds(age_there_s_ / static_cast<double>(ages_there_)),
-                     .peak_max = age_there_peak_};
+    report.in.age = age_.age();
+    if (const auto ages = ages_there_.moments()) {
+        report.out.age = {.mean = ages->mean, .peak_mean = {}, .peak_max = age_there_peak_};
     }
     return report;
 }

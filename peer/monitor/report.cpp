@@ -141,7 +141,7 @@ json milliseconds(base::Duration duration) { return base::to_seconds(duration) *
 json path_json(const PathReport& path)
 {
     json out{{"delay_ms", nullptr}, {"jitter_ms", nullptr}, {"age_ms", nullptr}};
-    const auto put = [&out](const char* key, const std::optional<TimeQuantiles>& times) {
+    const auto put = [&out](const char* key, const std::optional<base::Quantiles>& times) {
         if (!times) return;
         out[key] = {{"p50", milliseconds(times->p50)},
                     {"p99", milliseconds(times->p99)},
@@ -149,9 +149,9 @@ json path_json(const PathReport& path)
     };
     put("delay_ms", path.delay);
     put("jitter_ms", path.jitter);
-    if (const auto& age = path.age) {
-        out["age_ms"] = {{"mean", milliseconds(age->mean)},
-                         {"peak_max", milliseconds(age->peak_max)}};
+    if (const auto& age = path.age; age.mean) {
+        out["age_ms"] = {{"mean", milliseconds(*age.mean)},
+                         {"peak_max", milliseconds(*age.peak_max)}};
     }
     return out;
 }
@@ -170,13 +170,13 @@ json others_json(const loop::ServoStatus& status)
 {
     json out = json::array();
     for (const loop::OtherStatus& other : others_of(status)) {
-        const ArrivalCounts& arrived = other.paths.arrived;
+        const base::ArrivalCounts& arrived = other.paths.arrived;
         json in = path_json(other.paths.in);
         in["sent"] = arrived.sent;
         in["received"] = arrived.received;
         in["duplicates"] = arrived.duplicates;
         in["reordered"] = arrived.reordered;
-        in["loss"] = arrived.loss ? json(*arrived.loss) : json{};
+        in["loss"] = other.paths.loss ? json(*other.paths.loss) : json{};
         out.push_back({{"id", other.id != 0 ? json(other.id) : json{}},
                        {"session", other.session != 0 ? json(other.session) : json{}},
                        {"heard", other.is_heard},

@@ -66,20 +66,37 @@ void DurationHistogram::add(const DurationHistogram& other)
     first_ = std::min(first_, other.first_);
 }
 
+std::uint64_t DurationHistogram::rank_of(double q) const
+{
+    return std::max<std::uint64_t>(
+        1, static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))));
+}
+
 std::optional<Duration> DurationHistogram::quantile(double q) const
 {
     ensure(q > 0.0 && q <= 1.0);
     if (count_ == 0) return std::nullopt;
-    const auto wanted = std::max<std::uint64_t>(
-        1, static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))));
+    const auto wanted = rank_of(q);
     std::uint64_t seen = 0;
     for (std::size_t bin = first_; bin < bins; ++bin) {
         seen += counts_[bin];
-        if (seen >= wanted) {
-            return Duration{static_cast<Duration::rep>(std::min(upper_edge(bin), max_))};
-        }
+        if (seen >= wanted) return value_of(bin);
     }
     return max();
+}
+
+std::optional<Quantiles> DurationHistogram::quantiles() const
+{
+    if (count_ == 0) return std::nullopt;
+    std::size_t bin = first_;
+    std::uint64_t seen = counts_[bin];
+    const auto next = [&](double q) { // not below the one before
+        const auto wanted = rank_of(q);
+        while (seen < wanted && bin + 1 < bins) seen += counts_[++bin];
+        return value_of(bin);
+    };
+    const auto p50 = next(0.5), p90 = next(0.9), p99 = next(0.99), p999 = next(0.999);
+    return Quantiles{p50, p90, p99, p999, *max()};
 }
 
 std::vector<DurationHistogram::Bin> DurationHistogram::filled_bins() const

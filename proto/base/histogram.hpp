@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/figures/quantiles.hpp"
 #include "proto/base/time.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +37,9 @@ public:
 
     [[nodiscard]] std::optional<Duration> max() const;
 
+    /// The quantiles above in a single pass; nullopt when nothing was added.
+    [[nodiscard]] std::optional<Quantiles> quantiles() const;
+
     /// How many are longer than `limit`, by whole bins: those for which a quantile would say so.
     [[nodiscard]] std::uint64_t count_above(Duration limit) const;
 
@@ -53,6 +58,12 @@ private:
 
     [[nodiscard]] static std::size_t bin_of(std::uint64_t nanoseconds);
     [[nodiscard]] static std::uint64_t upper_edge(std::size_t bin);
+    /// The number of values that quantile `q` is to reach; count() is not 0.
+    [[nodiscard]] std::uint64_t rank_of(double q) const;
+    [[nodiscard]] Duration value_of(std::size_t bin) const
+    {
+        return Duration{static_cast<Duration::rep>(std::min(upper_edge(bin), max_))};
+    }
     /// One more than that of the largest value.
     [[nodiscard]] std::size_t end_bin() const { return count_ > 0 ? bin_of(max_) + 1 : first_; }
 

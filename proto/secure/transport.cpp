@@ -26,14 +26,16 @@ void Sealer::seal(Kind kind, std::uint32_t number, Bytes associated, std::span<s
 Opener::Outcome Opener::open(Kind kind, std::uint32_t number, Bytes associated,
                              std::span<std::byte> room)
 {
-    const bool is_state = kind == Kind::state;
-    if (!(is_state ? states_.is_fresh(number) : controls_.is_fresh(number)))
-        return Outcome::replayed;
-    if (room.size() < tag_bytes || number > Sealer::number_max ||
-        !secure::open(key_, nonce_number(kind, number), associated, room))
-        return Outcome::forged;
-    const bool is_newest = is_state ? states_.note(number) : controls_.note(number);
-    return is_newest ? Outcome::opened_newest : Outcome::opened;
+    const auto open_once = [&](auto& numbers) {
+        if (numbers.find(number) != base::Seen::no) return Outcome::replayed;
+        if (room.size() < tag_bytes || number > Sealer::number_max ||
+            !secure::open(key_, nonce_number(kind, number), associated, room))
+            return Outcome::forged;
+        // Only now: one forged message would shut out all that come after it.
+        numbers.add(number);
+        return numbers.highest() == number ? Outcome::opened_newest : Outcome::opened;
+    };
+    return kind == Kind::state ? open_once(states_) : open_once(controls_);
 }
 
 } // namespace hapnet::secure

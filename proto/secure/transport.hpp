@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/recent_numbers.hpp"
 #include "proto/secure/primitives.hpp"
-#include "proto/secure/replay_window.hpp"
 
 #include <array>
 #include <cstddef>
@@ -59,8 +59,8 @@ public:
 
 private:
     Secret key_;
-    ReplayWindow<state_window> states_;
-    ReplayWindow<control_window> controls_;
+    base::RecentNumbers<state_window> states_; // that were opened
+    base::RecentNumbers<control_window> controls_;
 };
 
 } // namespace hapnet::secure

@@ -58,7 +58,7 @@ double sd_of(const std::vector<double>& values)
 }
 
 /// Within the bins of the histogram.
-void expect_quantiles(const std::optional<Quantiles>& quantiles, std::vector<double> values)
+void expect_quantiles(const std::optional<base::Quantiles>& quantiles, std::vector<double> values)
 {
     ASSERT_TRUE(quantiles);
     std::sort(values.begin(), values.end());
@@ -126,15 +126,15 @@ void expect_order(const StreamReport& report, const std::vector<Passage>& log)
         }
         expected = log[i].number + 1;
     }
-    EXPECT_EQ(report.missing_runs, runs.size());
-    EXPECT_NEAR(report.missing_run_mean.value(), mean_of(runs), 1e-9);
-    EXPECT_EQ(static_cast<double>(report.missing_run_max),
+    EXPECT_EQ(report.missing_runs.count, runs.size());
+    EXPECT_NEAR(report.missing_runs.mean().value(), mean_of(runs), 1e-9);
+    EXPECT_EQ(static_cast<double>(report.missing_runs.max),
               *std::max_element(runs.begin(), runs.end()));
-    EXPECT_EQ(report.reordered, extents.size());
+    EXPECT_EQ(report.reordered.count, extents.size());
     EXPECT_EQ(report.beyond_look_back, 0U);
     if (extents.empty()) return;
-    EXPECT_NEAR(report.reorder_extent_mean.value(), mean_of(extents), 1e-9);
-    EXPECT_EQ(static_cast<double>(report.reorder_extent_max),
+    EXPECT_NEAR(report.reordered.mean().value(), mean_of(extents), 1e-9);
+    EXPECT_EQ(static_cast<double>(report.reordered.max),
               *std::max_element(extents.begin(), extents.end()));
 }
 
@@ -157,9 +157,9 @@ void expect_age(const StreamReport& report, const std::vector<Passage>& log)
         area_until_fresh = area;
     }
     const auto time = static_cast<double>((last_fresh - log.front().sent).count());
-    expect_near(report.age_mean, area_until_fresh / time);
-    expect_near(report.peak_age_mean, mean_of(peaks));
-    expect_near(report.peak_age_max, *std::max_element(peaks.begin(), peaks.end()));
+    expect_near(report.age.mean, area_until_fresh / time);
+    expect_near(report.age.peak_mean, mean_of(peaks));
+    expect_near(report.age.peak_max, *std::max_element(peaks.begin(), peaks.end()));
 }
 
 TEST(StreamStatistics, EqualsAnOfflineComputationFromTheCompleteLog)

@@ -60,7 +60,8 @@ TEST(Predict, TheTableOfJitterAndOrderAtAThousandPacketsASecond)
         EXPECT_NEAR(in_ms(up.added_by_queues), row.added_ms, tolerance_ms);
         EXPECT_NEAR(in_ms(*up.measured.delay->sd), row.sd_ms, tolerance_ms);
         const auto packets = static_cast<double>(stream.packets);
-        EXPECT_NEAR(static_cast<double>(up.measured.reordered) / packets, row.reordered, 0.01);
+        EXPECT_NEAR(static_cast<double>(up.measured.reordered.count) / packets, row.reordered,
+                    0.01);
         EXPECT_NEAR(*up.measured.clumped_share, row.clumped, 0.01);
     }
 }
@@ -70,11 +71,11 @@ TEST(Predict, LossesAreCountedInShareAndRuns)
     Profile profile;
     profile.path.up.loss = {Burst{40, 100, 0}};
     const auto [up, down] = predict(profile, {.packets = 10'000}, base::Seed{1});
-    EXPECT_EQ(up.lost, 4'000U);
-    EXPECT_EQ(up.loss_runs, 100U);
-    EXPECT_EQ(up.loss_run_max, 40U);
+    EXPECT_EQ(up.loss_runs.sum, 4'000U);
+    EXPECT_EQ(up.loss_runs.count, 100U);
+    EXPECT_EQ(up.loss_runs.max, 40U);
     EXPECT_DOUBLE_EQ(up.loss_share(), 0.4);
-    EXPECT_EQ(down.lost, 0U);
+    EXPECT_EQ(down.loss_runs.sum, 0U);
     EXPECT_EQ(down.statistics.delivered, 10'000U);
 }
 

@@ -36,6 +36,10 @@ TEST(Histogram, QuantilesAreNeverBelowTheSortedOnesAndAtMostOneSixtyFourthAbove)
             ASSERT_GE(told, exact) << seed << " " << share;
             ASSERT_LE(told - exact, exact / 64) << seed << " " << share;
         }
+        const auto each = [&](double share) { return histogram.quantile(share).value(); };
+        ASSERT_EQ(histogram.quantiles(),
+                  (Quantiles{each(0.5), each(0.9), each(0.99), each(0.999), each(1.0)}))
+            << seed;
     }
 }
 

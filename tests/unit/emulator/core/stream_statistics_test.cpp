@@ -36,11 +36,11 @@ TEST(StreamStatistics, HasNothingToSayOfNothing)
     EXPECT_FALSE(report.delay_variation);
     EXPECT_FALSE(report.gap);
     EXPECT_FALSE(report.clumped_share);
-    EXPECT_FALSE(report.missing_run_mean);
-    EXPECT_FALSE(report.reorder_extent_mean);
-    EXPECT_FALSE(report.age_mean);
-    EXPECT_FALSE(report.peak_age_mean);
-    EXPECT_FALSE(report.peak_age_max);
+    EXPECT_FALSE(report.missing_runs.mean());
+    EXPECT_FALSE(report.reordered.mean());
+    EXPECT_FALSE(report.age.mean);
+    EXPECT_FALSE(report.age.peak_mean);
+    EXPECT_FALSE(report.age.peak_max);
 }
 
 TEST(StreamStatistics, OfOneDepartureHasADelayAndNoVariation)
@@ -50,7 +50,7 @@ TEST(StreamStatistics, OfOneDepartureHasADelayAndNoVariation)
     EXPECT_EQ(report.delay->sd, std::nullopt);
     EXPECT_FALSE(report.delay_variation);
     EXPECT_FALSE(report.gap);
-    EXPECT_FALSE(report.age_mean);
+    EXPECT_FALSE(report.age.mean);
 }
 
 TEST(StreamStatistics, ComparesTheLawThatWasDrawnWithTheOneThatCameOut)
@@ -83,9 +83,9 @@ TEST(StreamStatistics, CountsRunsOfMissingUpdatesBetweenInOrderDepartures)
     // 0 is missing at first; then 2, 3, 4, of which 3 comes too late to matter.
     const StreamReport report =
         report_of({passage(1, 10ms), passage(5, 15ms), passage(3, 16ms), passage(6, 17ms)});
-    EXPECT_EQ(report.missing_runs, 2U);
-    EXPECT_EQ(report.missing_run_mean, 2.0);
-    EXPECT_EQ(report.missing_run_max, 3U);
+    EXPECT_EQ(report.missing_runs.count, 2U);
+    EXPECT_EQ(report.missing_runs.mean(), 2.0);
+    EXPECT_EQ(report.missing_runs.max, 3U);
 }
 
 TEST(StreamStatistics, MeasuresHowFarAReorderedDepartureCameAfterTheFirstOneThatOvertookIt)
@@ -94,9 +94,9 @@ TEST(StreamStatistics, MeasuresHowFarAReorderedDepartureCameAfterTheFirstOneThat
     const StreamReport report =
         report_of({passage(1, 10ms), passage(4, 15ms), passage(5, 15ms), passage(6, 15ms),
                    passage(2, 15ms), passage(3, 15ms), passage(7, 16ms)});
-    EXPECT_EQ(report.reordered, 2U);
-    EXPECT_EQ(report.reorder_extent_mean, 3.5);
-    EXPECT_EQ(report.reorder_extent_max, 4U);
+    EXPECT_EQ(report.reordered.count, 2U);
+    EXPECT_EQ(report.reordered.mean(), 3.5);
+    EXPECT_EQ(report.reordered.max, 4U);
     EXPECT_EQ(report.beyond_look_back, 0U);
 }
 
@@ -105,7 +105,7 @@ TEST(StreamStatistics, LooksBackOnlySoFar)
     StreamStatistics measured;
     for (std::uint64_t n = 1; n <= 2000; ++n) note(measured, passage(n, 2s));
     note(measured, passage(0, 2s));
-    EXPECT_EQ(measured.report().reorder_extent_max, reorder_look_back);
+    EXPECT_EQ(measured.report().reordered.max, base::ReorderExtents::looks_back);
     EXPECT_EQ(measured.report().beyond_look_back, 1U);
 }
 
@@ -115,10 +115,10 @@ TEST(StreamStatistics, TakesTheAgeOfInformationFromTheNewestUpdateThatHasDeparte
     // 2); number 1 is old news; at 9 ms it peaks at 7 and falls to 4 (number 5).
     const StreamReport report =
         report_of({passage(0, 4ms), passage(2, 5ms), passage(1, 6ms), passage(5, 9ms)});
-    EXPECT_EQ(report.peak_age_max, 7ms);
-    EXPECT_EQ(report.peak_age_mean, 6ms);
+    EXPECT_EQ(report.age.peak_max, 7ms);
+    EXPECT_EQ(report.age.peak_mean, 6ms);
     // (1 ms at 4.5 on average + 4 ms at 5 on average) / 5 ms
-    EXPECT_EQ(report.age_mean, 4'900'000ns);
+    EXPECT_EQ(report.age.mean, 4'900'000ns);
 }
 
 TEST(StreamStatistics, TakesNoNoticeOfCopies)
@@ -126,7 +126,7 @@ TEST(StreamStatistics, TakesNoNoticeOfCopies)
     const StreamReport report = report_of(
         {passage(0, 10ms), passage(0, 10ms, true), passage(1, 11ms), passage(0, 12ms, true)});
     EXPECT_EQ(report.clumped_share, 0.0);
-    EXPECT_EQ(report.reordered, 0U);
+    EXPECT_EQ(report.reordered.count, 0U);
     EXPECT_EQ(report.gap->max, 1ms);
 }
 

@@ -67,9 +67,9 @@ TEST(Predict, CountsWhatIsDamagedAsLostWhereItIsSealed)
     // The same draws: what arrives damaged is all that differs.
     EXPECT_EQ(sealed.up.statistics.corrupted, plain.up.statistics.corrupted);
     EXPECT_GT(plain.up.statistics.corrupted, 3000U);
-    EXPECT_EQ(sealed.up.lost, plain.up.lost + plain.up.statistics.corrupted);
-    EXPECT_GT(sealed.up.loss_runs, plain.up.loss_runs);
-    EXPECT_EQ(sealed.down.lost, 0U);
+    EXPECT_EQ(sealed.up.loss_runs.sum, plain.up.loss_runs.sum + plain.up.statistics.corrupted);
+    EXPECT_GT(sealed.up.loss_runs.count, plain.up.loss_runs.count);
+    EXPECT_EQ(sealed.down.loss_runs.sum, 0U);
 }
 
 TEST(Predict, GivesUpAndSaysWhy)

@@ -39,41 +39,55 @@ TEST(PathMeter, HasNothingToSayBeforeTheFirstState)
 {
     const PathsReport report = PathMeter{}.report();
     EXPECT_EQ(report.arrived.sent, 0U);
-    EXPECT_FALSE(report.arrived.loss);
-    EXPECT_FALSE(report.in.delay || report.in.jitter || report.in.age);
-    EXPECT_FALSE(report.out.delay || report.out.jitter || report.out.age);
+    EXPECT_FALSE(report.loss);
+    EXPECT_FALSE(report.in.delay || report.in.jitter || report.in.age.mean);
+    EXPECT_FALSE(report.out.delay || report.out.jitter || report.out.age.mean);
 }
 
 TEST(PathMeter, CountsWhatIsMissingDuplicatedAndOvertakenUpToTheHighestNumber)
 {
     PathMeter meter;
     for (const std::uint32_t sequence : {2U, 3U, 3U, 7U, 5U, 2U, 10U}) hear(meter, {sequence});
-    const auto arrived = meter.report().arrived;
-    EXPECT_EQ(arrived.sent, 10U);
-    EXPECT_EQ(arrived.received, 5U);
-    EXPECT_EQ(arrived.duplicates, 2U);
-    EXPECT_EQ(arrived.reordered, 1U);
-    EXPECT_EQ(arrived.loss, 0.5);
+    const auto report = meter.report();
+    EXPECT_EQ(report.arrived.sent, 10U);
+    EXPECT_EQ(report.arrived.received, 5U);
+    EXPECT_EQ(report.arrived.duplicates, 2U);
+    EXPECT_EQ(report.arrived.reordered, 1U);
+    EXPECT_EQ(report.loss, 0.5);
 }
 
-TEST(PathMeter, KnowsDuplicatesAsFarBackAsItLooksAlsoAfterAGap)
+TEST(PathMeter, TakesADuplicateThatIsTooOldToTellForAnother)
 {
     constexpr auto far = static_cast<std::uint32_t>(PathMeter::looks_back);
     PathMeter meter;
-    hear(meter, {1});
-    hear(meter, {far});
-    hear(meter, {1});
+    for (const std::uint32_t sequence : {1U, far, 1U}) hear(meter, {sequence});
     EXPECT_EQ(meter.report().arrived.duplicates, 1U);
-    hear(meter, {far + 1}); // 1 shares its bit with it
-    hear(meter, {1});
+    for (const std::uint32_t sequence : {far + 1, 1U}) hear(meter, {sequence});
     EXPECT_EQ(meter.report().arrived.duplicates, 1U);
-    hear(meter, {3 * far});
-    for (std::uint32_t sequence = 2 * far + 1; sequence < 3 * far; ++sequence) {
-        hear(meter, {sequence});
+    EXPECT_EQ(meter.report().arrived.received, 4U);
+}
+
+TEST(PathMeter, LosesNothingWhereOldDuplicatesCountAsReceived)
+{
+    PathMeter meter;
+    for (std::uint32_t sequence = 1; sequence <= 2000; ++sequence) hear(meter, {sequence});
+    hear(meter, {1});
+    EXPECT_EQ(meter.report().arrived.received, 2001U);
+    EXPECT_EQ(meter.report().loss, 0.0);
+}
+
+TEST(PathMeter, AgesOnlyTheNewestOfStatesThatArriveTogether)
+{
+    PathMeter meter;
+    for (const Arrival& each : {Arrival{1, 90ms}, Arrival{2, 89ms}, Arrival{3, 90ms}}) {
+        hear(meter, each);
     }
-    EXPECT_EQ(meter.report().arrived.duplicates, 1U);
-    hear(meter, {2 * far + 1});
-    EXPECT_EQ(meter.report().arrived.duplicates, 2U);
+    // From 89 ms to 91 ms: the first state had no time to be the newest in.
+    const auto in = meter.report().in;
+    EXPECT_EQ(in.age.peak_max, 91ms);
+    EXPECT_EQ(in.age.mean, 90ms);
+    hear(meter, {4, 10ms}); // its stamp is older than that of the one before
+    EXPECT_EQ(meter.report().in.age.mean, 90ms);
 }
 
 TEST(PathMeter, MeasuresDelayJitterAndAgeOfWhatComesIn)
@@ -84,13 +98,13 @@ TEST(PathMeter, MeasuresDelayJitterAndAgeOfWhatComesIn)
         hear(meter, each);
     }
     const auto in = meter.report().in;
-    ASSERT_TRUE(in.delay && in.jitter && in.age);
+    ASSERT_TRUE(in.delay && in.jitter && in.age.mean);
     EXPECT_EQ(in.delay->max, 50ms);
     EXPECT_NEAR(ms(in.delay->p50), 40.0, 0.7); // bins of 1/64
     EXPECT_EQ(in.jitter->max, 10ms);
     // From 40 ms at the first arrival to 47 ms at the next newer one.
-    EXPECT_EQ(in.age->peak_max, 47ms);
-    EXPECT_NEAR(ms(in.age->mean), 43.5, 1e-6);
+    EXPECT_EQ(in.age.peak_max, 47ms);
+    EXPECT_NEAR(ms(*in.age.mean), 43.5, 1e-6);
 }
 
 TEST(PathMeter, AddsNothingToDelaysWhileTheClockIsUnknownAndComparesNothingAcrossThat)
@@ -103,7 +117,7 @@ TEST(PathMeter, AddsNothingToDelaysWhileTheClockIsUnknownAndComparesNothingAcros
     const auto in = meter.report().in;
     EXPECT_EQ(in.delay->max, 60ms);
     EXPECT_FALSE(in.jitter);
-    EXPECT_FALSE(in.age);
+    EXPECT_FALSE(in.age.mean);
 }
 
 TEST(PathMeter, LearnsOfTheOtherDirectionByEchoes)
@@ -121,11 +135,11 @@ TEST(PathMeter, LearnsOfTheOtherDirectionByEchoes)
     hear_echo(102, 50ms, 52ms); // an older one: no news
     hear_echo(110, 90ms, 0ms);
     const auto out = meter.report().out;
-    ASSERT_TRUE(out.delay && out.jitter && out.age);
+    ASSERT_TRUE(out.delay && out.jitter && out.age.mean);
     EXPECT_EQ(out.delay->max, 30ms);
     EXPECT_EQ(out.jitter->max, 10ms);
-    EXPECT_EQ(out.age->peak_max, 52ms);
-    EXPECT_NEAR(ms(out.age->mean), (31.0 + 32.0 + 52.0 + 20.0) / 4.0, 1e-6);
+    EXPECT_EQ(out.age.peak_max, 52ms);
+    EXPECT_NEAR(ms(*out.age.mean), (31.0 + 32.0 + 52.0 + 20.0) / 4.0, 1e-6);
 }
 
 TEST(PathMeter, IsInAPeerThatIsToMeasureAndBeginsAnewWithEachSession)
@@ -138,10 +152,10 @@ TEST(PathMeter, IsInAPeerThatIsToMeasureAndBeginsAnewWithEachSession)
     pair.run_for(2s);
     const auto paths = pair.peers[0]->others().front().paths();
     EXPECT_GE(paths.arrived.received, 2000U);
-    EXPECT_EQ(paths.arrived.loss, 0.0);
+    EXPECT_EQ(paths.loss, 0.0);
     EXPECT_EQ(paths.in.delay->max, 1ms); // as the pair's path is
     EXPECT_EQ(paths.out.delay->max, 1ms);
-    EXPECT_EQ(paths.in.age->peak_max, 2ms);
+    EXPECT_EQ(paths.in.age.peak_max, 2ms);
     EXPECT_EQ(pair.peers[1]->others().front().paths().arrived.received, 0U);
     pair.start(1, settings_of(1, 1));
     pair.run_for(1s);

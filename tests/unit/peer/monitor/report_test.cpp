@@ -113,9 +113,9 @@ TEST_F(Shown, HasTheClockOfEachOtherAndThePathsToItAndBack)
     other.clock_jumps = 1;
     other.paths.arrived.sent = 4;
     other.paths.arrived.received = 3;
-    other.paths.arrived.loss = 0.25;
-    other.paths.in.delay = TimeQuantiles{.p50 = 1ms, .p99 = 2ms, .max = 3ms};
-    other.paths.out.age = StateAge{.mean = 4ms, .peak_max = 5ms};
+    other.paths.loss = 0.25;
+    other.paths.in.delay = base::Quantiles{.p50 = 1ms, .p99 = 2ms, .max = 3ms};
+    other.paths.out.age = base::Age{.mean = 4ms, .peak_mean = {}, .peak_max = 5ms};
     const auto shown = others()[1];
     EXPECT_EQ(shown["id"], 3);
     EXPECT_EQ(shown["clock"]["offset_ms"], -2000.0);

@@ -14,6 +14,7 @@ TEST(Histogram, OfNothingHasNoQuantileAndNoMaximum)
     const DurationHistogram nothing;
     EXPECT_EQ(nothing.count(), 0U);
     EXPECT_EQ(nothing.quantile(0.5), std::nullopt);
+    EXPECT_EQ(nothing.quantiles(), std::nullopt);
     EXPECT_EQ(nothing.max(), std::nullopt);
 }
 

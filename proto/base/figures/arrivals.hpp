@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::base {
+
+/// Tells arrivals in order from reordered ones (RFC 4737, 3.3) by the number that is expected next:
+/// one more than the highest that has arrived. An arrival with a lower number is reordered.
+class NextExpected {
+public:
+    /// `first`: the first number of the stream.
+    constexpr explicit NextExpected(std::uint64_t first = 0) : next_{first} {}
+
+    /// Takes an arrival, and returns how many numbers it skips, which may still come; nullopt if
+    /// it is reordered.
+    constexpr std::optional<std::uint64_t> add(std::uint64_t number)
+    {
+        if (number < next_) [[unlikely]]
+            return std::nullopt;
+        const std::uint64_t skipped = number - next_;
+        next_ = number + 1;
+        return skipped;
+    }
+
+    [[nodiscard]] constexpr std::uint64_t next() const { return next_; }
+
+private:
+    std::uint64_t next_;
+};
+
+/// What has arrived of a numbered stream.
+struct ArrivalCounts {
+    std::uint64_t sent = 0;       // numbers up to the highest that has arrived
+    std::uint64_t received = 0;   // different numbers
+    std::uint64_t duplicates = 0; // further copies, which count nowhere else
+    std::uint64_t reordered = 0;  // after one with a higher number (RFC 4737, 3.3)
+
+    friend bool operator==(const ArrivalCounts&, const ArrivalCounts&) = default;
+};
+
+/// Counts the arrivals of a numbered stream. Its user says which are duplicates, by RecentNumbers
+/// or by what it remembers anyway.
+class ArrivalCounter {
+public:
+    enum class Arrival : std::uint8_t { in_order, reordered, duplicate };
+
+    /// `first`: the first number of the stream.
+    explicit ArrivalCounter(std::uint64_t first) : expected_{first}, first_{first} {}
+
+    Arrival add(std::uint64_t number, bool is_duplicate)
+    {
+        if (is_duplicate) {
+            ++counts_.duplicates;
+            return Arrival::duplicate;
+        }
+        ++counts_.received;
+        if (!expected_.add(number)) {
+            ++counts_.reordered;
+            return Arrival::reordered;
+        }
+        counts_.sent = expected_.next() - first_;
+        return Arrival::in_order;
+    }
+
+    [[nodiscard]] const ArrivalCounts& counts() const { return counts_; }
+
+private:
+    NextExpected expected_;
+    std::uint64_t first_;
+    ArrivalCounts counts_;
+};
+
+} // namespace hapnet::base

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace hapnet::base {
+
+/// Quantiles of durations by nearest rank: the smallest value that at least this share of all
+/// values do not exceed. A sample knows them exactly, a DurationHistogram to 1.6 %; `max` is always
+/// exact.
+struct Quantiles {
+    Duration p50{};
+    Duration p90{};
+    Duration p99{};
+    Duration p999{};
+    Duration max{};
+
+    friend bool operator==(const Quantiles&, const Quantiles&) = default;
+};
+
+/// Keeps all durations, for exact quantiles: memory grows with their number.
+class DurationSample {
+public:
+    void add(Duration value) { values_.push_back(value); }
+
+    [[nodiscard]] std::size_t count() const { return values_.size(); }
+    /// The values in the order in which they were added.
+    [[nodiscard]] const std::vector<Duration>& values() const { return values_; }
+
+    /// nullopt when nothing was added.
+    [[nodiscard]] std::optional<Quantiles> quantiles() const;
+
+private:
+    std::vector<Duration> values_;
+};
+
+} // namespace hapnet::base
