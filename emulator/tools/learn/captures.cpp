@@ -119,6 +119,19 @@ struct Arrival {
     std::size_t count = 0;
 };
 
+/// How many arrived after one that was sent later (RFC 4737, 3.3). `arrivals` in the order of
+/// sending.
+std::uint64_t reordered_of(const std::vector<base::Duration>& arrivals)
+{
+    std::uint64_t reordered = 0;
+    base::Duration earliest = base::Duration::max(); // of those that were sent later
+    for (auto at = arrivals.rbegin(); at != arrivals.rend(); ++at) {
+        if (*at > earliest) ++reordered;
+        earliest = std::min(earliest, *at);
+    }
+    return reordered;
+}
+
 Matched match(const Packets& sent, const Packets& arrived, const Identity& identity)
 {
     Matched matched;
@@ -131,8 +144,7 @@ Matched match(const Packets& sent, const Packets& arrived, const Identity& ident
     const auto has_arrived = [&](const auto& one) { return arrivals.contains(one.first); };
     const auto first = std::find_if(only.begin(), only.end(), has_arrived);
     const auto behind = std::find_if(only.rbegin(), only.rend(), has_arrived).base();
-    std::vector<base::Duration> times;
-    base::Duration newest = base::Duration::min();
+    std::vector<base::Duration> times, arrived_at;
     for (auto one = first; one < behind; ++one) {
         times.push_back(one->second->at);
         const auto arrival = arrivals.find(one->first);
@@ -144,9 +156,9 @@ Matched match(const Packets& sent, const Packets& arrived, const Identity& ident
         matched.way.add(at - one->second->at, false);
         matched.differences.push_back(at - one->second->at);
         matched.copies += count - 1;
-        if (at < newest) ++matched.way.reordered;
-        newest = std::max(newest, at);
+        arrived_at.push_back(at);
     }
+    matched.way.reordered = reordered_of(arrived_at);
     if (times.size() < 2 || times.front() == times.back()) return matched;
     matched.way.spacing =
         (times.back() - times.front()) / static_cast<base::Duration::rep>(times.size() - 1);
