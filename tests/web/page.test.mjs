@@ -50,7 +50,7 @@ const rowsOf = (one) => one.evaluate(() => {
 });
 
 test("loads in space, with charts, without a complaint", { skip }, async () => {
-  await page.waitForSelector("#charts .u-wrap canvas");
+  await page.waitForSelector("#charts .plot canvas");
   assert.equal(await page.evaluate(() => document.body.dataset.view), "3-D");
   assert.deepEqual(page.complaints, []);
 });
@@ -174,7 +174,7 @@ test("a page too busy to show its token in time tries again", { skip }, async ()
 });
 
 test("without WebGL, and without modules, it draws flat", { skip }, async () => {
-  for (const pattern of [null, /three\.|uPlot\.module/]) {
+  for (const pattern of [null, /three\./]) {
     const flat = await openPage(await browser.newContext(), web.address, async (one) => {
       if (pattern) await one.route(pattern, (route) => route.abort());
       else {
