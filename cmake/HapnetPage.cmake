@@ -3,7 +3,7 @@
 #
 # The files of web/page, compiled into the programs that show them: hapnet-web serves them, and
 # results of hapnet-emulator and hapnet-lab carry what draws them. Worlds are drawn in space by
-# Debian's three.js, and flat without it; no page needs npm.
+# Debian's three.js, and are still pictures without it; no page needs npm.
 set(hapnet_page_folder ${PROJECT_SOURCE_DIR}/web/page)
 set(hapnet_debian_three /usr/share/javascript/three/three.min.js)
 
@@ -36,10 +36,10 @@ function(hapnet_page_libraries out)
         hapnet_page_module(module three.module.min.js ${hapnet_debian_three} "${code}")
         list(APPEND entries ${module} three-LICENSE.txt=/usr/share/doc/libjs-three/copyright)
     else()
-        get_property(was_said GLOBAL PROPERTY hapnet_page_flat)
+        get_property(was_said GLOBAL PROPERTY hapnet_page_still)
         if(NOT was_said)
-            message(WARNING "Pages will draw worlds flat: Debian's package libjs-three is missing")
-            set_property(GLOBAL PROPERTY hapnet_page_flat TRUE)
+            message(WARNING "Pages will not draw worlds: Debian's package libjs-three is missing")
+            set_property(GLOBAL PROPERTY hapnet_page_still TRUE)
         endif()
     endif()
     set(${out} ${entries} PARENT_SCOPE)

@@ -173,9 +173,9 @@ test("a page too busy to show its token in time tries again", { skip }, async ()
   await busy.context().close();
 });
 
-test("without WebGL, and without modules, it draws flat", { skip }, async () => {
+test("without WebGL, and without modules, it shows a still picture and words", { skip }, async () => {
   for (const pattern of [null, /three\./]) {
-    const flat = await openPage(await browser.newContext(), web.address, async (one) => {
+    const still = await openPage(await browser.newContext(), web.address, async (one) => {
       if (pattern) await one.route(pattern, (route) => route.abort());
       else {
         await one.addInitScript(() => {
@@ -186,10 +186,12 @@ test("without WebGL, and without modules, it draws flat", { skip }, async () => 
         });
       }
     });
-    assert.equal(await flat.evaluate(() => document.body.dataset.view), "flat");
-    await flat.waitForSelector(".view canvas");
-    await flat.waitForSelector(".plot canvas");
-    await flat.context().close();
+    assert.equal(await still.evaluate(() => document.body.dataset.view), "still");
+    await still.waitForSelector(".view > svg rect");
+    await still.waitForFunction(() =>
+      / at -?[0-9.]+, .* mm/.test(document.querySelector(".view .in-words").textContent));
+    await still.waitForSelector(".plot canvas");
+    await still.context().close();
   }
 });
 

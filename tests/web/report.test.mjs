@@ -146,6 +146,7 @@ test("a figure is saved as SVG in light colours, and has its numbers as a table"
     assert.match(svg, /fill="#0072b2"/);
     assert.doesNotMatch(svg, /var\(/);
     await figure.locator("details summary").click();
+    await figure.locator("tbody tr").first().waitFor(); // it is filled after it has opened
     const rows = await figure.locator("tbody tr").allTextContents();
     assert.equal(rows.length, 6, rows.join());
     assert.match(rows[0], /^base.*paper: [0-9.]+ mm/);
@@ -233,19 +234,19 @@ const withoutLibraries = (one) => one.addInitScript(() => {
   globalThis.DecompressionStream = undefined; // as in an older browser
 });
 
-test("without WebGL, and without libraries, it draws flat", { skip }, async () => {
+test("without WebGL, and without libraries, it shows a still picture and words", { skip }, async () => {
   for (const [prepare, name] of [[withoutWebGl, "webgl"], [withoutLibraries, "libraries"]]) {
-    const flat = await openReport(experiments, prepare);
-    assert.equal(await flat.evaluate(() => document.body.dataset.view), "flat");
-    await flat.click(".player .play");
-    await flat.waitForFunction(() => globalThis.hapnet.player.at > 1, undefined, patience);
-    const { x, y, width, height } = await plotOf(flat, "fig7-base");
-    await flat.mouse.move(x + width / 2, y + height / 2);
-    await flat.waitForFunction(() =>
+    const still = await openReport(experiments, prepare);
+    assert.equal(await still.evaluate(() => document.body.dataset.view), "still");
+    await still.click(".player .play");
+    await still.waitForFunction(() => globalThis.hapnet.player.at > 1, undefined, patience);
+    const { x, y, width, height } = await plotOf(still, "fig7-base");
+    await still.mouse.move(x + width / 2, y + height / 2);
+    await still.waitForFunction(() =>
       document.querySelector('figure[data-figure="fig7-base"] .pointed').textContent !== "");
-    assert.deepEqual(flat.complaints, []);
-    await keepPicture(flat, `report-without-${name}`);
-    await flat.context().close();
+    assert.deepEqual(still.complaints, []);
+    await keepPicture(still, `report-without-${name}`);
+    await still.context().close();
   }
 });
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // What draws here: a graphics card or the processor in its place, as far as the browser tells, and
-// which painters: with the modules and WebGL the good ones, else those of our own.
+// which painter of worlds: with three.js and WebGL the one in space, else a still picture.
 
 const probe = () => {
   const gl = document.createElement("canvas").getContext("webgl2");
@@ -27,12 +27,12 @@ export const graphics = () => {
 export const flatContext = (canvas) =>
   canvas.getContext("2d", graphics().software ? { willReadFrequently: true } : {});
 
-/** The painter of worlds in space, or the flat one where modules or WebGL are missing. */
+/** The painter of worlds in space, or a still picture where three.js or WebGL is missing. */
 export const painterFor = async (container) => {
   try {
     return (await import("./scene3d.js")).makePainter(container);
   } catch {
     container.querySelector("canvas.space")?.remove();
-    return (await import("./sceneflat.js")).makePainter(container);
+    return (await import("./scenestill.js")).makePainter(container);
   }
 };

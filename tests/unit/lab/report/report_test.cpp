@@ -308,7 +308,7 @@ TEST(Report, CarriesThePlayerOnlyWhereThereIsAReplay)
         const auto modules = test::json_in(page_of(files), "modules");
         return modules.at("plain").contains(name) || modules.at("packed").contains(name);
     };
-    for (const char* name : {"report/player.js", "paint/flat.js", "pane.js"}) {
+    for (const char* name : {"report/player.js", "paint/space.js", "pane.js"}) {
         EXPECT_TRUE(carries({sample_replay()}, name)) << name;
         EXPECT_FALSE(carries({sample_curves()}, name)) << name;
     }
