@@ -7,7 +7,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { execFileSync } from "node:child_process";
-import { existsSync, readdirSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
 import { lowContrasts } from "./contrast.mjs";
@@ -52,6 +52,17 @@ const rowsOf = (one) => one.evaluate(() => {
 test("loads in space, with charts, without a complaint", { skip }, async () => {
   await page.waitForSelector("#charts .plot canvas");
   assert.equal(await page.evaluate(() => document.body.dataset.view), "3-D");
+  assert.deepEqual(page.complaints, []);
+});
+
+test("a chart is saved as SVG, in light colours", { skip }, async () => {
+  const [download] = await Promise.all([
+    page.waitForEvent("download"), page.locator('[data-chart="apart"] .save').click(),
+  ]);
+  assert.equal(download.suggestedFilename(), "hapnet-apart.svg");
+  const svg = readFileSync(await download.path(), "utf8");
+  assert.match(svg, /^<svg .*<path [^>]*stroke="#0b62a8".*>Copies apart, /s);
+  assert.doesNotMatch(svg, /var\(/);
   assert.deepEqual(page.complaints, []);
 });
 

@@ -105,7 +105,9 @@ export class Chart {
     const { box, x } = this.#drawn;
     const across = this.pointed === null ? -1 : x.pixel(this.pointed);
     this.cursor.hidden = !(across >= box.left && across <= box.right);
-    if (!this.cursor.hidden) this.cursor.style.left = `${across}px`;
+    Object.assign(this.cursor.style, {
+      left: `${across}px`, top: `${box.top}px`, height: `${box.bottom - box.top}px`,
+    });
   }
 
   get isDrawn() { return this.#drawn !== null; }

@@ -9,6 +9,7 @@ import { drawnHeatMap } from "./heat_map.js";
 import { element, paintOf, text } from "./svg.js";
 
 const kinds = { curves: drawnCurves, bars: drawnBars, "heat-map": drawnHeatMap };
+const ink = "#1b1f24";
 const besideTitle = 600; // pixels: a narrower figure has its legend below its title
 
 /** The figure without title and legend, as a drawing of that size. */
@@ -38,12 +39,11 @@ export const stillOf = (figure, { hidden = new Set(), range } = {}) => {
   const svg = drawn(figure, figure, { hidden, range, top: hasLegend && !isBeside ? 48 : 30 });
   text(svg, [60, 16], "start", figure.title, { "font-weight": "bold" });
   paintLegend(svg, figure, hidden, isBeside);
-  element(svg, "style", {}, "text { fill: #1b1f24 }");
-  for (const one of svg.querySelectorAll("text[fill]")) one.style.fill = one.getAttribute("fill");
+  for (const words of svg.querySelectorAll("text:not([fill])")) words.setAttribute("fill", ink);
   for (const [key, value] of Object.entries({
-    "font-family": "sans-serif", "font-size": 12, color: "#1b1f24",
-    style: "background: #fff",
+    "font-family": "sans-serif", "font-size": 12, color: ink,
   })) svg.setAttribute(key, value);
+  svg.prepend(element(null, "rect", { width: "100%", height: "100%", fill: "#fff" }));
   return svg;
 };
 
@@ -55,7 +55,7 @@ const lightColour = (name) => {
       if (value !== "") return value.trim();
     }
   }
-  return "#1b1f24";
+  return ink;
 };
 
 /** The figure as the text of an SVG file. */

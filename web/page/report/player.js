@@ -151,7 +151,8 @@ export class Player {
     }));
     const all = columns.flat();
     const [low, high] = [Math.min, Math.max].map((pick) => all.reduce((a, b) => pick(a, b)));
-    this.range = high > low ? [low, high] : [low - 1, high + 1];
+    const room = high > low ? 0.04 * (high - low) : 1;
+    this.range = [low - room, high + room];
     this.#hidden.clear();
     const { buttons, values } = legendOf(this.curves, this.#hidden, () => this.draw());
     this.stripValues = values;
