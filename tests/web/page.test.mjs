@@ -56,6 +56,7 @@ test("loads in space, with charts, without a complaint", { skip }, async () => {
 });
 
 test("a chart is saved as SVG, in light colours", { skip }, async () => {
+  await waitForApart(0, 100); // there is a curve
   const [download] = await Promise.all([
     page.waitForEvent("download"), page.locator('[data-chart="apart"] .save').click(),
   ]);
