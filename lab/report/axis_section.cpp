@@ -32,16 +32,8 @@ page::Figure axis_bars(const AxisRows& rows)
         for (const results::AxisLimitRow& row : rows) {
             const results::LimitRow& limit = row.limit;
             if (row.value != value || limit.task != results::worst_task) continue;
-            page::Bar bar{.series = limit.algorithm,
-                          .value = limit.limit,
-                          .text = (limit.is_open() ? "> " : "") +
-                                  shown(limit.limit, limit.limit < 20.0 ? 1 : 0),
-                          .colour = colour_of(limit.algorithm),
-                          .is_open = limit.is_open(),
-                          .tip = fmt::format("{}, {}", limit.algorithm, value)};
-            if (limit.ci_low && limit.ci_high)
-                bar.interval = page::Range{*limit.ci_low, *limit.ci_high};
-            group.bars.push_back(std::move(bar));
+            group.bars.push_back(
+                limit_bar(limit, limit.algorithm, fmt::format("{}, {}", limit.algorithm, value)));
         }
         groups.push_back(std::move(group));
     }
@@ -73,11 +65,10 @@ std::optional<Section> axis_section(const results::Results& results)
     });
     Json figures = Json::array();
     for (const auto& [parameter, impairment] : kinds) {
-        AxisRows rows;
-        for (const results::AxisLimitRow& row : results.limits_by_axis) {
-            if (row.parameter == parameter && row.limit.impairment == impairment)
-                rows.push_back(row);
-        }
+        const auto is_of = [p = parameter, i = impairment](const results::AxisLimitRow& row) {
+            return row.parameter == p && row.limit.impairment == i;
+        };
+        const AxisRows rows = rows_where(results.limits_by_axis, is_of);
         figures.push_back(section.keep(axis_bars(rows)));
     }
     section.add(page::panels("", std::move(figures)));

@@ -85,10 +85,7 @@ Json tasks_of(Section& section, const std::vector<results::CurveRow>& rows,
 {
     Json figures = Json::array();
     for (const std::string& task : distinct(rows, [](const auto& row) { return row.task; })) {
-        std::vector<results::CurveRow> of_task;
-        for (const results::CurveRow& row : rows) {
-            if (row.task == task) of_task.push_back(row);
-        }
+        const auto of_task = rows_where(rows, [&](const auto& row) { return row.task == task; });
         for (const Criterion& criterion : criteria_drawn) {
             if (auto figure = curve_figure(of_task, criterion, criteria))
                 figures.push_back(section.keep(*std::move(figure)));
@@ -134,10 +131,8 @@ std::optional<Section> curves_section(const results::Results& results)
     const auto criteria = results.criteria();
     if (criteria) section.add(page::paragraph("The dashed line is where usable ends."));
     for (const auto& name : distinct(results.curves, [](const auto& r) { return r.impairment; })) {
-        std::vector<results::CurveRow> rows;
-        for (const results::CurveRow& row : results.curves) {
-            if (row.impairment == name) rows.push_back(row);
-        }
+        const auto rows =
+            rows_where(results.curves, [&](const auto& row) { return row.impairment == name; });
         add_curves(section, rows, criteria);
     }
     return section;

@@ -143,10 +143,8 @@ std::optional<Section> fig7_section(const results::Results& results)
     Json blocks = Json::array(), more = Json::array();
     for (const auto& name :
          distinct(results.trajectories, [](const auto& r) { return r.algorithm; })) {
-        Rows rows;
-        for (const results::TrajectoryRow& row : results.trajectories) {
-            if (row.algorithm == name) rows.push_back(row);
-        }
+        const Rows rows = rows_where(results.trajectories,
+                                     [&](const auto& row) { return row.algorithm == name; });
         auto cubes = both_sides_figure("fig7", rows, drawn_cubes, range);
         cubes.caption = apart_text(rows);
         blocks.push_back(section.keep(std::move(cubes)));

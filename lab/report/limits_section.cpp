@@ -12,22 +12,9 @@ namespace hapnet::lab::report {
 
 namespace {
 
-std::vector<results::LimitRow> limits_of(const results::Results& results,
-                                         std::string_view impairment)
-{
-    std::vector<results::LimitRow> rows;
-    for (const results::LimitRow& row : results.limits) {
-        if (row.impairment == impairment) rows.push_back(row);
-    }
-    return rows;
-}
-
-/// As many digits as a limit is worth.
-std::string rounded(double limit) { return shown(limit, limit < 20.0 ? 1 : 0); }
-
 std::string measured_text(const results::LimitRow& row)
 {
-    return fmt::format("{}{} {}", row.is_open() ? "> " : "", rounded(row.limit),
+    return fmt::format("{}{} {}", row.is_open() ? "> " : "", rounded_limit(row.limit),
                        unit_text(row.unit));
 }
 
@@ -51,16 +38,11 @@ std::string interval_text(const results::LimitRow& row)
 
 page::Bar measured_bar(const results::LimitRow& row, std::string series)
 {
-    page::Bar bar{.series = std::move(series),
-                  .value = row.limit,
-                  .text = fmt::format("{}{}", row.is_open() ? "> " : "", rounded(row.limit)),
-                  .colour = colour_of(row.algorithm),
-                  .is_open = row.is_open(),
-                  .is_missed = to_claim(row.status) == results::Claim::missed,
-                  .tip = fmt::format("{} in {}: {} ({}, {} seeds) {}", row.algorithm, row.task,
+    auto bar = limit_bar(row, std::move(series),
+                         fmt::format("{} in {}: {} ({}, {} seeds) {}", row.algorithm, row.task,
                                      measured_text(row), interval_text(row), row.seeds,
-                                     base::name_of(row.status))};
-    if (row.ci_low && row.ci_high) bar.interval = page::Range{*row.ci_low, *row.ci_high};
+                                     base::name_of(row.status)));
+    bar.is_missed = to_claim(row.status) == results::Claim::missed;
     return bar;
 }
 
@@ -209,7 +191,8 @@ std::optional<Section> limits_section(const results::Results& results, Section s
 {
     bool is_empty = true;
     for (const std::string_view impairment : impairments) {
-        const auto rows = limits_of(results, impairment);
+        const auto rows = rows_where(results.limits,
+                                     [&](const auto& row) { return row.impairment == impairment; });
         if (rows.empty()) continue;
         is_empty = false;
         add_impairment(section, results, rows);

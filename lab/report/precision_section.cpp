@@ -37,13 +37,6 @@ std::optional<Measured> measured(std::string_view text)
     return value;
 }
 
-PrecisionRows rows_where(const PrecisionRows& rows, const auto& keeps)
-{
-    PrecisionRows kept;
-    std::ranges::copy_if(rows, std::back_inserter(kept), keeps);
-    return kept;
-}
-
 /// The row by all seeds of each value.
 PrecisionRows by_all_seeds(const PrecisionRows& rows)
 {

@@ -106,10 +106,9 @@ std::optional<Section> qos_section(const results::Results& results)
         section.add(page::heading(name));
         Json maps = Json::array();
         for (const double loss : losses) {
-            std::vector<results::QosRow> rows;
-            for (const results::QosRow& row : results.qos) {
-                if (row.algorithm == name && row.loss_percent == loss) rows.push_back(row);
-            }
+            const auto rows = rows_where(results.qos, [&](const results::QosRow& row) {
+                return row.algorithm == name && row.loss_percent == loss;
+            });
             if (rows.empty()) continue;
             maps.push_back(section.keep(plane_map(rows, delays, jitters)));
         }

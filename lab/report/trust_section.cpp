@@ -141,10 +141,8 @@ std::optional<Section> trust_section(const results::Results& results)
     std::vector<Json> tables;
     const auto names = distinct(results.sensitivity, [](const auto& r) { return r.impairment; });
     for (const std::string& name : names) {
-        std::vector<results::SensitivityRow> rows;
-        for (const results::SensitivityRow& row : results.sensitivity) {
-            if (row.impairment == name) rows.push_back(row);
-        }
+        const auto rows = rows_where(results.sensitivity,
+                                     [&](const auto& row) { return row.impairment == name; });
         section.add(ways_figure(rows));
         tables.push_back(ways_table(rows));
     }

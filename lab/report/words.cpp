@@ -111,6 +111,20 @@ std::string_view colour_of(std::string_view algorithm)
 
 double curve_width(std::string_view algorithm) { return algorithm == "sep" ? 4.0 : 1.2; }
 
+std::string rounded_limit(double limit) { return shown(limit, limit < 20.0 ? 1 : 0); }
+
+page::Bar limit_bar(const results::LimitRow& row, std::string series, std::string tip)
+{
+    page::Bar bar{.series = std::move(series),
+                  .value = row.limit,
+                  .text = (row.is_open() ? "> " : "") + rounded_limit(row.limit),
+                  .colour = colour_of(row.algorithm),
+                  .is_open = row.is_open(),
+                  .tip = std::move(tip)};
+    if (row.ci_low && row.ci_high) bar.interval = page::Range{*row.ci_low, *row.ci_high};
+    return bar;
+}
+
 void add_table(page::Section& section, const records::TextTable& text)
 {
     page::Table table{text.caption, {text.unit}};

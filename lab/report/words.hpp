@@ -7,6 +7,7 @@
 #include "proto/page/page.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,6 +56,21 @@ template <typename Value, typename Name>
     }
     return found;
 }
+
+/// The rows of which `keeps` is true.
+template <typename Value, typename Keeps>
+[[nodiscard]] std::vector<Value> rows_where(const std::vector<Value>& rows, const Keeps& keeps)
+{
+    std::vector<Value> kept;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(kept), keeps);
+    return kept;
+}
+
+/// As many digits as a limit is worth.
+[[nodiscard]] std::string rounded_limit(double limit);
+/// The bar of a limit with its interval, open where it is a bound.
+[[nodiscard]] page::Bar limit_bar(const results::LimitRow& row, std::string series,
+                                  std::string tip);
 
 /// Adds what a terminal shows as text, with its remarks below.
 void add_table(page::Section& section, const records::TextTable& table);

@@ -39,7 +39,7 @@ const bannerOf = ({ banner, style, list }) => make("div", {
 const tilesOf = (tiles) => make("p", {
   class: "tiles", "aria-label": "results that stand against the paper",
 }, ...tiles.map(({ count, text, style }) =>
-  make("a", { class: `tile ${style}`, href: "#claims" }, make("b", {}, String(count)), text)));
+  make("a", { class: `tile ${style}`, href: "#claims" }, make("b", {}, String(count)), " ", text)));
 
 const claimsOf = (lists) => make("div", { class: "three" }, ...lists.map(({ title, style, list }) =>
   make("div", { class: `claims ${style}` }, make("h3", {}, `${title} (${list.length})`),
@@ -77,6 +77,7 @@ export class Document {
       make("a", { href: path.split("/").map(encodeURIComponent).join("/") }, path)]);
     return make("figure", { "data-figure": id }, figure.root,
       make("figcaption", {}, ...textOf(data.caption),
+        " ",
         links.length > 0 ? make("span", { class: "source" }, "Data: ", ...links) : null));
   }
 
