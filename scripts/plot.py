@@ -47,7 +47,7 @@ def unit_of(rows):
 
 def draw_table1(plot, rows):
     """Mean, standard deviation and largest distance of the copies, beside the paper."""
-    figure, all_axes = plot.subplots(1, 3, figsize=(7.2, 2.4))
+    figure, all_axes = plot.subplots(1, 3, figsize=(7.2, 2.6), layout="constrained")
     for axes, quantity in zip(all_axes, ["mean", "std", "max"]):
         for place, row in enumerate(rows):
             colour = colour_of(row["algorithm"])
@@ -113,8 +113,8 @@ def draw_curves(plot, rows):
 def draw_trajectories(plot, rows):
     """Where each side has the cube, a panel for each algorithm."""
     names = [name for (name,) in distinct(rows, "algorithm")]
-    figure, all_axes = plot.subplots(len(names), 1, figsize=(7.2, 1.7 * len(names)), sharex=True,
-                                     sharey=True, squeeze=False)
+    figure, all_axes = plot.subplots(len(names), 1, figsize=(7.2, 1.9 * len(names)), sharex=True,
+                                     sharey=True, squeeze=False, layout="constrained")
     for axes, name in zip(all_axes[:, 0], names):
         own = having(rows, algorithm=name)
         times = [number(row["time_s"]) for row in own]
