@@ -19,10 +19,12 @@ let page = null;
 
 const lab = (...words) => execFileSync(programBeside("hapnet-lab"), words, { stdio: "pipe" });
 
-/** Two peers that play P1 for 3 s over the emulator leave their records in the folder. */
+/** Two peers that play P1 for 3 s over the emulator: all three leave their files in the folder. */
 const record = async (where) => {
   const emulator = spawn(programBeside("hapnet-emulator"),
-    ["--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--delay", "40ms"]);
+    ["--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--delay", "40ms", "--loss", "5%",
+      "--stats", join(where, "run.json"), "--fates", join(where, "run.fates")]);
+  const ended = new Promise((resolve) => { emulator.on("exit", resolve); });
   const ports = await new Promise((resolve, reject) => {
     emulator.on("exit", (code) => reject(new Error(`hapnet-emulator ended with ${code}`)));
     emulator.stdout.once("data", (text) => resolve(/a=(\S+) b=(\S+)/.exec(text).slice(1)));
@@ -32,8 +34,8 @@ const record = async (where) => {
     "--record", join(where, `${i + 1}.rec`),
   ], { stdio: "ignore" }));
   await Promise.all(peers.map((peer) => new Promise((resolve) => { peer.on("exit", resolve); })));
-  emulator.removeAllListeners("exit");
   emulator.kill("SIGTERM");
+  await ended;
 };
 
 /** The report in the folder, in a page that counts complaints and whatever it asks for. */
@@ -268,3 +270,25 @@ test("the report of two records does the same, alone in another folder", { skip 
   await keepPicture(session, "report-session");
   await session.context().close();
 });
+
+test("the page of a run of the emulator draws its figures, alone in another folder", { skip },
+  async () => {
+    const alone = mkdtempSync(join(folder, "run-"));
+    execFileSync(programBeside("hapnet-emulator"),
+      ["report", join(folder, "run.json"), "--out", join(alone, "report.html")], { stdio: "pipe" });
+    const run = await openReport(alone);
+    const { names, drawn } = await run.evaluate(() => ({
+      names: Object.keys(globalThis.hapnet.figures),
+      drawn: [...document.querySelectorAll("figure[data-figure]")]
+        .filter((one) => one.querySelector(".plot > svg path, .plot > svg rect"))
+        .map((one) => one.dataset.figure),
+    }));
+    assert.deepEqual(drawn.sort(), names.sort());
+    for (const name of ["delay-up", "lateness-down", "loss-runs-up", "losses-down"]) {
+      assert.ok(names.includes(name), name);
+    }
+    assert.match(await run.textContent("#tests table"), /up: loss/);
+    assert.deepEqual(run.complaints, []);
+    await keepPicture(run, "report-run");
+    await run.context().close();
+  });
