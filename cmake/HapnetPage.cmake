@@ -1,51 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The files of web/page and their modules, compiled into the programs that show them: hapnet-web
-# serves them, hapnet-lab writes them into its reports. Without npm the worlds are drawn by Debian's
-# three.js, and without that flat; neither is an error.
-set(HAPNET_PAGE_MODULES "" CACHE PATH
-    "A node_modules folder with three and uplot; empty: npm ci fetches them into the build folder")
+# The files of web/page, compiled into the programs that show them: hapnet-web serves them, and
+# results of hapnet-emulator and hapnet-lab carry what draws them. Worlds are drawn in space by
+# Debian's three.js, and are still pictures without it; no page needs npm.
 set(hapnet_page_folder ${PROJECT_SOURCE_DIR}/web/page)
 set(hapnet_debian_three /usr/share/javascript/three/three.min.js)
-
-# hapnet_page_modules(OUT): the folder of the modules; empty when they cannot be had.
-function(hapnet_page_modules out)
-    set(${out} "${HAPNET_PAGE_MODULES}" PARENT_SCOPE)
-    set(lock ${hapnet_page_folder}/package-lock.json)
-    if(HAPNET_PAGE_MODULES OR NOT EXISTS ${lock})
-        return()
-    endif()
-    set(folder ${PROJECT_BINARY_DIR}/page_modules)
-    file(SHA256 ${lock} hash)
-    if(EXISTS ${folder}/${hash})
-        set(${out} ${folder}/node_modules PARENT_SCOPE)
-        return()
-    endif()
-    get_property(was_tried GLOBAL PROPERTY hapnet_page_modules_tried)
-    if(was_tried)
-        return()
-    endif()
-    set_property(GLOBAL PROPERTY hapnet_page_modules_tried TRUE)
-    find_program(HAPNET_NPM npm)
-    if(NOT HAPNET_NPM)
-        set(result "npm is missing")
-    else()
-        file(MAKE_DIRECTORY ${folder})
-        file(COPY ${lock} ${hapnet_page_folder}/package.json DESTINATION ${folder})
-        execute_process(COMMAND ${HAPNET_NPM} ci --omit=dev --ignore-scripts --no-audit --no-fund
-            WORKING_DIRECTORY ${folder} RESULT_VARIABLE result TIMEOUT 120
-            OUTPUT_QUIET ERROR_QUIET)
-    endif()
-    if(result STREQUAL "0")
-        file(TOUCH ${folder}/${hash})
-        set(${out} ${folder}/node_modules PARENT_SCOPE)
-    elseif(EXISTS ${hapnet_debian_three})
-        message(STATUS "Pages draw with Debian's three.js and their own charts (${result})")
-    else()
-        message(WARNING "Pages will draw flat: ${result}, and so is Debian's package libjs-three")
-    endif()
-endfunction()
 
 # hapnet_page_module(OUT NAME SCRIPT CODE): a classic script as a module, by a line of code at its
 # end.
@@ -56,28 +16,11 @@ function(hapnet_page_module out name script code)
     set(${out} "${name}=${module}" PARENT_SCOPE)
 endfunction()
 
-# hapnet_page_libraries(OUT): what pages take of the modules, as name=file. Without npm three.js is
-# Debian's, an older one, of which the module has what the pages name; charts are then our own.
+# hapnet_page_libraries(OUT): what pages take of others, as name=file: Debian's three.js, of which
+# the module has what the painters name.
 function(hapnet_page_libraries out)
     set(entries)
-    hapnet_page_modules(modules)
-    if(modules)
-        foreach(pair three.module.min.js=three/build/three.module.min.js
-                     three.core.min.js=three/build/three.core.min.js
-                     three-LICENSE.txt=three/LICENSE
-                     uPlot.min.css=uplot/dist/uPlot.min.css
-                     uplot-LICENSE.txt=uplot/LICENSE)
-            string(REGEX MATCH "^([^=]+)=(.+)$" matched ${pair})
-            if(EXISTS ${modules}/${CMAKE_MATCH_2})
-                list(APPEND entries "${CMAKE_MATCH_1}=${modules}/${CMAKE_MATCH_2}")
-            endif()
-        endforeach()
-        set(classic ${modules}/uplot/dist/uPlot.iife.min.js)
-        if(EXISTS ${classic})
-            hapnet_page_module(module uPlot.module.min.js ${classic} "export default uPlot;")
-            list(APPEND entries ${module})
-        endif()
-    elseif(EXISTS ${hapnet_debian_three})
+    if(EXISTS ${hapnet_debian_three})
         set(names REVISION)
         file(GLOB painters CONFIGURE_DEPENDS ${hapnet_page_folder}/paint/*.js)
         foreach(painter IN LISTS painters)
@@ -92,6 +35,12 @@ function(hapnet_page_libraries out)
         string(CONFIGURE "${code}" code @ONLY)
         hapnet_page_module(module three.module.min.js ${hapnet_debian_three} "${code}")
         list(APPEND entries ${module} three-LICENSE.txt=/usr/share/doc/libjs-three/copyright)
+    else()
+        get_property(was_said GLOBAL PROPERTY hapnet_page_still)
+        if(NOT was_said)
+            message(WARNING "Pages will not draw worlds: Debian's package libjs-three is missing")
+            set_property(GLOBAL PROPERTY hapnet_page_still TRUE)
+        endif()
     endif()
     set(${out} ${entries} PARENT_SCOPE)
 endfunction()
@@ -101,7 +50,6 @@ function(hapnet_page_files out pattern)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${hapnet_page_folder}
         ${hapnet_page_folder}/*.html ${hapnet_page_folder}/*.css ${hapnet_page_folder}/*.js
         ${hapnet_page_folder}/*.svg)
-    list(FILTER files EXCLUDE REGEX "^node_modules/")
     list(FILTER files INCLUDE REGEX "${pattern}")
     set(entries)
     foreach(file IN LISTS files)

@@ -6,17 +6,17 @@
 set -euo pipefail
 
 usage="usage: scripts/bench.sh emulator|scene|lab|device|secure [--quick] [--json FILE]
-                        [--plot FILE.svg]
        scripts/bench.sh emulator --busy [--quick] [--json FILE]
        scripts/bench.sh web [--quick] [--json FILE] [--page]
        scripts/bench.sh scene [... the same ...] [--csv FILE] [--markdown FILE]
-       scripts/bench.sh lab   [... the same ...] [--csv FILE]
+       scripts/bench.sh lab|emulator [... the same ...] [--csv FILE]
 Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
-the same numbers in FILE; of the scene --csv and --plot are its work-precision diagram, of the lab
-error against run time; of the emulator --busy is its lateness beside a busy process on each
-processor; of the web what ten who watch cost the daemons, or with --page what the page costs in
-Chromium without a graphics card. --quick ends within a minute of measuring; in full the emulator's
-takes 5 minutes, with --busy 15. Run the emulator's as root, or where SCHED_FIFO is allowed, to
+the same numbers in FILE; of the scene --csv has the points of its work-precision diagram, of the
+lab error against run time, of the emulator the distributions of its errors; scripts/plot.py draws
+them. Of the emulator --busy is its lateness beside a busy process on each processor; of the web
+what ten who watch cost the daemons, or with --page what the page costs in Chromium without a
+graphics card. --quick ends within a minute of measuring; in full the emulator's takes 5 minutes,
+with --busy 15. Run the emulator's as root, or where SCHED_FIFO is allowed, to
 measure real-time scheduling too, and the lab's so that nothing else counts. Exits 0 when it has
 measured, also when a target was missed; 2 for an unknown subject or argument."
 
@@ -47,7 +47,7 @@ while (($# > 0)); do
         [[ $subject == web ]] || refuse "--page is for web"
         web_bench=(node tests/bench/web/page.mjs) && shift
         ;;
-    --csv | --json | --markdown | --plot)
+    --csv | --json | --markdown)
         (($# > 1)) || refuse "$1: which file?"
         arguments+=("$1" "$(realpath -m "$2")") && shift 2
         ;;
@@ -68,7 +68,7 @@ if [[ $subject == web ]]; then
     export HAPNET_BIN=$PWD/build/release/bin PYTHONDONTWRITEBYTECODE=1
     if [[ ${web_bench[0]} == node ]]; then
         scripts/setup.sh --web >&2
-        (cd web/page && npm ci --ignore-scripts --no-audit --no-fund) >&2
+        (cd tests/web && npm ci --ignore-scripts --no-audit --no-fund) >&2
     fi
     exec "${web_bench[@]}" "${arguments[@]}"
 fi

@@ -8,8 +8,8 @@ set -euo pipefail
 usage="usage: scripts/live_pictures.sh
 Takes pictures with Chromium of what build/release shows, in docs/images: live.png of the demo of
 hapnet-web, live-worlds.png, in which both worlds move (an animated PNG), and report.png of a report
-that hapnet-lab makes of Table 1. Exits 3 when hapnet-web, node, chromium or the page's modules (npm
-ci in web/page) are missing, 1 when a picture has 300 kB, or the animated one 1 MB, or more."
+that hapnet-lab makes of Table 1. Exits 3 when hapnet-web, node, chromium or the browser's driver
+(npm ci in tests/web) are missing, 1 when a picture has 300 kB, or the animated one 1 MB, or more."
 
 case ${1-} in
 '') ;;

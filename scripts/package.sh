@@ -8,10 +8,9 @@ set -euo pipefail
 usage="usage: scripts/package.sh --out DIR [--only emulator]
 Installs what is missing, builds the programs, and leaves in DIR the packages hapnet-emulator (with
 hapnet-ctl and no library of devices) and hapnet (hapnet-peer, hapnet-lab), each with manual pages,
-completions for bash, zsh and fish, and a unit of systemd; hapnet-web, whose page draws with
-modules that npm fetches; hapnet-dev (libraries for C++) and python3-hapnet; a tarball of the
-programs that runs from any folder and needs no package; a wheel of the module for Python; and
-SHA256SUMS of all of them.
+completions for bash, zsh and fish, and a unit of systemd; hapnet-web; hapnet-dev (libraries for
+C++) and python3-hapnet; a tarball of the programs that runs from any folder and needs no package; a
+wheel of the module for Python; and SHA256SUMS of all of them.
 --only emulator makes the first package alone, a tarball with its programs, and SHA256SUMS.
 Install them with: apt-get install ./DIR/hapnet-emulator_*.deb
 Exits 0 when they are there, 1 when something failed, 2 for an unknown argument, 3 when something

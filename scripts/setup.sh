@@ -6,13 +6,14 @@
 set -euo pipefail
 
 usage="usage: scripts/setup.sh [--test] [--programs] [--web] [--package] [--ship] [--fleet]
+                        [--figures]
        scripts/setup.sh --only emulator [--package]
 Installs the Debian 12 packages that building Hapnet needs and that are missing, or with --only
 emulator those that building the emulator alone needs; with --test
 also those that scripts/test.sh needs, with --programs, --web (nodejs and npm only where there is no
 node), --ship and --fleet those that its kinds of these names need, with --package those that
-scripts/package.sh needs. Runs as root or with sudo, asks nothing, and does nothing when nothing is
-missing."
+scripts/package.sh needs, with --figures matplotlib, with which scripts/plot.py draws. Runs as root
+or with sudo, asks nothing, and does nothing when nothing is missing."
 
 emulator_packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev
     librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev)
@@ -58,10 +59,8 @@ for argument in "$@"; do
     --web) packages+=("${web_packages[@]}") ;;
     --fleet) packages+=("${fleet_packages[@]}") ;;
     --ship) packages+=("${ship_packages[@]}") ;;
-    --package)
-        packages+=("${package_packages[@]}")
-        command -v npm >/dev/null || packages+=(npm) # which need not be Debian's
-        ;;
+    --figures) packages+=(python3-matplotlib) ;;
+    --package) packages+=("${package_packages[@]}") ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) echo "setup: unknown argument '$argument'"$'\n'"$usage" >&2 && exit 2 ;;
     esac

@@ -196,14 +196,14 @@ test_programs() {
 }
 
 # test_web [OPTION... FILE]: all tests in a browser, or those of a file that node's options choose.
-# The modules of the page and of its tests are as the lock file has them.
+# The driver of the browser is as the lock file has it; the page itself needs no module of npm.
 test_web() {
     local program
     for program in node npm chromium; do
         command -v "$program" >/dev/null || { echo "left out: $program is missing" && return; }
     done
     (($# > 0)) || set -- tests/web/*.test.mjs
-    (cd web/page && npm ci --ignore-scripts --no-audit --no-fund) || return
+    (cd tests/web && npm ci --ignore-scripts --no-audit --no-fund) || return
     mkdir -p "$logs/web"
     HAPNET_WEB_PICTURES=$PWD/$logs/web node --test --test-concurrency=1 --test-reporter=spec \
         "$@"

@@ -153,7 +153,7 @@ void add_demo_report(cli::Command& command, DemoReportCommand& demo)
 void add_report(cli::Command& command, ReportCommand& report)
 {
     command.describe(
-        "Writes report.html, one self-contained page; also figures/*.svg. Of a folder: "
+        "Writes report.html, one self-contained page. Of a folder: "
         "the results of its experiments beside the paper, of the demo, or of a "
         "recorded session; of a folder of such folders, without a manifest.json of its own, it "
         "writes one. Of two records or more: their session; the page is written "

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/bars.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
 namespace hapnet::lab::report {
-
-using plot::escaped;
 
 namespace {
 
@@ -27,33 +24,30 @@ std::string parameter_text(const std::string& parameter)
 }
 
 /// The worst of the tasks, one group for each value, with intervals.
-Drawing axis_bars(const AxisRows& rows)
+page::Figure axis_bars(const AxisRows& rows)
 {
-    std::vector<plot::BarGroup> groups;
+    page::Bars groups;
     for (const auto& value : distinct(rows, [](const auto& row) { return row.value; })) {
-        plot::BarGroup group{value, {}};
+        page::BarGroup group{value, {}};
         for (const results::AxisLimitRow& row : rows) {
             const results::LimitRow& limit = row.limit;
             if (row.value != value || limit.task != results::worst_task) continue;
-            plot::Bar bar{.value = limit.limit,
-                          .label = (limit.is_open() ? "> " : "") +
-                                   shown(limit.limit, limit.limit < 20.0 ? 1 : 0),
-                          .colour = colour_of(limit.algorithm),
-                          .is_open = limit.is_open(),
-                          .tip = fmt::format("{}, {}", limit.algorithm, value)};
-            if (limit.ci_low && limit.ci_high)
-                bar.interval = plot::Range{*limit.ci_low, *limit.ci_high};
-            group.bars.push_back(std::move(bar));
+            group.bars.push_back(
+                limit_bar(limit, limit.algorithm, fmt::format("{}, {}", limit.algorithm, value)));
         }
         groups.push_back(std::move(group));
     }
-    const auto names = distinct(rows, [](const auto& row) { return row.limit.algorithm; });
-    std::vector<plot::LegendEntry> legend;
-    for (const std::string& name : names) legend.push_back({name, colour_of(name)});
     const results::LimitRow& first = rows.front().limit;
-    const std::string title = fmt::format("Limit of {}", impairment_text(first.impairment));
     const std::string across = parameter_text(rows.front().parameter);
-    return drawn_bars({title, across, unit_text(first.unit)}, groups, legend, {440.0, 260.0});
+    const std::string impairment = impairment_text(first.impairment);
+    return {
+        .id = page::plain_id(fmt::format("axis-{}-{}", rows.front().parameter, first.impairment)),
+        .title = fmt::format("Limit of {}", impairment),
+        .x = {across},
+        .y = {"limit", std::string{unit_text(first.unit)}},
+        .content = std::move(groups),
+        .size = {440.0, 260.0},
+        .caption = fmt::format("Limit of {} by the {}, {} seeds", impairment, across, first.seeds)};
 }
 
 } // namespace
@@ -61,53 +55,51 @@ Drawing axis_bars(const AxisRows& rows)
 std::optional<Section> axis_section(const results::Results& results)
 {
     if (results.limits_by_axis.empty()) return std::nullopt;
-    Section section{
-        "axis", "What was not chosen, and what the paper leaves open",
-        "<p>The limits again, for other readings of the paper and other conditions that "
-        "it does not state. The worst of the tasks; lines are 95 % intervals.</p>\n"
-        "<div class='panels'>\n"};
-    section.sources = links_to(results, "limits_by_axis.csv");
+    Section section{"axis", "What was not chosen, and what the paper leaves open"};
+    section.add(page::paragraph(
+        "The limits again, for other readings of the paper and other conditions that it does not "
+        "state. The worst of the tasks; lines are 95 % intervals."));
+    section.sources = files_named(results, "limits_by_axis.csv");
     const auto kinds = distinct(results.limits_by_axis, [](const results::AxisLimitRow& row) {
         return std::pair{row.parameter, row.limit.impairment};
     });
+    Json figures = Json::array();
     for (const auto& [parameter, impairment] : kinds) {
-        AxisRows rows;
-        for (const results::AxisLimitRow& row : results.limits_by_axis) {
-            if (row.parameter == parameter && row.limit.impairment == impairment)
-                rows.push_back(row);
-        }
-        section.add_figure(
-            fmt::format("axis-{}-{}", parameter, impairment), axis_bars(rows),
-            escaped(fmt::format("Limit of {} by the {}, {} seeds", impairment_text(impairment),
-                                parameter_text(parameter), rows.front().limit.seeds)));
+        const auto is_of = [p = parameter, i = impairment](const results::AxisLimitRow& row) {
+            return row.parameter == p && row.limit.impairment == i;
+        };
+        const AxisRows rows = rows_where(results.limits_by_axis, is_of);
+        figures.push_back(section.keep(axis_bars(rows)));
     }
-    section.html += "</div>\n";
+    section.add(page::panels("", std::move(figures)));
     return section;
 }
 
 std::optional<Section> paired_section(const results::Results& results)
 {
     if (results.paired.empty()) return std::nullopt;
-    HtmlTable table{"Algorithms that met the same hands and the same network, seed by seed: their "
-                    "difference, its 95 % interval by resampling the seeds, and the sign test",
-                    {"algorithm", "minus", "task", "of", "seeds", "difference", "95 %", "p"}};
+    page::Table table{
+        "Algorithms that met the same hands and the same network, seed by seed: their "
+        "difference, its 95 % interval by resampling the seeds, and the sign test",
+        {"algorithm", "minus", "task", "of", "seeds", "difference", "95 %", "p"}};
     for (const results::PairedRow& row : results.paired) {
         const auto end = [](std::optional<double> value) { return shown(value, 3); };
         const bool is_known = row.ci_low || row.ci_high;
         table.rows.push_back(
-            {{escaped(row.algorithm)},
-             {escaped(row.reference), "name"},
-             {escaped(row.task), "name"},
-             {escaped(row.measure), "words"},
+            {{row.algorithm},
+             {row.reference, "name"},
+             {row.task, "name"},
+             {row.measure, "words"},
              {std::to_string(row.seeds)},
              {end(row.difference)},
              {is_known ? fmt::format("{} … {}", end(row.ci_low), end(row.ci_high)) : "–"},
              {row.sign_test_p ? fmt::format("{:.2g}", *row.sign_test_p) : "–"}});
     }
-    return Section{"paired", "Algorithms seed by seed",
-                   "<p>The p of a row is for that row alone: of a hundred rows without any "
-                   "difference five have p below 0.05.</p>\n" +
-                       folded("The table", html_of(table))};
+    Section section{"paired", "Algorithms seed by seed"};
+    section.add(page::paragraph("The p of a row is for that row alone: of a hundred rows without "
+                                "any difference five have p below 0.05."));
+    section.add(page::folded("The table", Json::array({json_of(table)})));
+    return section;
 }
 
 } // namespace hapnet::lab::report

@@ -13,35 +13,33 @@
 
 namespace hapnet::lab::report {
 
-using plot::escaped;
-
 namespace {
 
-std::string badge_of(results::ClaimVerdict verdict)
+Json badge_of(results::ClaimVerdict verdict)
 {
     const std::string_view style =
         verdict == results::ClaimVerdict::undecided ? "seen" : base::name_of(verdict);
-    return fmt::format("<span class='badge {}'>{}</span>", style, base::name_of(verdict));
+    return page::badge(base::name_of(verdict), style);
 }
 
-std::string claims_table(const results::Results& results)
+Json claims_table(const results::Results& results)
 {
-    HtmlTable table{"Each claim, with its numbers in the seeds that judge and in all",
-                    {"claim", "accepted", "worst of the seeds<br>that judge", "nine of ten<br>keep",
-                     "seeds", "verdict"}};
+    page::Table table{"Each claim, with its numbers in the seeds that judge and in all",
+                      {"claim", "accepted", "worst of the seeds\nthat judge", "nine of ten\nkeep",
+                       "seeds", "verdict"}};
     for (const results::ClaimRow& row : results.claims) {
         const auto all = std::ranges::find(results.claims_quantiles, row.claim,
                                            &results::ClaimQuantileRow::claim);
         const bool has_all = all != results.claims_quantiles.end();
         const bool is_missed = row.verdict == results::ClaimVerdict::missed;
-        table.rows.push_back({{escaped(row.claim)},
-                              {escaped(row.accept), "band"},
-                              {escaped(row.value), is_missed ? "ours missed" : "ours"},
-                              {has_all ? escaped(all->quantile) : "", "ours"},
+        table.rows.push_back({{row.claim},
+                              {row.accept, "band"},
+                              {row.value, is_missed ? "ours missed" : "ours"},
+                              {has_all ? all->quantile : "", "ours"},
                               {has_all ? fmt::format("{}", all->seeds) : ""},
                               {badge_of(row.verdict)}});
     }
-    return html_of(table);
+    return json_of(table);
 }
 
 /// Median and largest of the seeds; empty: not played so, or not measured.
@@ -61,26 +59,26 @@ std::string above_2hz(const results::Results& results, std::string_view conditio
 }
 
 /// What no claim is about, and no verdict sees: how hard the copies pull at each other slowly.
-std::string tug_of_war(const results::Results& results)
+void add_tug_of_war(Section& section, const results::Results& results)
 {
     const auto& rows = results.claim_sessions;
-    HtmlTable table{"Force above 2 Hz that the network adds, N: median of the seeds (largest)",
-                    {"conditions"}};
+    page::Table table{"Force above 2 Hz that the network adds, N: median of the seeds (largest)",
+                      {"conditions"}};
     const auto tasks = distinct(rows, [](const auto& row) { return row.task; });
-    for (const std::string& task : tasks) table.heads.push_back(escaped(task));
+    for (const std::string& task : tasks) table.heads.push_back(task);
     bool is_empty = true;
     for (const auto& condition : distinct(rows, [](const auto& row) { return row.condition; })) {
         auto& cells = table.rows.emplace_back();
-        cells.push_back({escaped(condition)});
+        cells.push_back({condition});
         for (const std::string& task : tasks) {
             cells.push_back({above_2hz(results, condition, task)});
-            is_empty = is_empty && cells.back().html.empty();
+            is_empty = is_empty && cells.back().text == "";
         }
     }
-    if (is_empty) return "";
-    return "<p>No claim is about this number, and “usable” does not see it: two copies that pull "
-           "at each other a few times a second.</p>\n" +
-           html_of(table);
+    if (is_empty) return;
+    section.add(page::paragraph("No claim is about this number, and “usable” does not see it: two "
+                                "copies that pull at each other a few times a second."));
+    section.add(json_of(table));
 }
 
 } // namespace
@@ -90,12 +88,15 @@ std::optional<Section> beyond_section(const results::Results& results)
     if (results.claims.empty()) return std::nullopt;
     const auto missed = std::ranges::count(results.claims, results::ClaimVerdict::missed,
                                            &results::ClaimRow::verdict);
-    return Section{"beyond", "What is claimed beyond the paper",
-                   fmt::format("<p>{} claims, made before the first run; {} missed. A claim is met "
-                               "when the worst of the seeds that judge keeps all its numbers, or "
-                               "their mean where it is of a mean. Hands are simulated.</p>\n",
-                               results.claims.size(), missed) +
-                       claims_table(results) + tug_of_war(results)};
+    Section section{"beyond", "What is claimed beyond the paper"};
+    section.add(page::paragraph(fmt::format(
+        "{} claims, made before the first run; {} missed. A claim is met when the worst of the "
+        "seeds that judge keeps all its numbers, or their mean where it is of a mean. Hands are "
+        "simulated.",
+        results.claims.size(), missed)));
+    section.add(claims_table(results));
+    add_tug_of_war(section, results);
+    return section;
 }
 
 } // namespace hapnet::lab::report

@@ -2,28 +2,25 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/plot.hpp"
 
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
 
-using plot::escaped;
-
 namespace {
 
 constexpr std::size_t points_max = 6000; // a curve: finer than pixels even when zoomed
-constexpr std::string_view left_colour = "var(--left)";
-constexpr std::string_view right_colour = "var(--right)";
+constexpr std::string_view left_colour = "left";
+constexpr std::string_view right_colour = "right";
 
 using Rows = std::vector<results::TrajectoryRow>;
 
-std::vector<plot::Point> points_of(const Rows& rows, double results::TrajectoryRow::*value)
+std::vector<page::Point> points_of(const Rows& rows, double results::TrajectoryRow::*value)
 {
-    std::vector<plot::Point> points;
+    std::vector<page::Point> points;
     for (const results::TrajectoryRow& row : rows) points.push_back({row.time_s, row.*value});
-    return plot::thinned(points, points_max);
+    return page::thinned(points, points_max);
 }
 
 /// What is drawn of both sides over time.
@@ -39,45 +36,65 @@ struct BothSides {
 constexpr BothSides drawn_cubes{"",
                                 "cube at L",
                                 "cube at R",
-                                "x, mm",
+                                "mm",
                                 &results::TrajectoryRow::cube_l_mm,
                                 &results::TrajectoryRow::cube_r_mm};
 constexpr BothSides drawn_hands{": hands",
                                 "hand L",
                                 "hand R",
-                                "x, mm",
+                                "mm",
                                 &results::TrajectoryRow::hand_l_mm,
                                 &results::TrajectoryRow::hand_r_mm};
 constexpr BothSides drawn_forces{": forces",
                                  "on hand L",
                                  "on hand R",
-                                 "x, N",
+                                 "N",
                                  &results::TrajectoryRow::force_l_n,
                                  &results::TrajectoryRow::force_r_n};
 
-Drawing both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
+page::Figure over_time(std::string id, std::string title, std::string_view unit,
+                       std::vector<page::Curve> curves, const page::Range& range)
 {
-    const std::array curves{plot::Curve{.name = both.left_name,
-                                        .colour = left_colour,
-                                        .points = points_of(rows, both.left)},
-                            plot::Curve{.name = both.right_name,
-                                        .colour = right_colour,
-                                        .points = points_of(rows, both.right)}};
-    const std::string title = rows.front().algorithm + std::string{both.title};
-    return drawn_plot({title, "time, s", both.unit}, curves, {.size = {900.0, 230.0}, .y = range});
+    return {.id = page::plain_id(std::move(id)),
+            .title = std::move(title),
+            .x = {"time", "s"},
+            .y = {"x", std::string{unit}, page::Scale::linear, range},
+            .content = page::Curves{std::move(curves)},
+            .size = {900.0, 230.0}};
+}
+
+page::Figure both_sides_figure(std::string_view id, const Rows& rows, const BothSides& both,
+                               const page::Range& range = {})
+{
+    const std::string& algorithm = rows.front().algorithm;
+    auto figure = over_time(fmt::format("{}-{}", id, algorithm),
+                            algorithm + std::string{both.title}, both.unit,
+                            {{.name = std::string{both.left_name},
+                              .colour = left_colour,
+                              .points = points_of(rows, both.left)},
+                             {.name = std::string{both.right_name},
+                              .colour = right_colour,
+                              .points = points_of(rows, both.right)}},
+                            range);
+    figure.caption = algorithm;
+    return figure;
 }
 
 /// x_L - x_R, where two curves that lie on each other cannot be told apart.
-Drawing difference_plot(const Rows& rows, const plot::Range& range)
+page::Figure difference_figure(const Rows& rows, const page::Range& range)
 {
-    std::vector<plot::Point> points;
+    std::vector<page::Point> points;
     for (const results::TrajectoryRow& row : rows)
         points.push_back({row.time_s, row.cube_l_mm - row.cube_r_mm});
-    const std::array curves{plot::Curve{.name = "x of the cube at L − at R",
-                                        .colour = colour_of(rows.front().algorithm),
-                                        .points = plot::thinned(points, points_max)}};
-    const std::string title = rows.front().algorithm + ": difference";
-    return drawn_plot({title, "time, s", "x, mm"}, curves, {.size = {900.0, 170.0}, .y = range});
+    const std::string& algorithm = rows.front().algorithm;
+    auto figure = over_time("fig7-difference-" + algorithm, algorithm + ": difference", "mm",
+                            {{.name = "x of the cube at L − at R",
+                              .colour = colour_of(algorithm),
+                              .points = page::thinned(points, points_max)}},
+                            range);
+    figure.size.height = 170.0;
+    figure.caption = algorithm + ": the copies’ difference, on one scale for all.";
+    return figure;
 }
 
 /// What one sees: how a copy moves that follows.
@@ -105,8 +122,8 @@ std::string apart_text(const Rows& rows)
         most = std::max(most, apart);
     }
     return fmt::format("{}: the copies are {} mm apart on average and {} mm at most.",
-                       escaped(rows.front().algorithm),
-                       shown(sum / static_cast<double>(rows.size()), 2), shown(most, 1)) +
+                       rows.front().algorithm, shown(sum / static_cast<double>(rows.size()), 2),
+                       shown(most, 1)) +
            steps_text(rows);
 }
 
@@ -115,34 +132,28 @@ std::string apart_text(const Rows& rows)
 std::optional<Section> fig7_section(const results::Results& results)
 {
     if (results.trajectories.empty()) return std::nullopt;
-    Section section{
-        "fig7", "Fig. 7: where each side has the cube",
-        "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to zoom; "
-        "all follow. <span class='zoom-buttons'></span></p>\n"};
-    section.sources = links_to(results, "trajectories.csv");
-    plot::Range range, apart;
+    Section section{"fig7", "Fig. 7: where each side has the cube"};
+    section.sources = files_named(results, "trajectories.csv");
+    page::Range range, apart;
     for (const results::TrajectoryRow& row : results.trajectories) {
         range.include(row.cube_l_mm);
         range.include(row.cube_r_mm);
         apart.include(row.cube_l_mm - row.cube_r_mm);
     }
-    std::string more;
+    Json blocks = Json::array(), more = Json::array();
     for (const auto& name :
          distinct(results.trajectories, [](const auto& r) { return r.algorithm; })) {
-        Rows rows;
-        for (const results::TrajectoryRow& row : results.trajectories) {
-            if (row.algorithm == name) rows.push_back(row);
-        }
-        section.add_figure("fig7-" + name, both_sides_plot(rows, drawn_cubes, range),
-                           apart_text(rows));
-        section.add_figure("fig7-difference-" + name, difference_plot(rows, apart),
-                           escaped(name) + ": the copies’ difference, on one scale for all.");
-        more += section.keep_figure("fig7-hands-" + name, both_sides_plot(rows, drawn_hands),
-                                    escaped(name)) +
-                section.keep_figure("fig7-forces-" + name, both_sides_plot(rows, drawn_forces),
-                                    escaped(name));
+        const Rows rows = rows_where(results.trajectories,
+                                     [&](const auto& row) { return row.algorithm == name; });
+        auto cubes = both_sides_figure("fig7", rows, drawn_cubes, range);
+        cubes.caption = apart_text(rows);
+        blocks.push_back(section.keep(std::move(cubes)));
+        blocks.push_back(section.keep(difference_figure(rows, apart)));
+        more.push_back(section.keep(both_sides_figure("fig7-hands", rows, drawn_hands)));
+        more.push_back(section.keep(both_sides_figure("fig7-forces", rows, drawn_forces)));
     }
-    section.html += folded("Hands and forces", more) + "</div>\n";
+    blocks.push_back(page::folded("Hands and forces", std::move(more)));
+    section.add(page::zoomed(std::move(blocks)));
     return section;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/bars.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,8 +10,6 @@
 #include <utility>
 
 namespace hapnet::lab::report {
-
-using plot::escaped;
 
 namespace {
 
@@ -45,28 +42,30 @@ std::optional<Section> points_section(const results::Results& results)
     auto tasks = distinct(rows, [](const auto& row) { return row.cell.task; });
     const auto points = distinct(rows, [](const auto& row) { return row.point; }).size();
     tasks.emplace_back(any_task);
-    std::vector<plot::BarGroup> groups;
+    page::Bars groups;
     for (const std::string& task : tasks) {
-        plot::BarGroup group{task, {}};
+        page::BarGroup group{task, {}};
         for (const std::string& algorithm : algorithms) {
             const double percent = borne_percent(rows, algorithm, task);
-            group.bars.push_back({.value = percent,
-                                  .label = shown(percent, 0),
+            group.bars.push_back({.series = algorithm,
+                                  .value = percent,
+                                  .text = shown(percent, 0),
                                   .colour = colour_of(algorithm),
                                   .tip = fmt::format("{}, {}", algorithm, task)});
         }
         groups.push_back(std::move(group));
     }
-    std::vector<plot::LegendEntry> legend;
-    for (const std::string& name : algorithms) legend.push_back({name, colour_of(name)});
-    Section section{"points", "Conditions varied together",
-                    "<p>An algorithm bears a point when it is at least usable there.</p>\n"
-                    "<div class='panels'>\n"};
-    section.add_figure(
-        "points",
-        drawn_bars({"Points that are borne", "task", "%"}, groups, legend, {560.0, 260.0}),
-        escaped(fmt::format("Share of {} points that each algorithm bears", points)));
-    section.html += "</div>\n";
+    Section section{"points", "Conditions varied together"};
+    section.add(page::paragraph("An algorithm bears a point when it is at least usable there."));
+    Json figure = section.keep(
+        {.id = "points",
+         .title = "Points that are borne",
+         .x = {"task"},
+         .y = {"points", "%"},
+         .content = std::move(groups),
+         .size = {560.0, 260.0},
+         .caption = fmt::format("Share of {} points that each algorithm bears", points)});
+    section.add(page::panels("", Json::array({std::move(figure)})));
     return section;
 }
 

@@ -3,7 +3,6 @@
 #include "lab/metrics/precision.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/plot.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,16 +15,13 @@
 
 namespace hapnet::lab::report {
 
-using plot::escaped;
-
 namespace {
 
 using PrecisionRows = std::vector<results::PrecisionRow>;
 
 /// Of the finest value first.
-constexpr std::array<std::string_view, 6> colours{"var(--base)",           "var(--sep)",
-                                                  "var(--dead-reckoning)", "var(--other)",
-                                                  "var(--missed)",         "var(--muted)"};
+constexpr std::array<std::string_view, 6> colours{"base",  "sep",    "dead-reckoning",
+                                                  "other", "missed", "muted"};
 
 /// "0.5ms" in its parts; nullopt: no number.
 struct Measured {
@@ -39,13 +35,6 @@ std::optional<Measured> measured(std::string_view text)
     if (error != std::errc{} || !(value.number > 0.0)) return std::nullopt;
     value.unit = text.substr(static_cast<std::size_t>(end - text.data()));
     return value;
-}
-
-PrecisionRows rows_where(const PrecisionRows& rows, const auto& keeps)
-{
-    PrecisionRows kept;
-    std::ranges::copy_if(rows, std::back_inserter(kept), keeps);
-    return kept;
 }
 
 /// The row by all seeds of each value.
@@ -99,20 +88,21 @@ std::string difference_of(const results::PrecisionRow& row)
 {
     if (row.value == row.reference) return "reference";
     if (!row.ci_low || !row.ci_high) return number(row.difference);
-    return fmt::format("{}<br>({} … {})", number(row.difference), number(row.ci_low),
+    return fmt::format("{}\n({} … {})", number(row.difference), number(row.ci_low),
                        number(row.ci_high));
 }
 
-std::string table_of(const PrecisionRows& rows, const std::vector<PrecisionRows>& figures)
+Json table_of(const PrecisionRows& rows, const std::vector<PrecisionRows>& figures)
 {
     const auto values = distinct(rows, [](const auto& row) { return row.value; });
     const std::string& parameter = rows.front().parameter;
-    HtmlTable table{"Differences from the reference, with their 95 % intervals; the order in which "
-                    "they fall, by the differences that chance does not explain; and how far the "
-                    "result of 1, of 10 and of all seeds is off at the reference",
-                    {"algorithm", "task", "figure", "at the<br>reference"}};
+    page::Table table{
+        "Differences from the reference, with their 95 % intervals; the order in which "
+        "they fall, by the differences that chance does not explain; and how far the "
+        "result of 1, of 10 and of all seeds is off at the reference",
+        {"algorithm", "task", "figure", "at the\nreference"}};
     for (const std::string& value : values)
-        table.heads.push_back(fmt::format("{}<br>{}", escaped(parameter), escaped(value)));
+        table.heads.push_back(fmt::format("{}\n{}", parameter, value));
     for (const char* head : {"order", "1 seed", "10 seeds", "all seeds"})
         table.heads.push_back(head);
     for (const PrecisionRows& figure : figures) {
@@ -125,9 +115,9 @@ std::string table_of(const PrecisionRows& rows, const std::vector<PrecisionRows>
             return here.size() < 2 || row == here.end() ? "–" : number(row->error);
         };
         auto& cells = table.rows.emplace_back();
-        cells = {{escaped(first.algorithm)},
-                 {escaped(first.task), "name"},
-                 {escaped(words_of_figure(first.figure)), "words"},
+        cells = {{first.algorithm},
+                 {first.task, "name"},
+                 {words_of_figure(first.figure), "words"},
                  {here.empty() ? "–" : number(here.front().found)}};
         for (const std::string& value : values) {
             const auto row = std::ranges::find(all, value, &results::PrecisionRow::value);
@@ -138,19 +128,19 @@ std::string table_of(const PrecisionRows& rows, const std::vector<PrecisionRows>
         cells.push_back({error_by(10)});
         cells.push_back({here.empty() ? "–" : error_by(here.back().seeds)});
     }
-    return html_of(table);
+    return json_of(table);
 }
 
 /// Error against cost: of each value a curve over the number of seeds, or of one seed a curve over
 /// the values.
-Drawing drawn(const PrecisionRows& figure)
+std::optional<page::Figure> drawn(const PrecisionRows& figure)
 {
     auto values = distinct(figure, [](const auto& row) { return row.value; });
     std::ranges::reverse(values); // the last first, mostly the finest
     const bool is_one = figure.size() == values.size();
-    std::vector<plot::Curve> curves;
+    std::vector<page::Curve> curves;
     const auto begin = [&](std::string_view name) {
-        curves.push_back({.name = name,
+        curves.push_back({.name = std::string{name},
                           .colour = colours[curves.size() % colours.size()],
                           .shows_points = true});
     };
@@ -162,15 +152,18 @@ Drawing drawn(const PrecisionRows& figure)
                 curves.back().points.push_back({static_cast<double>(row.ticks), *row.error});
         }
     }
-    std::erase_if(curves, [](const plot::Curve& curve) { return curve.points.empty(); });
-    if (curves.empty()) return {};
+    std::erase_if(curves, [](const page::Curve& curve) { return curve.points.empty(); });
+    if (curves.empty()) return std::nullopt;
     const results::PrecisionRow& first = figure.front();
-    const auto title = fmt::format("{}, {}", first.algorithm, first.task);
-    return drawn_plot(
-        {title, "ticks played (log)",
-         fmt::format("error of {} (log)", words_of_figure(first.figure))},
-        curves,
-        {.scales = {plot::Scale::logarithmic, plot::Scale::logarithmic}, .size = {360.0, 260.0}});
+    const std::string words = words_of_figure(first.figure);
+    return page::Figure{.id = page::plain_id(fmt::format("precision-{}-{}-{}", first.algorithm,
+                                                         first.task, first.figure)),
+                        .title = fmt::format("{}, {}", first.algorithm, first.task),
+                        .x = {"ticks played", "", page::Scale::logarithmic},
+                        .y = {"error of " + words, "", page::Scale::logarithmic},
+                        .content = page::Curves{std::move(curves)},
+                        .size = {360.0, 260.0},
+                        .caption = fmt::format("{} in {}: {}", first.algorithm, first.task, words)};
 }
 
 /// The rows of each figure.
@@ -192,17 +185,15 @@ std::vector<PrecisionRows> figures_of(const PrecisionRows& rows)
 std::optional<Section> precision_section(const results::Results& results)
 {
     if (results.precision.empty()) return std::nullopt;
-    Section section{
-        "precision", "What accuracy costs",
-        "<p>Each point is a result by fewer seeds, or at a coarser step: how far it is off from "
-        "the "
-        "same figure by all seeds at the reference, as the root mean square over many draws of the "
-        "seeds. The cost is in ticks of all players, on perfect networks, too; the processor time "
-        "of "
-        "the run stands under <a href='#runs'>how to repeat it</a>. A curve that no longer falls "
-        "with "
-        "more seeds has reached the error of its step.</p>\n"};
-    section.sources = links_to(results, "precision.csv");
+    Section section{"precision", "What accuracy costs"};
+    section.add(page::paragraph(page::text_of(
+        {"Each point is a result by fewer seeds, or at a coarser step: how far it is off from the "
+         "same figure by all seeds at the reference, as the root mean square over many draws of "
+         "the seeds. The cost is in ticks of all players, on perfect networks, too; the processor "
+         "time of the run stands under ",
+         page::link("how to repeat it", "#runs"),
+         ". A curve that no longer falls with more seeds has reached the error of its step."})));
+    section.sources = files_named(results, "precision.csv");
     for (const auto& parameter :
          distinct(results.precision, [](const auto& row) { return row.parameter; })) {
         const PrecisionRows rows =
@@ -210,25 +201,18 @@ std::optional<Section> precision_section(const results::Results& results)
                 return row.parameter == parameter;
             });
         const auto figures = figures_of(rows);
-        section.html += table_of(rows, figures);
+        section.add(table_of(rows, figures));
         for (const auto& algorithm : distinct(rows, [](const auto& r) { return r.algorithm; })) {
-            std::string panels;
+            Json of_algorithm = Json::array();
             for (const PrecisionRows& figure : figures) {
-                const results::PrecisionRow& first = figure.front();
-                auto drawing = first.algorithm == algorithm ? drawn(figure) : Drawing{};
-                if (drawing.svg.empty()) continue;
-                panels += section.keep_figure(
-                    fmt::format("precision-{}-{}-{}", algorithm, first.task, first.figure),
-                    std::move(drawing),
-                    escaped(fmt::format("{} in {}: {}", algorithm, first.task,
-                                        words_of_figure(first.figure))));
+                if (figure.front().algorithm != algorithm) continue;
+                if (auto one = drawn(figure)) of_algorithm.push_back(section.keep(*std::move(one)));
             }
-            panels = "<div class='panels small'>\n" + panels + "</div>\n";
+            Json panels = page::panels("small", std::move(of_algorithm));
             const bool is_first = algorithm == rows.front().algorithm;
-            section.html +=
-                is_first
-                    ? panels
-                    : folded(fmt::format("Error against cost: {}", escaped(algorithm)), panels);
+            section.add(is_first ? std::move(panels)
+                                 : page::folded(fmt::format("Error against cost: {}", algorithm),
+                                                Json::array({std::move(panels)})));
         }
     }
     return section;

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/heat_map.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
-
-using plot::escaped;
 
 namespace {
 
@@ -49,37 +46,48 @@ void add_task(PlaneCellOnPage& cell, const results::QosRow& row)
 }
 
 /// One algorithm at one loss.
-std::string plane_map(const std::vector<results::QosRow>& rows, const std::vector<double>& delays,
-                      const std::vector<double>& jitters)
+page::Figure plane_map(const std::vector<results::QosRow>& rows, const std::vector<double>& delays,
+                       const std::vector<double>& jitters)
 {
     std::vector<PlaneCellOnPage> cells(delays.size() * jitters.size());
     for (const results::QosRow& row : rows) {
         const std::size_t column = index_of(delays, row.delay_ms);
         add_task(cells[index_of(jitters, row.jitter_ms) * delays.size() + column], row);
     }
-    plot::HeatMap map;
+    page::HeatMap map;
     for (const double delay : delays) map.columns.push_back(plain(delay));
     for (const double jitter : jitters)
         map.rows.push_back((jitter > 0.0 ? "± " : "") + plain(jitter));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (cells[i].tip.empty()) continue; // not tried
-        map.cells.push_back({i % delays.size(), i / delays.size(), tier_colour(cells[i].worst),
-                             tier_symbol(cells[i].worst), cells[i].tip});
+        map.cells.push_back({.column = i % delays.size(),
+                             .row = i / delays.size(),
+                             .colour = tier_colour(cells[i].worst),
+                             .symbol = tier_symbol(cells[i].worst),
+                             .tip = cells[i].tip});
     }
-    const std::string title =
-        fmt::format("{}, {} % loss", rows.front().algorithm, plain(rows.front().loss_percent));
-    const double height = 90.0 + 34.0 * static_cast<double>(jitters.size());
-    return plot::svg_heat_map({title, "delay, ms", "jitter, ms"}, map, {280.0, height});
+    const std::string& algorithm = rows.front().algorithm;
+    const std::string loss = plain(rows.front().loss_percent);
+    const std::string title = fmt::format("{}, {} % loss", algorithm, loss);
+    return {.id = page::plain_id(fmt::format("qos-{}-{}", algorithm, loss)),
+            .title = title,
+            .x = {"delay", "ms"},
+            .y = {"jitter", "ms"},
+            .content = std::move(map),
+            .size = {280.0, 90.0 + 34.0 * static_cast<double>(jitters.size())},
+            .caption = title};
 }
 
-std::string legend()
+Json legend()
 {
-    std::string out = "<p class='legend'>";
+    Json text = Json::array();
     for (const metrics::Tier tier :
          {metrics::Tier::good, metrics::Tier::usable, metrics::Tier::unusable}) {
-        out += tier_badge(tier) + " ";
+        text.push_back(tier_badge(tier));
+        text.push_back(" ");
     }
-    return out + "worst of the tasks; point at a field for its numbers</p>\n";
+    text.push_back("worst of the tasks; point at a field for its numbers");
+    return page::paragraph(std::move(text));
 }
 
 } // namespace
@@ -87,25 +95,24 @@ std::string legend()
 std::optional<Section> qos_section(const results::Results& results)
 {
     if (results.qos.empty()) return std::nullopt;
-    Section section{"qos", "What a network must offer",
-                    "<p>The whole plane of delay and jitter, once for each loss.</p>\n" + legend()};
-    section.sources = links_to(results, "qos.csv");
+    Section section{"qos", "What a network must offer"};
+    section.add(page::paragraph("The whole plane of delay and jitter, once for each loss."));
+    section.add(legend());
+    section.sources = files_named(results, "qos.csv");
     const auto delays = ascending(results.qos, &results::QosRow::delay_ms);
     const auto jitters = ascending(results.qos, &results::QosRow::jitter_ms);
     const auto losses = ascending(results.qos, &results::QosRow::loss_percent);
     for (const auto& name : distinct(results.qos, [](const auto& row) { return row.algorithm; })) {
-        section.html += fmt::format("<h3>{}</h3>\n<div class='panels tiny'>\n", escaped(name));
+        section.add(page::heading(name));
+        Json maps = Json::array();
         for (const double loss : losses) {
-            std::vector<results::QosRow> rows;
-            for (const results::QosRow& row : results.qos) {
-                if (row.algorithm == name && row.loss_percent == loss) rows.push_back(row);
-            }
+            const auto rows = rows_where(results.qos, [&](const results::QosRow& row) {
+                return row.algorithm == name && row.loss_percent == loss;
+            });
             if (rows.empty()) continue;
-            section.add_figure(fmt::format("qos-{}-{}", name, plain(loss)),
-                               plane_map(rows, delays, jitters),
-                               fmt::format("{}, {} % loss", escaped(name), plain(loss)));
+            maps.push_back(section.keep(plane_map(rows, delays, jitters)));
         }
-        section.html += "</div>\n";
+        section.add(page::panels("tiny", std::move(maps)));
     }
     return section;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/base64.hpp"
 #include "lab/report/section.hpp"
+#include "proto/page/base64.hpp"
 #include "scene/description.hpp"
 #include "scene/mass.hpp"
 
@@ -16,8 +16,6 @@
 namespace hapnet::lab::report {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double mm_per_m = 1e3;
 
@@ -40,7 +38,7 @@ Json packed(const std::vector<double>& column)
         bytes += static_cast<char>(bits & 0xffU);
         bytes += static_cast<char>(bits >> 8U);
     }
-    return {{"step", step}, {"data", base64(bytes)}};
+    return {{"step", step}, {"data", page::base64(bytes)}};
 }
 
 Json json_of(const glm::dvec3& mm) { return {mm.x, mm.y, mm.z}; }
@@ -147,40 +145,27 @@ Json packed(const results::Replay& replay)
         {"count", replay.steps()},           {"sides", std::move(sides)}};
 }
 
-constexpr std::string_view player = R"html(<div class="player" tabindex="0" role="group"
- aria-label="Replay: space plays and stops, arrow keys step, Home and End go to the ends">
-<div class="controls">
-<label>algorithm <select class="algorithm"></select></label>
-<label>task <select class="task"></select></label>
-<button type="button" class="play" aria-label="play or stop">▶</button>
-<input type="range" class="time" min="0" value="0" step="1" aria-label="time">
-<label>speed <select class="speed"><option value="0.1">⅒</option><option value="0.25">¼</option>
-<option value="1" selected>1</option><option value="2">2</option><option value="5">5</option>
-</select></label>
-</div>
-<p class="numbers"><output class="clock"></output> <output class="apart"></output></p>
-<div class="worlds"></div>
-<div class="strip" role="group"
- aria-label="x of a body in all copies over time; click to go there"></div>
-</div>
-<noscript><p>The replay needs JavaScript; everything else on this page does not.</p></noscript>
-)html";
-
 } // namespace
 
 std::optional<Section> replay_section(const results::Results& results)
 {
     if (results.replays.empty()) return std::nullopt;
+    Section section{"replay", "Look at it"};
+    section.add(page::paragraph(
+        "Each computer holds a copy of what is blue. Each picture shows one of them, with the hand "
+        "that is there; dashed outlines are what the others have at the same moment: the bodies, "
+        "and their hands. Arrows are forces on the hands. In 3-D, drag a picture to turn them "
+        "all."));
+    section.add(Json::object({{"player", true}}));
+    return section;
+}
+
+Json replays_of(const results::Results& results)
+{
+    if (results.replays.empty()) return nullptr;
     Json replays = Json::array();
     for (const results::Replay& replay : results.replays) replays.push_back(packed(replay));
-    return Section{"replay", "Look at it",
-                   "<p>Each computer holds a copy of what is blue. Each picture shows one of them, "
-                   "with the hand that is there; dashed outlines are what the others have at the "
-                   "same moment: the bodies, and their hands. Arrows are forces on the hands. In "
-                   "3-D, drag a picture to turn them all.</p>\n" +
-                       std::string{player} +
-                       fmt::format("<script type='application/json' id='replays'>{}</script>\n",
-                                   in_script(replays))};
+    return replays;
 }
 
 } // namespace hapnet::lab::report

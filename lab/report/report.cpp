@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/report.hpp"
 
-#include "lab/report/page.hpp"
+#include "lab/report/player.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/axis.hpp"
-#include "proto/plot/page.hpp"
 
 #include <array>
 #include <spdlog/fmt/fmt.h>
@@ -14,11 +12,7 @@
 
 namespace hapnet::lab::report {
 
-using plot::escaped;
-
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What a page can have, and how to make it.
 struct PartOfPage {
@@ -49,10 +43,10 @@ constexpr std::array parts_of_page{
     PartOfPage{"what is claimed beyond the paper", beyond_section, "scripts/beat.sh --out", "beat"},
     PartOfPage{"how to repeat it", runs_section, ""}};
 
-/// The sections that there are, and as HTML what is missing.
+/// The sections that there are, and what is missing.
 struct Contents {
     std::vector<Section> sections;
-    std::string missing;
+    std::vector<Json> missing;
 };
 
 /// What a page is about. A page about one thing does not replace one about another unnoticed.
@@ -83,8 +77,9 @@ Contents contents_of(const results::Results& results, std::string_view folder)
         if (auto section = part.section(results)) {
             contents.sections.push_back(*std::move(section));
         } else if (!part.command.empty() && is_of_experiments) {
-            contents.missing += fmt::format("<li>{}: <code>{} {}/{}</code></li>\n", part.what,
-                                            part.command, escaped(folder), part.subfolder);
+            contents.missing.push_back(page::text_of(
+                {fmt::format("{}: ", part.what),
+                 page::code(fmt::format("{} {}/{}", part.command, folder, part.subfolder))}));
         }
     }
     return contents;
@@ -122,114 +117,99 @@ std::string_view lead_of(Subject subject)
     return "";
 }
 
-/// Why a run is not valid, a line of HTML for each reason.
-std::string reasons_of(const results::Run& run)
+/// Why a run is not valid.
+void add_reasons(std::vector<Json>& reasons, const results::Run& run)
 {
-    if (run.is_valid()) return "";
-    std::string reasons;
+    if (run.is_valid()) return;
     const auto add = [&](const std::string& why) {
-        reasons += fmt::format("<li>{}: {}</li>\n", escaped(run.folder), escaped(why));
+        reasons.emplace_back(fmt::format("{}: {}", run.folder, why));
     };
     const auto found = run.manifest.find("invalid_because");
     if (found == run.manifest.end() || !found->is_array() || found->empty()) {
         // Each row of the sessions over real UDP says it for itself.
         const bool is_real_time = run.manifest.value("kind", Json{}) == "real-time";
         add(is_real_time ? "not every session over real UDP kept its timing" : "does not say why");
-        return reasons;
+        return;
     }
-    for (const auto& reason : *found) {
+    for (const auto& reason : *found)
         add(reason.is_string() ? reason.get<std::string>() : reason.dump());
-    }
-    return reasons;
 }
 
-/// Whether the results count, and why not. Recorded sessions say so themselves.
-std::string validity(const results::Results& results)
+/// Whether the results count, and why not; null for recorded sessions, which say so themselves.
+Json validity(const results::Results& results)
 {
-    std::string reasons;
-    for (const results::Run& run : results.runs) reasons += reasons_of(run);
+    std::vector<Json> reasons;
+    for (const results::Run& run : results.runs) add_reasons(reasons, run);
     if (!reasons.empty()) {
-        return "<div class='banner missed' role='alert'><b>Not valid.</b> These numbers do not "
-               "count:<ul>\n" +
-               reasons + "</ul></div>\n";
+        return page::banner(
+            "missed", page::text_of({page::bold("Not valid."), " These numbers do not count:"}),
+            std::move(reasons));
     }
     if (!results.runs.empty()) {
-        return "<div class='banner met'><b>Valid.</b> All runs completed and passed their own "
-               "validity checks.</div>\n";
+        return page::banner(
+            "met", page::text_of({page::bold("Valid."), " All runs completed and passed their own "
+                                                        "validity checks."}));
     }
-    if (subject_of(results) == Subject::session) return "";
-    return "<div class='banner'>There is no manifest.json: it is not known how these numbers came "
-           "about and whether they are valid.</div>\n";
+    if (subject_of(results) == Subject::session) return nullptr;
+    return page::banner("", "There is no manifest.json: it is not known how these numbers came "
+                            "about and whether they are valid.");
 }
 
-std::string tile(std::size_t count, std::string_view text, std::string_view style)
+Json tile(std::size_t count, std::string_view text, std::string_view style)
 {
-    return fmt::format("<a class='tile {}' href='#claims'><b>{}</b> {}</a>\n", style, count, text);
+    return Json::object({{"count", count}, {"text", text}, {"style", style}});
 }
 
-/// What stands on top: what one sees, and whether it counts.
-std::string head_of(const results::Results& results, const std::string& title,
-                    const Contents& contents)
+/// How many results stand against the paper in which way; null: none.
+Json tiles_of(const Claims& claims)
 {
-    const Claims claims = main_claims(results);
-    std::string out = fmt::format("<header>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n{}",
-                                  escaped(title), lead_of(subject_of(results)), validity(results));
-    if (!claims.are_none()) {
-        const std::size_t seen = claims.selected.size() + claims.by_construction.size();
-        out += fmt::format("<p class='tiles' aria-label='results that stand against the paper'>\n"
-                           "{}{}{}{}{}</p>\n",
-                           tile(claims.calibrated.size(), "calibrated", "calibrated"),
-                           tile(seen, "selected, or by construction", "seen"),
-                           tile(claims.met.size(), "predicted and met", "met"),
-                           tile(claims.undecided.size(), "undecided", "seen"),
-                           tile(claims.missed.size(), "missed", "missed"));
-    }
-    out += "<nav aria-label='contents'><ul>\n";
-    for (const Section& section : contents.sections) {
-        out += fmt::format("<li><a href='#{}'>{}</a></li>\n", section.id, escaped(section.title));
-    }
-    return out + "</ul></nav>\n</header>\n";
+    if (claims.are_none()) return nullptr;
+    Json block = Json::object();
+    block["tiles"] = Json::array({tile(claims.calibrated.size(), "calibrated", "calibrated"),
+                                  tile(claims.selected.size() + claims.by_construction.size(),
+                                       "selected, or by construction", "seen"),
+                                  tile(claims.met.size(), "predicted and met", "met"),
+                                  tile(claims.undecided.size(), "undecided", "seen"),
+                                  tile(claims.missed.size(), "missed", "missed")});
+    return block;
 }
 
-/// All that the page's script draws, in one element.
-std::string figures_data(const Contents& contents)
+page::Page page_of(const results::Results& results, Contents contents)
 {
-    Json all = Json::object();
-    for (const Section& section : contents.sections) {
-        for (const Figure& one : section.figures) {
-            if (!one.data.is_null()) all[one.name] = one.data;
-        }
-    }
-    if (all.empty()) return "";
-    return fmt::format("<script type='application/json' id='figures'>{}</script>\n",
-                       in_script(all));
-}
-
-std::string page_of(const results::Results& results, const Contents& contents)
-{
-    const std::string title = title_of(results);
     const Subject subject = subject_of(results);
-    std::string page =
-        plot::page_head(title, name_of(subject), page_style()) + head_of(results, title, contents);
-    for (const Section& section : contents.sections) {
-        page += fmt::format("<section id='{0}' aria-labelledby='{0}-title'>\n"
-                            "<h2 id='{0}-title'>{1}</h2>\n{2}</section>\n",
-                            section.id, escaped(section.title), section.html);
-    }
+    page::Page page{std::string{name_of(subject)}, title_of(results),
+                    std::string{lead_of(subject)}};
+    for (Json block : {validity(results), tiles_of(main_claims(results))})
+        if (!block.is_null()) page.head.push_back(std::move(block));
+    page.sections = std::move(contents.sections);
     if (!contents.missing.empty()) {
-        page += "<section id='missing'>\n<h2>Not in this folder</h2>\n<p>These commands make the "
-                "rest; report the folder again afterwards.</p>\n<ul>\n" +
-                contents.missing + "</ul>\n</section>\n";
+        auto& section = page.sections.emplace_back(page::Section{"missing", "Not in this folder"});
+        section.add(page::paragraph("These commands make the rest; report the folder again "
+                                    "afterwards."));
+        section.add(page::list_of(std::move(contents.missing)));
     }
     if (subject != Subject::session) {
-        page += "<footer><p>The hands are simulated. A verdict is a calibrated convention, not a "
-                "finding about people.</p></footer>\n";
+        page.foot = "The hands are simulated. A verdict is a calibrated convention, not a finding "
+                    "about people.";
     }
-    const std::string figures = figures_data(contents);
-    const std::string modules =
-        page_modules({.has_figures = !figures.empty(), .has_player = !results.replays.empty()});
-    return page + figures + modules +
-           plot::page_foot(modules.empty() ? std::string_view{} : loader_script());
+    page.replays = replays_of(results);
+    return page;
+}
+
+/// Writes the numbers of the figures that no result file has.
+std::vector<results::File> tables_of(std::vector<page::Section>& sections)
+{
+    std::vector<results::File> files;
+    for (page::Section& section : sections) {
+        for (page::Figure& figure : section.figures) {
+            const bool is_map = std::holds_alternative<page::HeatMap>(figure.content);
+            if (!figure.sources.empty() || is_map) continue;
+            const std::string path = fmt::format("figures/{}.csv", figure.id);
+            files.push_back({path, page::csv_of(json_of(figure))});
+            figure.sources = {path};
+        }
+    }
+    return files;
 }
 
 } // namespace
@@ -245,14 +225,19 @@ std::string_view page_subject(std::string_view page)
 
 std::vector<results::File> report_of(const results::Results& results, std::string_view folder)
 {
-    Contents contents = contents_of(results, folder);
-    std::vector<results::File> files{{"report.html", page_of(results, contents)}};
-    for (const Section& section : contents.sections) {
-        for (const Figure& one : section.figures) {
-            files.push_back({fmt::format("figures/{}.svg", one.name), plot::standalone(one.svg)});
-            if (!one.csv.empty())
-                files.push_back({fmt::format("figures/{}.csv", one.name), one.csv});
-        }
+    page::Page page = page_of(results, contents_of(results, folder));
+    std::vector<results::File> tables = tables_of(page.sections);
+    const auto player = page.replays.is_null() ? std::span<const page::Asset>{} : player_assets();
+    std::vector<results::File> files{{"report.html", html_of(page, player)}};
+    files.insert(files.end(), tables.begin(), tables.end());
+    return files;
+}
+
+std::vector<std::string> files_named(const results::Results& results, std::string_view name)
+{
+    std::vector<std::string> files;
+    for (const std::string& file : results.files) {
+        if (file.substr(file.rfind('/') + 1) == name) files.push_back(file);
     }
     return files;
 }

@@ -10,8 +10,8 @@
 
 namespace hapnet::lab::report {
 
-/// The report of a result folder: report.html, figures/*.svg, and figures/*.csv where no result
-/// file has the numbers of a figure. Equal results give equal bytes. `folder` is its name, for the
+/// The report of a result folder: report.html, and figures/*.csv where no result file has the
+/// numbers of a figure. Equal results give equal bytes. `folder` is its name, for the
 /// commands that the page shows.
 [[nodiscard]] std::vector<results::File> report_of(const results::Results& results,
                                                    std::string_view folder);

@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
-#include "proto/plot/axis.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
 
-using plot::escaped;
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// "1 to 40" of whole numbers that follow one another; empty for what is none.
 std::string range_of(const Json& list)
@@ -68,17 +64,17 @@ std::string title_of_key(std::string key)
 std::string words_at(const results::Run& run, std::string_view key)
 {
     const auto found = run.manifest.find(key);
-    return found == run.manifest.end() ? "–" : escaped(words_of(*found));
+    return found == run.manifest.end() ? "–" : words_of(*found);
 }
 
-std::string overview(const std::vector<results::Run>& runs)
+Json overview(const std::vector<results::Run>& runs)
 {
-    HtmlTable table{"What was run",
-                    {"folder", "title", "wall time, s", "simulated, s",
-                     "times faster<br>than real time", "sessions", "seeds", "valid"}};
+    page::Table table{"What was run",
+                      {"folder", "title", "wall time, s", "simulated, s",
+                       "times faster\nthan real time", "sessions", "seeds", "valid"}};
     for (const results::Run& run : runs) {
         table.rows.push_back(
-            {{escaped(run.folder)},
+            {{run.folder},
              {words_at(run, "title"), "words"},
              {words_at(run, "wall_time_s")},
              {words_at(run, "simulated_s")},
@@ -87,25 +83,27 @@ std::string overview(const std::vector<results::Run>& runs)
              {words_at(run, "seeds"), "name"},
              {run.is_valid() ? "valid" : "not valid", run.is_valid() ? "name" : "name missed"}});
     }
-    return html_of(table);
+    return json_of(table);
 }
 
 /// All that a manifest says; what has lines of its own, such as the configuration, below the rest.
-std::string run_html(const results::Run& run)
+Json run_details(const results::Run& run)
 {
-    HtmlTable table{run.folder, {"", "value"}};
-    std::string texts;
+    page::Table table{run.folder, {"", "value"}};
+    Json blocks = Json::array({nullptr});
     for (const auto& [key, value] : run.manifest.items()) {
         const std::string words = is_nested(value) ? value.dump(2) : words_of(value),
-                          title = escaped(title_of_key(key));
+                          title = title_of_key(key);
         if (words.find('\n') == std::string::npos) {
-            table.rows.push_back({{title}, {escaped(words), "words"}});
+            table.rows.push_back({{title}, {words, "words"}});
         } else {
-            texts += fmt::format("<p>{}:</p>\n<pre>{}</pre>\n", title, escaped(words));
+            blocks.push_back(page::paragraph(title + ":"));
+            blocks.push_back(page::preformatted(words));
         }
     }
-    return folded(fmt::format("{}: <code>{}</code>", escaped(run.folder), words_at(run, "command")),
-                  html_of(table) + texts);
+    blocks[0] = json_of(table);
+    return page::folded(page::text_of({run.folder + ": ", page::code(words_at(run, "command"))}),
+                        std::move(blocks));
 }
 
 } // namespace
@@ -113,8 +111,9 @@ std::string run_html(const results::Run& run)
 std::optional<Section> runs_section(const results::Results& results)
 {
     if (results.runs.empty()) return std::nullopt;
-    Section section{"runs", "How to repeat it", overview(results.runs)};
-    for (const results::Run& run : results.runs) section.html += run_html(run);
+    Section section{"runs", "How to repeat it"};
+    section.add(overview(results.runs));
+    for (const results::Run& run : results.runs) section.add(run_details(run));
     return section;
 }
 

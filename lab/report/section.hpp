@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/drawing.hpp"
 #include "lab/results/results.hpp"
+#include "proto/page/page.hpp"
 
 #include <optional>
 #include <string>
@@ -12,39 +12,20 @@
 
 namespace hapnet::lab::report {
 
-/// A plot that also becomes a file of its own.
-struct Figure {
-    std::string name; // figures/NAME.svg
-    std::string svg;
-    nlohmann::ordered_json data{}; // that web/page/report draws it from; null: it stays as it is
-    std::string csv{};             // figures/NAME.csv; empty: its numbers stand in a result file
-};
+using page::Json;
+using page::Section;
 
-/// A part of the page.
-struct Section {
-    std::string id;
-    std::string title; // text
-    std::string html{};
-    std::vector<Figure> figures{};
-    std::string sources{}; // links to the files whose rows the next figures show, as HTML
-
-    /// A figure in the page and as a file; the caption is HTML. Below it stand the sources.
-    void add_figure(std::string name, std::string svg, std::string_view caption);
-    /// The same, drawn by the page's script. Without sources it gets a CSV file of its own.
-    void add_figure(std::string name, Drawing drawing, std::string_view caption);
-    /// As add_figure(), but its HTML is returned, to stand elsewhere in the section.
-    [[nodiscard]] std::string keep_figure(std::string name, Drawing drawing,
-                                          std::string_view caption);
-};
-
-/// Links to the result files of this name that the page was made from, as HTML; empty: none.
-[[nodiscard]] std::string links_to(const results::Results& results, std::string_view name);
+/// The result files of this name that the page was made from, as paths from the page.
+[[nodiscard]] std::vector<std::string> files_named(const results::Results& results,
+                                                   std::string_view name);
 
 // The sections. nullopt when the folder has no data for one.
 
 /// The demo's own numbers.
 [[nodiscard]] std::optional<Section> demo_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> replay_section(const results::Results& results);
+/// What the player shows; null: nothing.
+[[nodiscard]] Json replays_of(const results::Results& results);
 /// Recorded sessions over time, and their analysis.
 [[nodiscard]] std::optional<Section> session_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> table1_section(const results::Results& results);
@@ -71,14 +52,14 @@ struct Section {
 [[nodiscard]] std::optional<Section> beyond_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> runs_section(const results::Results& results);
 
-/// Results that stand against the paper, as lines of HTML.
+/// Results that stand against the paper, as texts of a page.
 struct Claims {
-    std::vector<std::string> calibrated;
-    std::vector<std::string> selected;
-    std::vector<std::string> by_construction;
-    std::vector<std::string> met; // predicted
-    std::vector<std::string> undecided;
-    std::vector<std::string> missed; // of any class
+    std::vector<Json> calibrated;
+    std::vector<Json> selected;
+    std::vector<Json> by_construction;
+    std::vector<Json> met; // predicted
+    std::vector<Json> undecided;
+    std::vector<Json> missed; // of any class
 
     [[nodiscard]] bool are_none() const;
 };

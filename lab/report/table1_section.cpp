@@ -3,15 +3,13 @@
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
 #include "lab/results/paper.hpp"
-#include "proto/plot/bars.hpp"
-#include "proto/plot/plot.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
 
-using plot::escaped;
+using namespace std::string_view_literals;
 
 namespace {
 
@@ -31,13 +29,13 @@ constexpr std::array quantities{
     Quantity{"max", &results::Table1Row::max_mm, &results::Table1Row::paper_max_mm,
              &results::Table1Bands::max_mm}};
 
-HtmlCell measured_cell(double value, const std::optional<results::Band>& band)
+page::Cell measured_cell(double value, const std::optional<results::Band>& band)
 {
     const bool is_outside = band && !band->holds(value);
     return {shown(value, 2), is_outside ? "ours missed" : "ours"};
 }
 
-HtmlCell band_cell(const std::optional<results::Band>& band)
+page::Cell band_cell(const std::optional<results::Band>& band)
 {
     if (!band) return {"–", "band"};
     return {fmt::format("{} to {}", shown(band->low, 2), shown(band->high, 2)), "band"};
@@ -65,18 +63,20 @@ std::optional<results::Band> band_of(const std::optional<results::Table1Bands>& 
     return bands ? std::optional{(*bands).*band} : std::nullopt;
 }
 
-std::string table_of(const results::Results& results)
+Json table_of(const results::Results& results)
 {
-    HtmlTable table{"|x at L − x at R| of the cube in task P1, mm: this run, the paper, and from "
-                    "where to where it agrees",
-                    {"algorithm"}};
+    page::Table table{"|x at L − x at R| of the cube in task P1, mm: this run, the paper, and from "
+                      "where to where it agrees",
+                      {"algorithm"}};
     for (const Quantity& quantity : quantities) {
-        table.heads.insert(table.heads.end(), {std::string{quantity.name}, "paper", "band"});
+        for (const std::string_view head : {quantity.name, "paper"sv, "band"sv})
+            table.heads.emplace_back(head);
     }
-    table.heads.insert(table.heads.end(), {"min", "verdict", "class", "class<br>of max"});
+    for (const char* head : {"min", "verdict", "class", "class\nof max"})
+        table.heads.emplace_back(head);
     for (const results::Table1Row& row : results.table1) {
         const auto bands = bands_of(results, row);
-        std::vector<HtmlCell> cells{{escaped(row.algorithm)}};
+        std::vector<page::Cell> cells{{row.algorithm}};
         for (const Quantity& quantity : quantities) {
             cells.push_back(measured_cell(row.*quantity.ours, band_of(bands, quantity.band)));
             cells.push_back({shown(row.*quantity.papers, 2), "paper"});
@@ -85,26 +85,27 @@ std::string table_of(const results::Results& results)
         cells.push_back({shown(row.min_mm, 2), "ours"});
         const bool is_predicted = row.provenance == results::Provenance::predicted;
         cells.push_back({row.verdict == results::Claim::met && !is_predicted
-                             ? "<span class='badge seen'>met</span>"
+                             ? page::badge("met", "seen")
                              : claim_badge(row.verdict)});
         cells.push_back({class_badge(row.provenance)});
         cells.push_back({class_badge(row.max_provenance)});
         table.rows.push_back(std::move(cells));
     }
-    return html_of(table);
+    return json_of(table);
 }
 
 /// Ours beside the paper's, one group for each algorithm.
-Drawing bars_of(const results::Results& results, const Quantity& quantity)
+page::Figure bars_of(const results::Results& results, const Quantity& quantity)
 {
-    std::vector<plot::BarGroup> groups;
+    page::Bars groups;
     for (const results::Table1Row& row : results.table1) {
-        plot::BarGroup group{row.algorithm, {}};
+        page::BarGroup group{row.algorithm, {}};
         const auto colour = colour_of(row.algorithm);
         if (const auto paper = row.*quantity.papers) {
             group.bars.push_back(
-                {.value = *paper,
-                 .label = shown(*paper, 1),
+                {.series = "paper",
+                 .value = *paper,
+                 .text = shown(*paper, 1),
                  .colour = colour,
                  .is_outlined = true,
                  .tip = fmt::format("{}, paper: {} mm", row.algorithm, shown(*paper, 2))});
@@ -112,15 +113,21 @@ Drawing bars_of(const results::Results& results, const Quantity& quantity)
         const double ours = row.*quantity.ours;
         const auto band = band_of(bands_of(results, row), quantity.band);
         group.bars.push_back(
-            {.value = ours,
-             .label = shown(ours, 1),
+            {.series = "this run",
+             .value = ours,
+             .text = shown(ours, 1),
              .colour = colour,
              .is_missed = band && !band->holds(ours),
              .tip = fmt::format("{}, this run: {} mm", row.algorithm, shown(ours, 2))});
         groups.push_back(std::move(group));
     }
-    const std::string title = fmt::format("Table 1: {}", quantity.name);
-    return drawn_bars({title, "left: paper, right: this run", "mm"}, groups, {}, {360.0, 240.0});
+    return {.id = fmt::format("table1-{}", quantity.name),
+            .title = fmt::format("Table 1: {}", quantity.name),
+            .x = {"left: paper, right: this run"},
+            .y = {"|x_L − x_R|", "mm"},
+            .content = std::move(groups),
+            .size = {360.0, 240.0},
+            .caption = fmt::format("Dashed: the paper. Filled: this run, {}.", quantity.name)};
 }
 
 } // namespace
@@ -129,30 +136,29 @@ std::optional<Section> table1_section(const results::Results& results)
 {
     if (results.table1.empty()) return std::nullopt;
     Section section{"table1", "Table 1: how far the two copies are apart"};
-    section.html = "<p>One hand carries the cube; the other side sees it late. The distance "
-                   "between the two copies is what the network costs. Sep stands where the paper "
-                   "has TiDeC. The hand follows a prescribed path and the delay is constant: "
-                   "nothing is drawn by lot, so there is one session of each algorithm, whatever "
-                   "the seed, and no interval.</p>\n" +
-                   table_of(results) + "<div class='panels small'>\n";
-    section.sources = links_to(results, "table1.csv");
-    for (const Quantity& quantity : quantities) {
-        section.add_figure(fmt::format("table1-{}", quantity.name), bars_of(results, quantity),
-                           fmt::format("Dashed: the paper. Filled: this run, {}.", quantity.name));
-    }
-    section.html += "</div>\n";
+    section.add(page::paragraph(
+        "One hand carries the cube; the other side sees it late. The distance between the two "
+        "copies is what the network costs. Sep stands where the paper has TiDeC. The hand follows "
+        "a prescribed path and the delay is constant: nothing is drawn by lot, so there is one "
+        "session of each algorithm, whatever the seed, and no interval."));
+    section.add(table_of(results));
+    section.sources = files_named(results, "table1.csv");
+    Json figures = Json::array();
+    for (const Quantity& quantity : quantities)
+        figures.push_back(section.keep(bars_of(results, quantity)));
+    section.add(page::panels("small", std::move(figures)));
     return section;
 }
 
 namespace {
 
 /// Each seed's mean discrepancy, one plot for each task.
-Drawing seeds_plot(const results::Results& results, const std::string& task)
+std::optional<page::Figure> seeds_figure(const results::Results& results, const std::string& task)
 {
     const auto names = distinct(results.tasks, [](const auto& row) { return row.algorithm; });
-    std::vector<plot::Curve> curves;
+    std::vector<page::Curve> curves;
     for (const std::string& name : names) {
-        plot::Curve curve{
+        page::Curve curve{
             .name = name, .colour = colour_of(name), .width = 0.0, .shows_points = true};
         for (const results::SessionRow& row : results.rows_of_sessions) {
             if (row.algorithm != name || row.task != task || !row.mean_mm) continue;
@@ -160,9 +166,14 @@ Drawing seeds_plot(const results::Results& results, const std::string& task)
         }
         if (!curve.points.empty()) curves.push_back(std::move(curve));
     }
-    if (curves.empty()) return {};
-    return drawn_plot({task, "seed", "mean discrepancy, mm"}, curves,
-                      {.size = {360.0, 220.0}, .y = {0.0, 0.0}});
+    if (curves.empty()) return std::nullopt;
+    return page::Figure{.id = page::plain_id("seeds-" + task),
+                        .title = task,
+                        .x = {"seed"},
+                        .y = {"mean discrepancy", "mm", page::Scale::linear, {0.0, 0.0}},
+                        .content = page::Curves{std::move(curves)},
+                        .size = {360.0, 220.0},
+                        .caption = task + ", a point for each seed"};
 }
 
 } // namespace
@@ -170,24 +181,24 @@ Drawing seeds_plot(const results::Results& results, const std::string& task)
 std::optional<Section> tasks_section(const results::Results& results)
 {
     if (results.tasks.empty()) return std::nullopt;
-    HtmlTable table{"Closed-loop tasks: worst of the seeds; discrepancy mean and std: mean over "
-                    "the seeds",
-                    {"task", "algorithm", "tier", "seeds", "mean<br>mm", "std<br>mm", "max<br>mm",
-                     "vibration<br>mm", "stiffness<br>ratio", "force<br>vibration, N",
-                     "force above<br>2 Hz, N", "forces<br>apart, %", "contact<br>lost, %",
-                     "force<br>step, N", "drag<br>N", "energy<br>mJ", "limited by"}};
+    page::Table table{"Closed-loop tasks: worst of the seeds; discrepancy mean and std: mean over "
+                      "the seeds",
+                      {"task", "algorithm", "tier", "seeds", "mean\nmm", "std\nmm", "max\nmm",
+                       "vibration\nmm", "stiffness\nratio", "force\nvibration, N",
+                       "force above\n2 Hz, N", "forces\napart, %", "contact\nlost, %",
+                       "force\nstep, N", "drag\nN", "energy\nmJ", "limited by"}};
     const bool turn = std::ranges::any_of(results.tasks, [](const results::TaskRow& row) {
         return row.turned_apart_deg.has_value();
     });
-    if (turn) table.heads.emplace_back("turned<br>apart, max deg");
+    if (turn) table.heads.emplace_back("turned\napart, max deg");
     const auto percent = [](std::optional<double> share) {
         return shown(share ? std::optional{100.0 * *share} : std::nullopt, 1);
     };
     for (const std::string& task : distinct(results.tasks, [](const auto& r) { return r.task; })) {
         for (const results::TaskRow& row : results.tasks) {
             if (row.task != task) continue;
-            table.rows.push_back({{escaped(task)},
-                                  {escaped(row.algorithm), "name"},
+            table.rows.push_back({{task},
+                                  {row.algorithm, "name"},
                                   {tier_badge(row.tier), "name"},
                                   {std::to_string(row.seeds)},
                                   {shown(row.mean_mm, 2)},
@@ -202,23 +213,23 @@ std::optional<Section> tasks_section(const results::Results& results)
                                   {shown(row.force_step_n, 3)},
                                   {shown(row.drag_n, 3)},
                                   {shown(row.energy_mj, 2)},
-                                  {escaped(row.limited_by), "words"}});
+                                  {row.limited_by, "words"}});
             if (turn) table.rows.back().push_back({shown(row.turned_apart_deg, 2)});
         }
     }
-    Section section{"tasks", "The closed-loop tasks beside it",
-                    "<p>In P1 the cube follows a path whatever is felt. In these tasks both hands "
-                    "act on what they feel, so the numbers are not Table 1’s: they say what the "
-                    "same network does to people who work together.</p>\n" +
-                        html_of(table) + "<div class='panels small'>\n"};
-    section.sources = links_to(results, "sessions.csv");
+    Section section{"tasks", "The closed-loop tasks beside it"};
+    section.add(page::paragraph(
+        "In P1 the cube follows a path whatever is felt. In these tasks both hands act on what "
+        "they feel, so the numbers are not Table 1’s: they say what the same network does to "
+        "people who work together."));
+    section.add(json_of(table));
+    section.sources = files_named(results, "sessions.csv");
+    Json figures = Json::array();
     for (const std::string& task : distinct(results.tasks, [](const auto& r) { return r.task; })) {
-        auto seeds = seeds_plot(results, task);
-        if (seeds.svg.empty()) continue;
-        section.add_figure("seeds-" + task, std::move(seeds),
-                           escaped(task) + ", a point for each seed");
+        if (auto seeds = seeds_figure(results, task))
+            figures.push_back(section.keep(*std::move(seeds)));
     }
-    section.html += "</div>\n";
+    section.add(page::panels("small", std::move(figures)));
     return section;
 }
 

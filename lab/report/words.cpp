@@ -2,16 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/words.hpp"
 
-#include "proto/plot/axis.hpp"
-
 #include <array>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
 namespace hapnet::lab::report {
-
-using plot::escaped;
 
 namespace {
 
@@ -59,25 +55,25 @@ std::string impairment_text(std::string_view impairment)
 
 std::string_view claim_text(results::Claim claim) { return base::name_of(claim); }
 
-std::string claim_badge(results::Claim claim)
+page::Json claim_badge(results::Claim claim)
 {
     if (claim == results::Claim::none) return "";
-    return fmt::format("<span class='badge {0}'>{0}</span>", claim_text(claim));
+    return page::badge(claim_text(claim), claim_text(claim));
 }
 
-std::string class_badge(results::Provenance provenance)
+page::Json class_badge(results::Provenance provenance)
 {
     if (provenance == results::Provenance::none) return "";
-    return fmt::format("<span class='badge'>{}</span>", base::name_of(provenance));
+    return page::badge(base::name_of(provenance));
 }
 
-std::string status_badge(results::LimitStatus status)
+page::Json status_badge(results::LimitStatus status)
 {
     if (status == results::LimitStatus::none) return "";
     // Green is for predictions alone: the rest could hardly have come out otherwise.
     std::string_view style = claim_text(to_claim(status));
     if (style == "met" && status != results::LimitStatus::predicted_met) style = "seen";
-    return fmt::format("<span class='badge {}'>{}</span>", style, base::name_of(status));
+    return page::badge(base::name_of(status), style);
 }
 
 std::string_view tier_symbol(metrics::Tier tier)
@@ -90,79 +86,61 @@ std::string_view tier_symbol(metrics::Tier tier)
     return "";
 }
 
-std::string tier_badge(metrics::Tier tier)
+page::Json tier_badge(metrics::Tier tier)
 {
-    return fmt::format("<span class='badge tier-{0}'>{1} {0}</span>", to_text(tier),
-                       tier_symbol(tier));
+    return page::badge(fmt::format("{} {}", tier_symbol(tier), to_text(tier)),
+                       fmt::format("tier-{}", to_text(tier)));
 }
 
 std::string_view tier_colour(metrics::Tier tier)
 {
     switch (tier) {
-    case metrics::Tier::unusable: return "var(--unusable)";
-    case metrics::Tier::usable: return "var(--usable)";
-    case metrics::Tier::good: return "var(--good)";
+    case metrics::Tier::unusable: return "unusable";
+    case metrics::Tier::usable: return "usable";
+    case metrics::Tier::good: return "good";
     }
     return "";
 }
 
 std::string_view colour_of(std::string_view algorithm)
 {
-    constexpr std::array<Pair, 3> known{{{"base", "var(--base)"},
-                                         {"sep", "var(--sep)"},
-                                         {"dead-reckoning", "var(--dead-reckoning)"}}};
-    return found_in(known, algorithm, "var(--other)");
+    constexpr std::array<Pair, 3> known{
+        {{"base", "base"}, {"sep", "sep"}, {"dead-reckoning", "dead-reckoning"}}};
+    return found_in(known, algorithm, "other");
 }
 
 double curve_width(std::string_view algorithm) { return algorithm == "sep" ? 4.0 : 1.2; }
 
-std::string html_of(const HtmlTable& table)
+std::string rounded_limit(double limit) { return shown(limit, limit < 20.0 ? 1 : 0); }
+
+page::Bar limit_bar(const results::LimitRow& row, std::string series, std::string tip)
 {
-    std::string out = fmt::format("<div class='scroll' role='region' tabindex='0' "
-                                  "aria-label='{0}'><table><caption>{0}</caption>\n<thead><tr>",
-                                  escaped(table.caption));
-    for (const std::string& head : table.heads) out += "<th scope='col'>" + head + "</th>";
-    out += "</tr></thead>\n<tbody>\n";
-    for (const auto& row : table.rows) {
-        out += "<tr>";
-        for (const HtmlCell& cell : row) {
-            const std::string_view tag = &cell == row.data() ? "th scope='row'" : "td";
-            const std::string style =
-                cell.style.empty() ? "" : fmt::format(" class='{}'", cell.style);
-            out += fmt::format("<{}{}>{}</{}>", tag, style, cell.html, tag.substr(0, 2));
-        }
-        out += "</tr>\n";
-    }
-    return out + "</tbody></table></div>\n";
+    page::Bar bar{.series = std::move(series),
+                  .value = row.limit,
+                  .text = (row.is_open() ? "> " : "") + rounded_limit(row.limit),
+                  .colour = colour_of(row.algorithm),
+                  .is_open = row.is_open(),
+                  .tip = std::move(tip)};
+    if (row.ci_low && row.ci_high) bar.interval = page::Range{*row.ci_low, *row.ci_high};
+    return bar;
 }
 
-std::string html_of(const records::TextTable& table)
+void add_table(page::Section& section, const records::TextTable& text)
 {
-    HtmlTable html{table.caption, {escaped(table.unit)}};
-    for (const std::string& head : table.heads) html.heads.push_back(escaped(head));
+    page::Table table{text.caption, {text.unit}};
+    for (const std::string& head : text.heads) table.heads.emplace_back(head);
     const auto has_note = [](const records::TextTable::Row& row) { return !row.note.empty(); };
-    const bool has_notes = std::any_of(table.rows.begin(), table.rows.end(), has_note);
-    if (has_notes) html.heads.emplace_back();
-    for (const records::TextTable::Row& row : table.rows) {
-        std::vector<HtmlCell> cells{{escaped(row.name)}};
-        for (const std::string& cell : row.cells) cells.push_back({escaped(cell)});
-        cells.resize(table.heads.size() + 1);
-        if (has_notes) cells.push_back({escaped(row.note), "words"});
-        html.rows.push_back(std::move(cells));
+    const bool has_notes = std::any_of(text.rows.begin(), text.rows.end(), has_note);
+    if (has_notes) table.heads.emplace_back("");
+    for (const records::TextTable::Row& row : text.rows) {
+        auto& cells = table.rows.emplace_back();
+        cells.push_back({row.name});
+        for (const std::string& cell : row.cells) cells.push_back({cell});
+        cells.resize(text.heads.size() + 1, {""});
+        if (has_notes) cells.push_back({row.note, "words"});
     }
-    std::string out = html_of(html);
-    for (const std::string& remark : table.remarks) out += "<p>" + escaped(remark) + "</p>\n";
-    return out;
-}
-
-std::string figure(std::string_view svg, std::string_view caption)
-{
-    return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, caption);
-}
-
-std::string folded(std::string_view summary, std::string_view html)
-{
-    return fmt::format("<details><summary>{}</summary>\n{}</details>\n", summary, html);
+    section.add(json_of(table));
+    for (const std::string& remark : text.remarks) section.add(page::paragraph(remark));
 }
 
 } // namespace hapnet::lab::report

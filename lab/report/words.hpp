@@ -4,8 +4,10 @@
 
 #include "lab/records/text_table.hpp"
 #include "lab/results/results.hpp"
+#include "proto/page/page.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,12 +30,12 @@ namespace hapnet::lab::report {
 [[nodiscard]] std::string impairment_text(std::string_view impairment);
 
 [[nodiscard]] std::string_view claim_text(results::Claim claim); // "calibrated"
-[[nodiscard]] std::string claim_badge(results::Claim claim);     // as HTML; empty for none
-/// How a number came about, and how it stands to the paper's; as HTML.
-[[nodiscard]] std::string class_badge(results::Provenance provenance);
-[[nodiscard]] std::string status_badge(results::LimitStatus status);
+[[nodiscard]] page::Json claim_badge(results::Claim claim);      // "" for none
+/// How a number came about, and how it stands to the paper's.
+[[nodiscard]] page::Json class_badge(results::Provenance provenance);
+[[nodiscard]] page::Json status_badge(results::LimitStatus status);
 [[nodiscard]] std::string_view tier_symbol(metrics::Tier tier);
-[[nodiscard]] std::string tier_badge(metrics::Tier tier); // as HTML
+[[nodiscard]] page::Json tier_badge(metrics::Tier tier);
 [[nodiscard]] std::string_view tier_colour(metrics::Tier tier);
 
 /// The colour of an algorithm, the same all over the page; of what a person need not tell apart
@@ -55,28 +57,22 @@ template <typename Value, typename Name>
     return found;
 }
 
-/// A cell of a table on a page: HTML, and the class that it is shown by.
-struct HtmlCell {
-    std::string html;
-    std::string_view style{};
-};
+/// The rows of which `keeps` is true.
+template <typename Value, typename Keeps>
+[[nodiscard]] std::vector<Value> rows_where(const std::vector<Value>& rows, const Keeps& keeps)
+{
+    std::vector<Value> kept;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(kept), keeps);
+    return kept;
+}
 
-struct HtmlTable {
-    std::string_view caption;                  // text
-    std::vector<std::string> heads;            // HTML
-    std::vector<std::vector<HtmlCell>> rows{}; // the first cell names the row
-};
+/// As many digits as a limit is worth.
+[[nodiscard]] std::string rounded_limit(double limit);
+/// The bar of a limit with its interval, open where it is a bound.
+[[nodiscard]] page::Bar limit_bar(const results::LimitRow& row, std::string series,
+                                  std::string tip);
 
-/// A table that a narrow screen scrolls sideways.
-[[nodiscard]] std::string html_of(const HtmlTable& table);
-
-/// The same of what a terminal shows as text, with its remarks below.
-[[nodiscard]] std::string html_of(const records::TextTable& table);
-
-/// A figure with its caption, which is HTML.
-[[nodiscard]] std::string figure(std::string_view svg, std::string_view caption);
-
-/// What one need not see at once: a line of HTML that opens the rest.
-[[nodiscard]] std::string folded(std::string_view summary, std::string_view html);
+/// Adds what a terminal shows as text, with its remarks below.
+void add_table(page::Section& section, const records::TextTable& table);
 
 } // namespace hapnet::lab::report

@@ -139,6 +139,13 @@ chroot "$root.build" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:
     >"$work/emulator.log" 2>&1 || fail "the emulator alone: $(tail -5 "$work/emulator.log")"
 grep '^hapnet-emulator [0-9]' "$work/emulator.log" ||
     fail "the emulator alone: $(tail -1 "$work/emulator.log")"
+# The page of a run comes with it.
+alone=$(cd "$root.build" && find root/clone -path '*/bin/hapnet-emulator' -type f | head -1)
+chroot "$root.build" "/$alone" --listen-a 127.0.0.1:0 --listen-b 127.0.0.1:0 --delay 1ms \
+    --duration 100ms --stats /root/run.json >>"$work/emulator.log" 2>&1
+chroot "$root.build" "/$alone" report /root/run.json --out /root/run.html 2>>"$work/emulator.log"
+grep -q 'import("hapnet/report/report.js")' "$root.build/root/run.html" ||
+    fail "the emulator alone has no page of a run that is drawn"
 umount "$root.build/proc"
 rm -rf "$root.build"
 echo "ship_test: the emulator alone was built in $((SECONDS - begin)) s"

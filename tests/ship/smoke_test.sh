@@ -33,6 +33,11 @@ lintian --allow-root --fail-on error "$work"/packages/hapnet-emulator_*.deb
 dpkg-deb -x "$work"/packages/hapnet-emulator_*.deb "$work/root"
 "$work/root/usr/bin/hapnet-emulator" --version
 "$work/root/usr/bin/hapnet-emulator" predict lte --packets 2000 >"$work/predict.log"
+"$work/root/usr/bin/hapnet-emulator" --listen-a 127.0.0.1:0 --listen-b 127.0.0.1:0 --delay 1ms \
+    --duration 100ms --stats "$work/run.json" >"$work/run.log" 2>&1
+"$work/root/usr/bin/hapnet-emulator" report "$work/run.json" --out "$work/run.html" \
+    2>>"$work/run.log"
+grep -q 'id="hapnet-data"' "$work/run.html" || fail "the page of a run carries no data"
 for page in hapnet-emulator hapnet-ctl; do
     gzip -t "$work/root/usr/share/man/man1/$page.1.gz"
     bash -n "$work/root/usr/share/bash-completion/completions/$page"

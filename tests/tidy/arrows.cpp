@@ -22,7 +22,7 @@ const std::vector<Folder>& map()
         {"proto/base", true, {}},
         {"proto/cli", false, {"proto/base"}},
         {"proto/output", true, {"proto/base"}},
-        {"proto/plot", true, {"proto/base"}},
+        {"proto/page", true, {"proto/base"}},
         {"proto/wire", true, {"proto/base"}},
         {"proto/disk", false, {"proto/base"}},
         {"proto/secure/keys", false, {"proto/secure", "proto/disk"}},
@@ -34,7 +34,7 @@ const std::vector<Folder>& map()
         {"proto/control", false, {"proto/control/core", "proto/net"}},
         {"scene", true, {"proto/base"}},
         {"emulator/core", true, {"proto/base"}},
-        {"emulator/tools", true, {"emulator/core", "proto/plot"}},
+        {"emulator/tools", true, {"emulator/core", "proto/page"}},
         {"emulator/control", true, {"emulator/core", "proto/control/core"}},
         {"emulator", false, {"emulator/tools", "emulator/control", "proto/control", "proto/cli"}},
         {"ctl", false, {"proto/net", "proto/cli"}},
@@ -67,7 +67,7 @@ const std::vector<Folder>& map()
         {"lab",
          true,
          {"emulator/tools", "emulator/control", "peer/core", "peer/line", "peer/control",
-          "proto/plot", "proto/record", "proto/telemetry", "device"}},
+          "proto/page", "proto/record", "proto/telemetry", "device"}},
     };
     return folders;
 }

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What is built or recorded lies at the top, as .gitignore has it, and what
-/// npm installs below pages; docs/results is of the project.
+/// npm installs beside tests; docs/results is of the project.
 bool is_left_out(const fs::recursive_directory_iterator& folder)
 {
     const auto name = folder->path().filename().string();

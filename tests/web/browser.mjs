@@ -17,7 +17,7 @@ const flags = [
 
 const playwright = () => {
   try {
-    return createRequire(`${root}web/page/`)("playwright-core");
+    return createRequire(import.meta.url)("playwright-core");
   } catch {
     return null;
   }
@@ -27,7 +27,7 @@ const playwright = () => {
 export const missing = () => {
   if (!existsSync(program)) return `${program} is not built`;
   if (!existsSync(chromiumPath)) return `${chromiumPath} is missing`;
-  return playwright() ? false : "playwright-core is missing: npm ci in web/page";
+  return playwright() ? false : "playwright-core is missing: npm ci in tests/web";
 };
 
 /** The path of another program of the same build. */

@@ -7,7 +7,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { execFileSync } from "node:child_process";
-import { existsSync, readdirSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
 import { lowContrasts } from "./contrast.mjs";
@@ -50,8 +50,20 @@ const rowsOf = (one) => one.evaluate(() => {
 });
 
 test("loads in space, with charts, without a complaint", { skip }, async () => {
-  await page.waitForSelector("#charts .u-wrap canvas");
+  await page.waitForSelector("#charts .plot canvas");
   assert.equal(await page.evaluate(() => document.body.dataset.view), "3-D");
+  assert.deepEqual(page.complaints, []);
+});
+
+test("a chart is saved as SVG, in light colours", { skip }, async () => {
+  await waitForApart(0, 100); // there is a curve
+  const [download] = await Promise.all([
+    page.waitForEvent("download"), page.locator('[data-chart="apart"] .save').click(),
+  ]);
+  assert.equal(download.suggestedFilename(), "hapnet-apart.svg");
+  const svg = readFileSync(await download.path(), "utf8");
+  assert.match(svg, /^<svg .*<path [^>]*stroke="#0b62a8".*>Copies apart, /s);
+  assert.doesNotMatch(svg, /var\(/);
   assert.deepEqual(page.complaints, []);
 });
 
@@ -173,9 +185,9 @@ test("a page too busy to show its token in time tries again", { skip }, async ()
   await busy.context().close();
 });
 
-test("without WebGL, and without modules, it draws flat", { skip }, async () => {
-  for (const pattern of [null, /three\.|uPlot\.module/]) {
-    const flat = await openPage(await browser.newContext(), web.address, async (one) => {
+test("without WebGL, and without modules, it shows a still picture and words", { skip }, async () => {
+  for (const pattern of [null, /three\./]) {
+    const still = await openPage(await browser.newContext(), web.address, async (one) => {
       if (pattern) await one.route(pattern, (route) => route.abort());
       else {
         await one.addInitScript(() => {
@@ -186,10 +198,12 @@ test("without WebGL, and without modules, it draws flat", { skip }, async () => 
         });
       }
     });
-    assert.equal(await flat.evaluate(() => document.body.dataset.view), "flat");
-    await flat.waitForSelector(".view canvas");
-    await flat.waitForSelector(".plot canvas");
-    await flat.context().close();
+    assert.equal(await still.evaluate(() => document.body.dataset.view), "still");
+    await still.waitForSelector(".view > svg rect");
+    await still.waitForFunction(() =>
+      / at -?[0-9.]+, .* mm/.test(document.querySelector(".view .in-words").textContent));
+    await still.waitForSelector(".plot canvas");
+    await still.context().close();
   }
 });
 

@@ -19,10 +19,12 @@ let page = null;
 
 const lab = (...words) => execFileSync(programBeside("hapnet-lab"), words, { stdio: "pipe" });
 
-/** Two peers that play P1 for 3 s over the emulator leave their records in the folder. */
+/** Two peers that play P1 for 3 s over the emulator: all three leave their files in the folder. */
 const record = async (where) => {
   const emulator = spawn(programBeside("hapnet-emulator"),
-    ["--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--delay", "40ms"]);
+    ["--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--delay", "40ms", "--loss", "5%",
+      "--stats", join(where, "run.json"), "--fates", join(where, "run.fates")]);
+  const ended = new Promise((resolve) => { emulator.on("exit", resolve); });
   const ports = await new Promise((resolve, reject) => {
     emulator.on("exit", (code) => reject(new Error(`hapnet-emulator ended with ${code}`)));
     emulator.stdout.once("data", (text) => resolve(/a=(\S+) b=(\S+)/.exec(text).slice(1)));
@@ -32,8 +34,8 @@ const record = async (where) => {
     "--record", join(where, `${i + 1}.rec`),
   ], { stdio: "ignore" }));
   await Promise.all(peers.map((peer) => new Promise((resolve) => { peer.on("exit", resolve); })));
-  emulator.removeAllListeners("exit");
   emulator.kill("SIGTERM");
+  await ended;
 };
 
 /** The report in the folder, in a page that counts complaints and whatever it asks for. */
@@ -74,7 +76,7 @@ test("opens from disk, asks for nothing, complains of nothing, plays in space", 
     assert.deepEqual(others, []);
     assert.equal(page.asked.filter((address) => address.startsWith("file:")).length, 1);
     assert.equal(await page.evaluate(() => document.body.dataset.view), "3-D");
-    await page.waitForSelector("figure[data-figure] .u-wrap canvas");
+    await page.waitForSelector("figure[data-figure] .plot svg");
   });
 
 /** Where the plot of a figure is, in pixels of the window. */
@@ -97,7 +99,7 @@ test("pointing at a figure tells the values of its curves there", { skip }, asyn
   assert.ok(at > from + 0.3 * (to - from) && at < from + 0.7 * (to - from), `${at} s`);
   const said = Number(await words(".legend button:first-child .figure"));
   const { points } = await page.evaluate(() =>
-    globalThis.hapnet.figures["fig7-base"].data.curves[0]);
+    globalThis.hapnet.figures["fig7-base"].data.series[0]);
   const near = points.reduce((a, b) => (Math.abs(b[0] - at) < Math.abs(a[0] - at) ? b : a));
   assert.ok(Math.abs(near[1] - said) <= 0.06 * Math.max(1, Math.abs(said)), `${near} and ${said}`);
 });
@@ -132,9 +134,29 @@ test("the legend hides a curve and shows it again", { skip }, async () => {
   assert.deepEqual(await hidden(), []);
 });
 
+test("a figure is saved as SVG in light colours, and has its numbers as a table", { skip },
+  async () => {
+    const figure = page.locator('figure[data-figure="table1-mean"]');
+    await page.emulateMedia({ colorScheme: "dark" });
+    const [download] = await Promise.all([
+      page.waitForEvent("download"), figure.locator(".save").click(),
+    ]);
+    await page.emulateMedia({ colorScheme: "light" });
+    assert.equal(download.suggestedFilename(), "table1-mean.svg");
+    const svg = readFileSync(await download.path(), "utf8");
+    assert.match(svg, /^<svg .*>Table 1: mean</s);
+    assert.match(svg, /fill="#0072b2"/);
+    assert.doesNotMatch(svg, /var\(/);
+    await figure.locator("details summary").click();
+    await figure.locator("tbody tr").first().waitFor(); // it is filled after it has opened
+    const rows = await figure.locator("tbody tr").allTextContents();
+    assert.equal(rows.length, 6, rows.join());
+    assert.match(rows[0], /^base.*paper: [0-9.]+ mm/);
+  });
+
 test("a bar tells what it is; each figure leads to the rows behind it", { skip }, async () => {
   const figure = page.locator('figure[data-figure^="table1-"]').first();
-  await figure.locator(".one-bar").first().hover();
+  await figure.locator(".part").first().hover();
   assert.match(await figure.locator(".pointed").textContent(), /paper: [0-9.]+ mm/);
   const links = await page.evaluate(() => [...document.querySelectorAll("figure[data-figure]")]
     .map((one) => one.querySelector(".source a")?.getAttribute("href")));
@@ -214,20 +236,19 @@ const withoutLibraries = (one) => one.addInitScript(() => {
   globalThis.DecompressionStream = undefined; // as in an older browser
 });
 
-test("without WebGL, and without libraries, it draws flat", { skip }, async () => {
-  for (const [prepare, charts] of [[withoutWebGl, "uPlot"], [withoutLibraries, "strips"]]) {
-    const flat = await openReport(experiments, prepare);
-    assert.equal(await flat.evaluate(() => document.body.dataset.view), "flat");
-    assert.equal(await flat.evaluate(() => globalThis.hapnet.player.chart.kind), charts);
-    await flat.click(".player .play");
-    await flat.waitForFunction(() => globalThis.hapnet.player.at > 1, undefined, patience);
-    const { x, y, width, height } = await plotOf(flat, "fig7-base");
-    await flat.mouse.move(x + width / 2, y + height / 2);
-    await flat.waitForFunction(() =>
+test("without WebGL, and without libraries, it shows a still picture and words", { skip }, async () => {
+  for (const [prepare, name] of [[withoutWebGl, "webgl"], [withoutLibraries, "libraries"]]) {
+    const still = await openReport(experiments, prepare);
+    assert.equal(await still.evaluate(() => document.body.dataset.view), "still");
+    await still.click(".player .play");
+    await still.waitForFunction(() => globalThis.hapnet.player.at > 1, undefined, patience);
+    const { x, y, width, height } = await plotOf(still, "fig7-base");
+    await still.mouse.move(x + width / 2, y + height / 2);
+    await still.waitForFunction(() =>
       document.querySelector('figure[data-figure="fig7-base"] .pointed').textContent !== "");
-    assert.deepEqual(flat.complaints, []);
-    await keepPicture(flat, `report-flat-${charts}`);
-    await flat.context().close();
+    assert.deepEqual(still.complaints, []);
+    await keepPicture(still, `report-without-${name}`);
+    await still.context().close();
   }
 });
 
@@ -243,9 +264,31 @@ test("the report of two records does the same, alone in another folder", { skip 
   const names = await session.evaluate(() => Object.keys(globalThis.hapnet.figures));
   assert.deepEqual(names.sort(), ["session-P1-apart", "session-P1-cubes", "session-P1-forces"]);
   const most = await session.evaluate(() => Math.max(
-    ...globalThis.hapnet.figures["session-P1-apart"].data.curves[0].points.map(([, y]) => y)));
+    ...globalThis.hapnet.figures["session-P1-apart"].data.series[0].points.map(([, y]) => y)));
   assert.ok(most > 1, `${most} mm apart at 40 ms`);
   assert.deepEqual(session.complaints, []);
   await keepPicture(session, "report-session");
   await session.context().close();
 });
+
+test("the page of a run of the emulator draws its figures, alone in another folder", { skip },
+  async () => {
+    const alone = mkdtempSync(join(folder, "run-"));
+    execFileSync(programBeside("hapnet-emulator"),
+      ["report", join(folder, "run.json"), "--out", join(alone, "report.html")], { stdio: "pipe" });
+    const run = await openReport(alone);
+    const { names, drawn } = await run.evaluate(() => ({
+      names: Object.keys(globalThis.hapnet.figures),
+      drawn: [...document.querySelectorAll("figure[data-figure]")]
+        .filter((one) => one.querySelector(".plot > svg path, .plot > svg rect"))
+        .map((one) => one.dataset.figure),
+    }));
+    assert.deepEqual(drawn.sort(), names.sort());
+    for (const name of ["delay-up", "lateness-down", "loss-runs-up", "losses-down"]) {
+      assert.ok(names.includes(name), name);
+    }
+    assert.match(await run.textContent("#tests table"), /up: loss/);
+    assert.deepEqual(run.complaints, []);
+    await keepPicture(run, "report-run");
+    await run.context().close();
+  });

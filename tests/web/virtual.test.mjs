@@ -52,7 +52,7 @@ const seek = async (seconds) => {
 };
 
 test("virtual time shows without a complaint, and says that it is virtual", { skip }, async () => {
-  await page.waitForSelector("#charts .u-wrap canvas");
+  await page.waitForSelector("#charts .plot canvas");
   assert.match(await page.textContent("#mode"), /virtual/);
   await page.waitForSelector("#pace:not([hidden])");
   const others = await page.evaluate(() =>

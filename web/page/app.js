@@ -13,7 +13,7 @@ import { Model } from "./model.js";
 import { Network } from "./network.js";
 import { Orbit } from "./orbit.js";
 import { Pace } from "./pace.js";
-import { chartMaker, painterFor } from "./painters.js";
+import { painterFor } from "./painters.js";
 import { Rhythm } from "./rhythm.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
@@ -170,7 +170,7 @@ const start = async () => {
     connection,
   });
   await painted();
-  charts = new ChartPanel(byId("charts"), byId("chart-table"), model, await chartMaker());
+  charts = new ChartPanel(byId("charts"), byId("chart-table"), model);
   if (model.state) showPath();
   requestAnimationFrame(turn);
   const painter = await painterFor(byId("worlds"));

@@ -3,8 +3,10 @@
 // The charts with their legends, whose buttons hide curves, and the same figures as a table.
 
 import { make, say } from "./dom.js";
+import { Chart } from "./figures/chart.js";
+import { nearest } from "./figures/scales.js";
+import { saveButton } from "./figures/still.js";
 import { legendOf } from "./legend.js";
-import { onColours, readColours } from "./paint/palette.js";
 import { plotsOf } from "./plots.js";
 import { spoken } from "./units.js";
 
@@ -20,8 +22,8 @@ const roundUp = (value) => {
 const inSeconds = (mark) => (mark === 0 ? "now" : `${mark} s`);
 
 class Panel {
-  constructor(plot, makeChart) {
-    Object.assign(this, { plot, hidden: new Set(), seen: true, most: 0 });
+  constructor(plot) {
+    Object.assign(this, { plot, hidden: new Set(), seen: true, most: 0, curves: [] });
     this.area = make("div", { class: "plot" });
     this.legend = make("div", { class: "legend" });
     this.root = make(
@@ -30,9 +32,9 @@ class Panel {
       make("figcaption", {}, make("b", {}, plot.title), ` ${plot.unit}`),
       this.area,
       this.legend,
+      saveButton(() => ({ figure: this.#figure() })),
     );
-    this.chart = makeChart(this.area);
-    new ResizeObserver(() => this.chart.resize()).observe(this.area);
+    this.chart = new Chart(this.area, { isLive: true });
     new IntersectionObserver(([entry]) => {
       this.seen = entry.isIntersecting;
     }).observe(this.root);
@@ -46,6 +48,22 @@ class Panel {
     const { buttons, values } = legendOf(plot.curves, this.hidden);
     this.values = values;
     this.legend.replaceChildren(...buttons);
+  }
+
+  /** What is shown now, as a figure to be saved. */
+  #figure() {
+    const pointsOf = ({ x, y }) => x.flatMap((time, i) => (y[i] === null ? [] : [[time, y[i]]]));
+    const bandOf = ({ x, low, high }) =>
+      x.flatMap((time, i) => (low[i] === null ? [] : [[time, low[i], high[i]]]));
+    const series = this.curves.filter((curve) => !curve.hidden).map((curve) => ({
+      name: curve.label, colour: curve.colour, width: curve.width, dash: curve.dash,
+      points: pointsOf(curve), band: curve.band ? bandOf(curve.band) : undefined,
+    }));
+    return {
+      id: `hapnet-${this.plot.key}`, kind: "curves", title: this.plot.title, series,
+      width: 900, height: 280, x: { label: "time", unit: "s", range: this.view.x },
+      y: { label: "", unit: this.plot.unit, range: this.view.y },
+    };
   }
 
   /** The top of the scale: grows at once, shrinks when there is much room. */
@@ -62,26 +80,22 @@ class Panel {
     return this.most;
   }
 
-  update(columns, from, to, colours) {
+  update(columns, from, to) {
     if (!this.seen) return;
-    const curves = this.plot.curves.map((curve) => ({
-      ...curve,
-      hidden: this.hidden.has(curve.name),
+    const { curves } = this.plot;
+    const { times, series } = columns.sampled(curves.map(({ name }) => name), from, to, pointsMax);
+    const x = times.map((time) => time - to);
+    this.curves = curves.map((curve, i) => ({
+      label: curve.label, colour: curve.colour, hidden: this.hidden.has(curve.name), x,
+      y: curve.show === "most" ? series[i].most : series[i].value,
+      width: curve.dash ? 1.25 : 1.75, dash: curve.dash ? "5 4" : undefined,
+      band: curve.band ? { x, low: series[i].least, high: series[i].most } : undefined,
     }));
-    const data = columns.sampled(
-      curves.map((curve) => curve.name),
-      from,
-      to,
-      pointsMax,
-    );
-    data.times = data.times.map((time) => time - to);
-    const view = { x: [from - to, 0], y: [0, this.#top(data.series, curves)], says: inSeconds };
-    this.chart.update({ ...data, curves }, view, colours);
-    const point = this.chart.pointed?.() ?? data.times.length - 1;
-    data.series.forEach((one, i) => {
-      const list = curves[i].show === "most" ? one.most : one.value;
-      say(this.values[i], spoken(list[point] ?? null));
-    });
+    this.view = { x: [from - to, 0], y: [0, this.#top(series, this.curves)], says: inSeconds };
+    this.chart.update([...this.curves].reverse(), this.view); // what was asked lies on top
+    const { pointed } = this.chart;
+    const point = pointed === null ? x.length - 1 : nearest(x, pointed);
+    this.curves.forEach(({ y }, i) => say(this.values[i], spoken(y[point] ?? null)));
   }
 }
 
@@ -90,11 +104,8 @@ export class ChartPanel {
   #panels = [];
   #drawn = 0;
 
-  constructor(container, table, model, makeChart) {
-    Object.assign(this, { container, table, model, makeChart, colours: readColours() });
-    onColours(() => {
-      this.colours = readColours();
-    });
+  constructor(container, table, model) {
+    Object.assign(this, { container, table, model });
   }
 
   show(path, ends) {
@@ -108,7 +119,7 @@ export class ChartPanel {
   #plots() {
     const plots = plotsOf(this.model, this.path ?? "", this.ends ?? ["A", "B"]);
     if (this.#panels.length === 0) {
-      this.#panels = plots.map((plot) => new Panel(plot, this.makeChart));
+      this.#panels = plots.map((plot) => new Panel(plot));
       this.container.replaceChildren(...this.#panels.map((panel) => panel.root));
     }
     plots.forEach((plot, i) => this.#panels[i].setPlot(plot));
@@ -122,7 +133,7 @@ export class ChartPanel {
     const columns = this.#columns();
     const to = this.model.lookingAt ?? columns.newest;
     if (!Number.isFinite(to)) return;
-    this.#panels.forEach((panel) => panel.update(columns, to - this.seconds, to, this.colours));
+    this.#panels.forEach((panel) => panel.update(columns, to - this.seconds, to));
   }
 
   /** The table of the same figures, for those who cannot see the curves. */

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // What draws here: a graphics card or the processor in its place, as far as the browser tells, and
-// which painters: with the modules and WebGL the good ones, else those of our own.
+// which painter of worlds: with three.js and WebGL the one in space, else a still picture.
 
 const probe = () => {
   const gl = document.createElement("canvas").getContext("webgl2");
@@ -20,39 +20,19 @@ export const graphics = () => {
   return found;
 };
 
-let spared = false;
-
 /**
- * Where the processor draws, all flat canvases that follow keep their pixels in memory, also those
- * of libraries: drawn as if by a card, they took 50 of 105 ms a picture (2026-11-25).
+ * The flat context of a canvas. Where the processor draws, it keeps its pixels in memory: drawn as
+ * if by a card, such canvases took half of the time of a picture.
  */
-const spareGraphics = () => {
-  if (spared || !graphics().software) return;
-  spared = true;
-  const { prototype } = HTMLCanvasElement;
-  const getContext = prototype.getContext;
-  prototype.getContext = function getContextInMemory(kind, options) {
-    const more = kind === "2d" ? { ...options, willReadFrequently: true } : options;
-    return getContext.call(this, kind, more);
-  };
-};
+export const flatContext = (canvas) =>
+  canvas.getContext("2d", graphics().software ? { willReadFrequently: true } : {});
 
-/** The painter of worlds in space, or the flat one where modules or WebGL are missing. */
+/** The painter of worlds in space, or a still picture where three.js or WebGL is missing. */
 export const painterFor = async (container) => {
   try {
     return (await import("./scene3d.js")).makePainter(container);
   } catch {
     container.querySelector("canvas.space")?.remove();
-    return (await import("./sceneflat.js")).makePainter(container);
-  }
-};
-
-/** The function makeChart of charts.js, or that of strips.js. */
-export const chartMaker = async () => {
-  spareGraphics();
-  try {
-    return (await import("./charts.js")).makeChart;
-  } catch {
-    return (await import("./strips.js")).makeChart;
+    return (await import("./scenestill.js")).makePainter(container);
   }
 };

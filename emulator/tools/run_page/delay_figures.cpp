@@ -3,9 +3,7 @@
 #include "emulator/core/delay/theory.hpp"
 #include "emulator/tools/run_page/figures.hpp"
 #include "proto/base/histogram.hpp"
-#include "proto/plot/plot.hpp"
 
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -16,10 +14,10 @@ namespace hapnet::emulator::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using plot::Curve;
-using plot::Point;
+using page::Curve;
+using page::Point;
 
-constexpr plot::Size half_page{520.0, 280.0};
+constexpr page::Size half_page{520.0, 280.0};
 
 /// A stretch of values, and how many lie in it.
 struct Bin {
@@ -97,46 +95,40 @@ std::vector<Point> law_of(const Conditions& conditions, const std::vector<Bin>& 
     return points;
 }
 
-std::string captioned(const std::string& svg, std::string_view caption)
-{
-    return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, caption);
-}
-
 } // namespace
 
-std::string delay_figure(const RunDirection& run)
+std::optional<page::Figure> delay_figure(const RunDirection& run)
 {
     const Json lens = run.statistics.value("lens", Json::object());
     const auto measured = bins_of(lens.value("delay_ms", Json{}));
     const auto drawn = drawn_bins(run.fates);
-    if (measured.empty() && drawn.empty()) return "";
-    std::vector<Curve> curves;
+    if (measured.empty() && drawn.empty()) return std::nullopt;
+    std::vector<Curve> curves{
+        {.name = "as drawn", .colour = "left", .points = stairs_of(drawn), .width = 2.4},
+        {.name = "as it came out", .colour = "right", .points = stairs_of(measured), .width = 1.6}};
     if (run.conditions != nullptr) {
         auto law = law_of(*run.conditions, drawn.empty() ? measured : drawn);
         if (!law.empty()) {
-            curves.push_back({.name = "law",
-                              .colour = "var(--muted)",
-                              .points = std::move(law),
-                              .stroke = plot::Stroke::dashed});
+            curves.insert(
+                curves.begin(),
+                {.name = "law", .colour = "muted", .points = std::move(law), .is_dashed = true});
         }
     }
-    curves.push_back({.name = "as it came out",
-                      .colour = "var(--right)",
-                      .points = stairs_of(measured),
-                      .width = 1.6});
-    curves.push_back(
-        {.name = "as drawn", .colour = "var(--left)", .points = stairs_of(drawn), .width = 2.4});
-    return captioned(plot::svg_plot({fmt::format("Delay, {}", to_text(run.direction)), "delay (ms)",
-                                     "share per ms"},
-                                    curves, {.size = half_page, .y = {0.0, 0.0}}),
-                     "As drawn from the law, and as it came out after queues, order and the "
-                     "emulator's own lateness. The bins are 1.6 % wide.");
+    return page::Figure{.id = fmt::format("delay-{}", to_text(run.direction)),
+                        .title = fmt::format("Delay, {}", to_text(run.direction)),
+                        .x = {"delay", "ms"},
+                        .y = {"share per ms", "", page::Scale::linear, {0.0, 0.0}},
+                        .content = page::Curves{std::move(curves)},
+                        .size = half_page,
+                        .caption =
+                            "As drawn from the law, and as it came out after queues, order and the "
+                            "emulator's own lateness. The bins are 1.6 % wide."};
 }
 
-std::string lateness_figure(const RunDirection& run, double budget_us)
+std::optional<page::Figure> lateness_figure(const RunDirection& run, double budget_us)
 {
     const auto bins = bins_of(run.statistics.value("lateness_us", Json{}));
-    if (bins.empty()) return "";
+    if (bins.empty()) return std::nullopt;
     double all = 0.0;
     for (const Bin& bin : bins) all += bin.count;
     std::vector<Point> points;
@@ -145,24 +137,23 @@ std::string lateness_figure(const RunDirection& run, double budget_us)
         seen += bin.count;
         points.push_back({bin.high, seen / all});
     }
-    const std::array curves{Curve{.name = "share at most so late",
-                                  .colour = "var(--left)",
-                                  .points = std::move(points),
-                                  .width = 2.0},
-                            Curve{.name = "budget",
-                                  .colour = "var(--missed)",
-                                  .points = {{budget_us, 0.0}, {budget_us, 1.0}},
-                                  .stroke = plot::Stroke::dashed}};
-    return captioned(
-        plot::svg_plot({fmt::format("Lateness of the emulator, {}", to_text(run.direction)),
-                        "lateness (µs)", "share"},
-                       curves,
-                       {.scales = {.x = plot::Scale::logarithmic},
-                        .size = half_page,
-                        .levels = {{0.99, "99 %"}},
-                        .y = {0.0, 1.0}}),
-        "Time sent minus time due. The run is valid when the curve has reached 99 % at the "
-        "budget.");
+    std::vector<Curve> curves{{.name = "share at most so late",
+                               .colour = "left",
+                               .points = std::move(points),
+                               .width = 2.0},
+                              {.name = "budget",
+                               .colour = "missed",
+                               .points = {{budget_us, 0.0}, {budget_us, 1.0}},
+                               .is_dashed = true}};
+    return page::Figure{
+        .id = fmt::format("lateness-{}", to_text(run.direction)),
+        .title = fmt::format("Lateness of the emulator, {}", to_text(run.direction)),
+        .x = {"lateness", "µs", page::Scale::logarithmic},
+        .y = {"share", "", page::Scale::linear, {0.0, 1.0}},
+        .content = page::Curves{std::move(curves), {{0.99, "99 %"}}},
+        .size = half_page,
+        .caption = "Time sent minus time due. The run is valid when the curve has reached 99 % at "
+                   "the budget."};
 }
 
 } // namespace hapnet::emulator::tools

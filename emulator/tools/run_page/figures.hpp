@@ -4,16 +4,15 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/fate.hpp"
+#include "proto/page/figure.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
-#include <string>
 
 namespace hapnet::emulator::tools {
 
-// The plots of a run's page, each one SVG element with its caption; "" where there is nothing to
-// be shown.
+// The figures of a run's page; nullopt where there is nothing to be shown.
 
 /// A direction of a run.
 struct RunDirection {
@@ -25,18 +24,19 @@ struct RunDirection {
 };
 
 /// Delay as the law has it, as it was drawn and as it came out: densities.
-[[nodiscard]] std::string delay_figure(const RunDirection& run);
+[[nodiscard]] std::optional<page::Figure> delay_figure(const RunDirection& run);
 
 /// The distribution of the lateness, with the budget.
-[[nodiscard]] std::string lateness_figure(const RunDirection& run, double budget_us);
+[[nodiscard]] std::optional<page::Figure> lateness_figure(const RunDirection& run,
+                                                          double budget_us);
 
 /// Where in the stream datagrams were lost.
-[[nodiscard]] std::string loss_figure(const RunDirection& run);
+[[nodiscard]] std::optional<page::Figure> loss_figure(const RunDirection& run);
 
 /// How long the runs of losses were, beside a geometric distribution with the law's mean.
-[[nodiscard]] std::string loss_runs_figure(const RunDirection& run);
+[[nodiscard]] std::optional<page::Figure> loss_runs_figure(const RunDirection& run);
 
 /// When the conditions changed.
-[[nodiscard]] std::string changes_figure(const nlohmann::ordered_json& statistics);
+[[nodiscard]] std::optional<page::Figure> changes_figure(const nlohmann::ordered_json& statistics);
 
 } // namespace hapnet::emulator::tools

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/loss/loss.hpp"
 #include "emulator/tools/run_page/figures.hpp"
-#include "proto/plot/heat_map.hpp"
-#include "proto/plot/plot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -16,24 +13,11 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-using plot::Point;
+using page::Point;
 
-constexpr plot::Size half_page_of_runs{520.0, 280.0};
-constexpr plot::Size strip_size{900.0, 96.0};
+constexpr page::Size half_page_of_runs{520.0, 280.0};
+constexpr page::Size strip_size{900.0, 96.0};
 constexpr std::size_t cells_max = 120;
-
-/// From none to all lost.
-constexpr std::array<std::string_view, 6> shades{"rgba(196,13,30,.04)", "rgba(196,13,30,.2)",
-                                                 "rgba(196,13,30,.4)",  "rgba(196,13,30,.6)",
-                                                 "rgba(196,13,30,.8)",  "rgba(196,13,30,1)"};
-
-std::string_view shade_of(std::size_t lost, std::size_t all)
-{
-    if (lost == 0) return shades.front();
-    const double share = static_cast<double>(lost) / static_cast<double>(all);
-    constexpr auto steps = static_cast<double>(shades.size() - 1);
-    return shades.at(static_cast<std::size_t>(std::ceil(share * steps)));
-}
 
 /// How many runs of losses have each length; the first place is that of length 1.
 std::vector<std::uint64_t> run_lengths(std::span<const Fate> fates)
@@ -71,18 +55,21 @@ std::vector<Point> at_least(const std::vector<std::uint64_t>& counts)
     return points;
 }
 
-std::string with_caption(const std::string& svg, std::string_view caption)
+/// From nearly nothing for a field without losses to a full colour for one with nothing else.
+double opacity_of(std::size_t lost, std::size_t all)
 {
-    return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, caption);
+    constexpr double steps = 5.0;
+    if (lost == 0) return 0.04;
+    return std::ceil(steps * static_cast<double>(lost) / static_cast<double>(all)) / steps;
 }
 
 } // namespace
 
-std::string loss_figure(const RunDirection& run)
+std::optional<page::Figure> loss_figure(const RunDirection& run)
 {
-    if (run.fates.empty()) return "";
+    if (run.fates.empty()) return std::nullopt;
     const std::size_t length = (run.fates.size() + cells_max - 1) / cells_max;
-    plot::HeatMap strip;
+    page::HeatMap strip;
     strip.rows.emplace_back(to_text(run.direction));
     for (std::size_t begin = 0; begin < run.fates.size(); begin += length) {
         const auto part = run.fates.subspan(begin, std::min(length, run.fates.size() - begin));
@@ -90,25 +77,30 @@ std::string loss_figure(const RunDirection& run)
             part.begin(), part.end(), [](const Fate& fate) { return fate.is_lost(); }));
         const std::size_t column = strip.columns.size();
         strip.columns.push_back(column % 20 == 0 ? fmt::format("{}", begin) : "");
-        strip.cells.push_back({column, 0, shade_of(lost, part.size()), "",
-                               fmt::format("datagrams {} to {}: {} of {} lost", begin,
-                                           begin + part.size() - 1, lost, part.size())});
+        strip.cells.push_back({.column = column,
+                               .colour = "missed",
+                               .opacity = opacity_of(lost, part.size()),
+                               .tip = fmt::format("datagrams {} to {}: {} of {} lost", begin,
+                                                  begin + part.size() - 1, lost, part.size())});
     }
-    return with_caption(
-        plot::svg_heat_map(
-            {fmt::format("Losses, {}", to_text(run.direction)), "number of the datagram", ""},
-            strip, strip_size),
-        fmt::format("Each field stands for {} datagrams; the darker, the more of them the laws "
-                    "dropped. Rest the pointer on a field for its numbers.",
-                    length));
+    return page::Figure{
+        .id = fmt::format("losses-{}", to_text(run.direction)),
+        .title = fmt::format("Losses, {}", to_text(run.direction)),
+        .x = {"number of the datagram"},
+        .y = {""},
+        .content = std::move(strip),
+        .size = strip_size,
+        .caption = fmt::format("Each field stands for {} datagrams; the darker, the more of them "
+                               "the laws dropped. Rest the pointer on a field for its numbers.",
+                               length)};
 }
 
-std::string loss_runs_figure(const RunDirection& run)
+std::optional<page::Figure> loss_runs_figure(const RunDirection& run)
 {
     const auto counts = run_lengths(run.fates);
-    if (counts.empty()) return "";
-    std::vector<plot::Curve> curves{{.name = "this run",
-                                     .colour = "var(--missed)",
+    if (counts.empty()) return std::nullopt;
+    std::vector<page::Curve> curves{{.name = "this run",
+                                     .colour = "missed",
                                      .points = at_least(counts),
                                      .width = 1.6,
                                      .shows_points = true}};
@@ -126,24 +118,25 @@ std::string loss_runs_figure(const RunDirection& run)
                     {static_cast<double>(k), std::pow(stays, static_cast<double>(k - 1))});
             }
             curves.push_back({.name = "geometric, the law's mean",
-                              .colour = "var(--muted)",
+                              .colour = "muted",
                               .points = std::move(points),
-                              .stroke = plot::Stroke::dashed});
+                              .is_dashed = true});
         }
     }
-    return with_caption(
-        plot::svg_plot({fmt::format("Runs of losses, {}", to_text(run.direction)),
-                        "length (datagrams)", "share at least so long"},
-                       curves,
-                       {.scales = {.y = plot::Scale::logarithmic}, .size = half_page_of_runs}),
-        "The runs of independent losses, and of Gilbert's model, are geometric; those of other "
-        "laws need not be.");
+    return page::Figure{.id = fmt::format("loss-runs-{}", to_text(run.direction)),
+                        .title = fmt::format("Runs of losses, {}", to_text(run.direction)),
+                        .x = {"length", "datagrams"},
+                        .y = {"share at least so long", "", page::Scale::logarithmic},
+                        .content = page::Curves{std::move(curves)},
+                        .size = half_page_of_runs,
+                        .caption = "The runs of independent losses, and of Gilbert's model, are "
+                                   "geometric; those of other laws need not be."};
 }
 
-std::string changes_figure(const nlohmann::ordered_json& statistics)
+std::optional<page::Figure> changes_figure(const nlohmann::ordered_json& statistics)
 {
     const auto changes = statistics.value("changes", nlohmann::ordered_json::array());
-    if (changes.empty()) return "";
+    if (changes.empty()) return std::nullopt;
     std::vector<Point> points{{0.0, 1.0}};
     for (const auto& change : changes) {
         const double at = change.value("elapsed_s", 0.0);
@@ -151,12 +144,16 @@ std::string changes_figure(const nlohmann::ordered_json& statistics)
         points.push_back({at, change.value("generation", 1.0)});
     }
     points.push_back({statistics.value("duration_s", points.back().x), points.back().y});
-    const std::array curves{plot::Curve{
-        .name = "", .colour = "var(--accent)", .points = std::move(points), .width = 2.0}};
-    return with_caption(plot::svg_plot({"Changes of the conditions", "time (s)", "generation"},
-                                       curves, {.size = {900.0, 180.0}}),
-                        "Each step is a change; the table below says which. A ramp changes the "
-                        "conditions every millisecond.");
+    std::vector<page::Curve> curves{
+        {.name = "generation", .colour = "accent", .points = std::move(points), .width = 2.0}};
+    return page::Figure{.id = "changes",
+                        .title = "Changes of the conditions",
+                        .x = {"time", "s"},
+                        .y = {"generation"},
+                        .content = page::Curves{std::move(curves)},
+                        .size = {900.0, 180.0},
+                        .caption = "Each step is a change; the table below says which. A ramp "
+                                   "changes the conditions every millisecond."};
 }
 
 } // namespace hapnet::emulator::tools

@@ -5,8 +5,7 @@
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/tools/run_page/figures.hpp"
-#include "proto/plot/axis.hpp"
-#include "proto/plot/page.hpp"
+#include "proto/page/page.hpp"
 
 #include <array>
 #include <spdlog/fmt/fmt.h>
@@ -17,7 +16,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-using plot::escaped;
+using page::Json;
 using Rows = std::vector<std::vector<std::string>>; // texts
 
 /// A value of the statistics as text; "–" where there is none.
@@ -31,43 +30,25 @@ std::string shown(const nlohmann::ordered_json& statistics, const char* pointer)
     return value.dump();
 }
 
-std::string table(const std::vector<std::string_view>& heads, const Rows& rows)
+Json table(std::string caption, const std::vector<std::string>& heads, const Rows& rows)
 {
-    std::string out = "<div class=\"scroll\"><table>\n<thead><tr>";
-    for (const auto head : heads) out += fmt::format("<th scope=\"col\">{}</th>", escaped(head));
-    out += "</tr></thead>\n<tbody>\n";
+    page::Table table{std::move(caption), {heads.begin(), heads.end()}};
     for (const auto& row : rows) {
-        out += "<tr>";
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", escaped(row[i]))
-                          : fmt::format("<td class=\"words\">{}</td>", escaped(row[i]));
-        }
-        out += "</tr>\n";
+        auto& cells = table.rows.emplace_back();
+        for (const auto& words : row) cells.push_back({words, cells.empty() ? "" : "words"});
     }
-    return out + "</tbody>\n</table></div>\n";
-}
-
-std::string section(std::string_view title, const std::string& html)
-{
-    return html.empty() ? "" : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, html);
-}
-
-std::string list_of(const std::vector<std::string>& lines)
-{
-    std::string out = "<ul>\n";
-    for (const auto& line : lines) out += fmt::format("<li>{}</li>\n", escaped(line));
-    return out + "</ul>\n";
+    return json_of(table);
 }
 
 /// Whether the run kept its budget, met its checks and followed its laws.
-std::string banner(const RunRecord& run)
+Json banner(const RunRecord& run)
 {
     const auto& statistics = run.statistics;
     const bool is_valid = statistics.value("valid", false);
-    std::vector<std::string> against;
+    std::vector<Json> against;
     for (const auto& reason :
          statistics.value("invalid_because", nlohmann::ordered_json::array())) {
-        if (reason.is_string()) against.push_back(reason.get<std::string>());
+        if (reason.is_string()) against.push_back(reason);
     }
     for (const auto& check : statistics.value("checks", nlohmann::ordered_json::array())) {
         if (check.value("met", true)) continue;
@@ -78,12 +59,11 @@ std::string banner(const RunRecord& run)
     if (has_failed) against.emplace_back("the fates do not follow the profile: see the tests");
     std::string text = is_valid ? "Valid: the emulator kept its own timing budget." : "Not valid.";
     if (run.verification && !has_failed) text += " No test speaks against its laws.";
-    return fmt::format("<div class=\"banner {}\">\n<p><b>{}</b></p>\n{}</div>\n",
-                       against.empty() && is_valid ? "met" : "missed", text,
-                       against.empty() ? "" : list_of(against));
+    const bool is_met = against.empty() && is_valid;
+    return page::banner(is_met ? "met" : "missed", page::bold(text), std::move(against));
 }
 
-std::string figures_table(const nlohmann::ordered_json& statistics)
+Json figures_table(const nlohmann::ordered_json& statistics)
 {
     struct Row {
         const char* name;
@@ -120,10 +100,11 @@ std::string figures_table(const nlohmann::ordered_json& statistics)
         if (is_nothing(up) && is_nothing(down)) continue;
         out.push_back({fmt::format("dropped: {}", to_text(cause)), up, down});
     }
-    return table({"", "up (A to B)", "down (B to A)"}, out);
+    return table("Counters and times of both directions", {"", "up (A to B)", "down (B to A)"},
+                 out);
 }
 
-std::string changes_table(const nlohmann::ordered_json& statistics)
+Json changes_table(const nlohmann::ordered_json& statistics)
 {
     Rows rows;
     for (const auto& change : statistics.value("changes", nlohmann::ordered_json::array())) {
@@ -137,16 +118,18 @@ std::string changes_table(const nlohmann::ordered_json& statistics)
                         shown(change, "/by"), shown(change, "/effective_at/up"),
                         shown(change, "/effective_at/down"), settings});
     }
-    if (rows.empty()) return "";
+    if (rows.empty()) return nullptr;
     return table(
+        "Changes of the conditions",
         {"generation", "at (s)", "by", "first datagram up", "first datagram down", "settings"},
         rows);
 }
 
-std::string tests_of(const RunRecord& run)
+void add_tests(page::Section& section, const RunRecord& run)
 {
     if (!run.verification) {
-        return fmt::format("<p>Not tested: {}</p>\n", escaped(run.why_unverified));
+        section.add(page::paragraph(fmt::format("Not tested: {}", run.why_unverified)));
+        return;
     }
     Rows rows;
     const auto add = [&](std::string_view where, const std::vector<TestResult>& results) {
@@ -159,41 +142,67 @@ std::string tests_of(const RunRecord& run)
     add("up", run.verification->up);
     add("down", run.verification->down);
     add("between", run.verification->between);
-    return "<p>A test fails when a run that follows its profile would look like this one time in a "
-           "million. One that is unable has too little to go by.</p>\n" +
-           table({"test", "outcome", "p", "expected and observed"}, rows);
+    section.add(page::paragraph("A test fails when a run that follows its profile would look like "
+                                "this one time in a million. One that is unable has too little to "
+                                "go by."));
+    section.add(
+        table("Tests of the fates", {"test", "outcome", "p", "expected and observed"}, rows));
 }
 
-std::string figures_of(const RunRecord& run)
+/// Figures beside each other in panels, and over the whole width.
+struct Placed {
+    Json panels = Json::array();
+    Json strips = Json::array();
+};
+
+void add_direction(page::Section& section, Placed& placed, const RunRecord& run,
+                   Direction direction)
 {
     const auto& statistics = run.statistics;
     const bool has_changed =
         !run.profile.timeline.empty() || statistics.value("generation", 1) != 1;
     const Path path = profile_of(run.profile, run.link).path;
-    std::string panels;
-    std::string strips;
-    for (const Direction direction : {Direction::up, Direction::down}) {
-        const bool is_up = direction == Direction::up;
-        const auto of = statistics.value(is_up ? "up" : "down", nlohmann::ordered_json::object());
-        std::span<const Fate> fates;
-        if (run.fates) fates = is_up ? run.fates->up : run.fates->down;
-        const double received = of.value("received", 0.0);
-        const double length_s = statistics.value("duration_s", 0.0);
-        const RunDirection one{.direction = direction,
-                               .statistics = of,
-                               .conditions = has_changed ? nullptr
-                                             : is_up     ? &path.up
-                                                         : &path.down,
-                               .fates = fates,
-                               .spacing_s = received > 0.0 ? length_s / received : 0.0};
-        panels += delay_figure(one) + lateness_figure(one, statistics.value("budget_us", 1000.0)) +
-                  loss_runs_figure(one);
-        strips += loss_figure(one);
+    const bool is_up = direction == Direction::up;
+    const auto of = statistics.value(is_up ? "up" : "down", Json::object());
+    std::span<const Fate> fates;
+    if (run.fates) fates = is_up ? run.fates->up : run.fates->down;
+    const double received = of.value("received", 0.0);
+    const double length_s = statistics.value("duration_s", 0.0);
+    const RunDirection one{.direction = direction,
+                           .statistics = of,
+                           .conditions = has_changed ? nullptr
+                                         : is_up     ? &path.up
+                                                     : &path.down,
+                           .fates = fates,
+                           .spacing_s = received > 0.0 ? length_s / received : 0.0};
+    const double budget_us = statistics.value("budget_us", 1000.0);
+    for (auto figure : {delay_figure(one), lateness_figure(one, budget_us), loss_runs_figure(one)})
+        if (figure) placed.panels.push_back(section.keep(*std::move(figure)));
+    if (auto strip = loss_figure(one)) placed.strips.push_back(section.keep(*std::move(strip)));
+}
+
+page::Section figures_of(const RunRecord& run)
+{
+    page::Section section{"figures", "What came out"};
+    section.add(figures_table(run.statistics));
+    Placed placed;
+    for (const Direction direction : {Direction::up, Direction::down})
+        add_direction(section, placed, run, direction);
+    if (placed.panels.empty() && placed.strips.empty()) {
+        section.add(page::paragraph("There are no distributions in these statistics: run with "
+                                    "--fates, too."));
     }
-    if (panels.empty() && strips.empty()) {
-        return "<p>There are no distributions in these statistics: run with --fates, too.</p>\n";
-    }
-    return strips + fmt::format("<div class=\"panels\">\n{}</div>\n", panels);
+    for (Json& strip : placed.strips) section.add(std::move(strip));
+    if (!placed.panels.empty()) section.add(page::panels("", std::move(placed.panels)));
+    return section;
+}
+
+page::Section changes_of(const nlohmann::ordered_json& statistics)
+{
+    page::Section section{"changes", "What changed"};
+    if (auto figure = changes_figure(statistics)) section.add(*std::move(figure));
+    if (Json table = changes_table(statistics); !table.is_null()) section.add(std::move(table));
+    return section;
 }
 
 } // namespace
@@ -202,23 +211,23 @@ std::string run_page(const RunRecord& run)
 {
     const auto& statistics = run.statistics;
     const std::string profile = run.profile.name.empty() ? "An emulated path" : run.profile.name;
-    const std::string name = run.link.empty() ? profile : fmt::format("{}, {}", profile, run.link);
-    std::string page = plot::page_head(name, "emulator-run");
-    page += fmt::format("<h1>{}</h1>\n<p class=\"lead\">A run of hapnet-emulator: {} s, seed {}, "
-                        "timing {}.</p>\n",
-                        escaped(name), escaped(shown(statistics, "/duration_s")),
-                        escaped(shown(statistics, "/seed")), escaped(shown(statistics, "/timing")));
-    page += banner(run);
-    page += section("What came out", figures_table(statistics) + figures_of(run));
-    page += section("What changed", changes_figure(statistics) + changes_table(statistics));
-    page += section("Did it follow its laws?", tests_of(run));
-    page += section(
-        "How to repeat it",
-        fmt::format("<p>{} {} (commit {}). The profile of the start, with its seed:</p>\n"
-                    "<pre>{}</pre>\n",
-                    escaped(shown(statistics, "/program")), escaped(shown(statistics, "/version")),
-                    escaped(shown(statistics, "/commit")), escaped(to_text(run.profile))));
-    return page + plot::page_foot();
+    page::Page page{"emulator-run",
+                    run.link.empty() ? profile : fmt::format("{}, {}", profile, run.link),
+                    fmt::format("A run of hapnet-emulator: {} s, seed {}, timing {}.",
+                                shown(statistics, "/duration_s"), shown(statistics, "/seed"),
+                                shown(statistics, "/timing"))};
+    page.head.push_back(banner(run));
+    page.sections.push_back(figures_of(run));
+    if (auto changes = changes_of(statistics); !changes.blocks.empty())
+        page.sections.push_back(std::move(changes));
+    add_tests(page.sections.emplace_back(page::Section{"tests", "Did it follow its laws?"}), run);
+    auto& again = page.sections.emplace_back(page::Section{"repeat", "How to repeat it"});
+    again.add(
+        page::paragraph(fmt::format("{} {} (commit {}). The profile of the start, with its seed:",
+                                    shown(statistics, "/program"), shown(statistics, "/version"),
+                                    shown(statistics, "/commit"))));
+    again.add(page::preformatted(to_text(run.profile)));
+    return html_of(page);
 }
 
 } // namespace hapnet::emulator::tools

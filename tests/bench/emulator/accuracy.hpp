@@ -12,7 +12,7 @@
 
 namespace hapnet::bench {
 
-/// The errors of all datagrams of one subject in the case that is plotted. Sorted.
+/// The errors of all datagrams of one subject in the case that --csv is about. Sorted.
 struct Distribution {
     std::string_view subject;
     std::vector<base::Duration> errors;

@@ -4,7 +4,6 @@
 #include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
-#include "proto/plot/plot.hpp"
 #include "tests/bench/common/host.hpp"
 #include "tests/bench/common/rows.hpp"
 #include "tests/bench/emulator/accuracy.hpp"
@@ -28,10 +27,11 @@ namespace {
 
 constexpr std::string_view program = "bench_emulator";
 constexpr std::string_view usage =
-    "usage: bench_emulator [--quick] [--json FILE] [--plot FILE.svg]\n"
+    "usage: bench_emulator [--quick] [--json FILE] [--csv FILE]\n"
     "       bench_emulator --busy [--quick] [--json FILE]\n"
     "       bench_emulator --relay poll|timerfd --a HOST:PORT --b HOST:PORT --delay 10ms\n"
     "Compares hapnet-emulator (beside this program) with two baseline relays, and writes a table.\n"
+    "--csv: what share of the datagrams was at most so late, for each.\n"
     "--busy: with the timerfd relay, while a process on each processor never sleeps.\n"
     "With --relay it is one of the baselines.\n";
 
@@ -39,7 +39,7 @@ struct Options {
     Plan plan;
     bool beside_busy = false;
     std::optional<std::string> json;
-    std::optional<std::string> plot;
+    std::optional<std::string> csv;
     std::optional<BaselineOptions> baseline;
 };
 
@@ -80,7 +80,7 @@ net::CommandLine<Options> parse(std::span<char*> words)
             options.beside_busy = true;
             continue;
         }
-        constexpr std::array known{"--json", "--plot", "--relay", "--a", "--b", "--delay"};
+        constexpr std::array known{"--json", "--csv", "--relay", "--a", "--b", "--delay"};
         if (std::find(known.begin(), known.end(), word) == known.end() || i + 1 == words.size()) {
             return base::fail(fmt::format("'{}' is not understood\n{}", word, usage));
         }
@@ -92,8 +92,8 @@ net::CommandLine<Options> parse(std::span<char*> words)
         options.baseline = *baseline;
     }
     if (given.contains("--json")) options.json = given["--json"];
-    if (given.contains("--plot")) options.plot = given["--plot"];
-    if (options.beside_busy && (options.plot || options.baseline)) {
+    if (given.contains("--csv")) options.csv = given["--csv"];
+    if (options.beside_busy && (options.csv || options.baseline)) {
         return base::fail(fmt::format("--busy goes with --quick and --json alone\n{}", usage));
     }
     const auto self = std::filesystem::read_symlink("/proc/self/exe");
@@ -103,40 +103,35 @@ net::CommandLine<Options> parse(std::span<char*> words)
 }
 
 /// The shares of the datagrams that were at most so late.
-std::string plot_of(const Accuracy& accuracy)
+std::string csv_of(const Accuracy& accuracy)
 {
-    constexpr std::array colours{"#7fbf7b", "#1b7837", "#00441b", "#b2182b", "#2166ac"};
     constexpr int steps = 400;
     constexpr double error_us_max = 200.0;
-    std::vector<plot::Curve> curves;
+    std::string csv = "subject,later_us,share_percent\n";
     for (const Distribution& one : accuracy.distributions) {
-        plot::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
         for (int i = 0; i <= steps; ++i) {
             const double limit_us = error_us_max * i / steps;
             const auto below = std::upper_bound(one.errors.begin(), one.errors.end(),
                                                 base::from_seconds(limit_us * 1e-6));
-            curve.points.push_back(
-                {limit_us, 100.0 * static_cast<double>(below - one.errors.begin()) /
-                               static_cast<double>(one.errors.size())});
+            csv += fmt::format("{},{},{:.4g}\n", one.subject, limit_us,
+                               100.0 * static_cast<double>(below - one.errors.begin()) /
+                                   static_cast<double>(one.errors.size()));
         }
-        curves.push_back(std::move(curve));
     }
-    return plot::svg_plot({"Error against a configured delay of 10 ms, 1000 datagrams per second",
-                           "later than configured by at most (us)", "share of datagrams (%)"},
-                          curves);
+    return csv;
 }
 
-/// The rows of a bench, and a plot where one was asked for.
+/// The rows of a bench, and the distributions where it has some.
 struct Measured {
     std::vector<Row> rows;
-    std::string plot;
+    std::string csv;
 };
 
 Measured measure(const Options& options, bool fifo)
 {
     if (options.beside_busy) return {measure_beside_busy(options.plan, fifo), ""};
     Accuracy accuracy = measure_accuracy(options.plan, fifo);
-    Measured measured{std::move(accuracy.rows), plot_of(accuracy)};
+    Measured measured{std::move(accuracy.rows), csv_of(accuracy)};
     append(measured.rows, measure_capacity(options.plan, fifo));
     append(measured.rows, measure_scale(options.plan, fifo));
     append(measured.rows, measure_between(options.plan));
@@ -160,9 +155,9 @@ base::Result<int> run(const Options& options)
 {
     if (options.baseline) run_baseline(*options.baseline);
     std::optional<disk::ResultFile> json;
-    std::optional<disk::ResultFile> plot;
+    std::optional<disk::ResultFile> csv;
     if (options.json) json.emplace(*options.json, "--json");
-    if (options.plot) plot.emplace(*options.plot, "--plot");
+    if (options.csv) csv.emplace(*options.csv, "--csv");
     pin_prober();
     const Host machine = host();
     if (!machine.fifo) {
@@ -176,7 +171,7 @@ base::Result<int> run(const Options& options)
     measured.rows.push_back(duration_row(options, net::monotonic_now() - begin));
     fmt::print("{}", rows_table(measured.rows));
     if (json) json->commit(rows_json(machine, measured.rows));
-    if (plot) plot->commit(measured.plot);
+    if (csv) csv->commit(measured.csv);
     return 0;
 }
 

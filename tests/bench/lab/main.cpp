@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::string_view program = "bench_lab";
 constexpr std::string_view usage =
-    "usage: bench_lab [--quick] [--json FILE] [--plot FILE.svg] [--csv FILE]\n"
+    "usage: bench_lab [--quick] [--json FILE] [--csv FILE]\n"
     "Plays sessions in virtual time on one processor: how many times faster than life, by task "
     "and\n"
     "algorithm; and what the figures of Table 1 are off by, against run time, for ticks of 4 to\n"
-    "0.25 ms, for hands in 1 to 100 steps, and for 1 to 20 seeds. --json: the rows; --csv and\n"
-    "--plot: error against run time. --quick ends within a minute.\n";
+    "0.25 ms, for hands in 1 to 100 steps, and for 1 to 20 seeds. --json: the rows; --csv:\n"
+    "error against run time. --quick ends within a minute.\n";
 
 base::Result<int> measure(const Options& options)
 {
@@ -31,7 +31,6 @@ base::Result<int> measure(const Options& options)
     fmt::print("{}", rows_table(rows));
     files.write("--json", rows_json(machine, rows));
     files.write("--csv", work_csv(points));
-    files.write("--plot", work_svg(points));
     return 0;
 }
 
@@ -42,6 +41,6 @@ base::Result<int> measure(const Options& options)
 int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
-    return bench::main_of({bench::program, bench::usage, {"--json", "--csv", "--plot"}},
+    return bench::main_of({bench::program, bench::usage, {"--json", "--csv"}},
                           {argv, static_cast<std::size_t>(argc)}, bench::measure);
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/lab/run_time_error.hpp"
 
-#include "proto/plot/plot.hpp"
 #include "tests/bench/lab/sessions.hpp"
 
 #include <algorithm>
@@ -137,20 +136,6 @@ void add_seeds_of_t3(std::vector<WorkPoint>& points, bool quick)
     }
 }
 
-/// Those of one curve: they differ in what is varied alone.
-bool is_of_curve(const WorkPoint& point, const WorkPoint& first)
-{
-    return point.varied == first.varied && point.task == first.task &&
-           point.algorithm == first.algorithm && point.figure == first.figure;
-}
-
-std::string_view colour_of(const WorkPoint& point)
-{
-    if (point.varied == "seeds") return "#555555";
-    if (point.algorithm == "base") return point.varied == "tick" ? "#2166ac" : "#92c5de";
-    return point.varied == "tick" ? "#b2182b" : "#f4a582";
-}
-
 } // namespace
 
 std::vector<WorkPoint> measure_run_time_error(bool quick)
@@ -175,36 +160,6 @@ std::string work_csv(const std::vector<WorkPoint>& points)
                            point.wall_s, point.error_mm, point.reference_mm);
     }
     return csv;
-}
-
-std::string work_svg(const std::vector<WorkPoint>& points)
-{
-    std::vector<std::string> names;
-    std::vector<plot::Curve> curves;
-    names.reserve(points.size()); // the curves look at them
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const WorkPoint& first = points[i];
-        if (first.algorithm == "sep") continue; // in P1 it is the base algorithm
-        const auto is_drawn = [&](const WorkPoint& point) { return is_of_curve(point, first); };
-        const auto end = points.begin() + static_cast<std::ptrdiff_t>(i);
-        if (std::any_of(points.begin(), end, is_drawn)) continue; // by a curve that is there
-        names.push_back(fmt::format("{} {} {}, by {}", first.task, first.algorithm, first.figure,
-                                    first.varied));
-        plot::Curve curve{.name = names.back(), .colour = colour_of(first), .points = {}};
-        curve.stroke = first.figure == "mean"  ? plot::Stroke::solid
-                       : first.figure == "std" ? plot::Stroke::dashed
-                                               : plot::Stroke::dotted;
-        curve.shows_points = true;
-        for (const WorkPoint& point : points) {
-            if (is_drawn(point)) curve.points.push_back({point.wall_s, point.error_percent()});
-        }
-        curves.push_back(std::move(curve));
-    }
-    return plot::svg_plot({"Error of the figures of Table 1 against run time",
-                           "wall time of a 30 s session (s)", "error (% of the figure)"},
-                          curves,
-                          {.scales = {plot::Scale::logarithmic, plot::Scale::logarithmic},
-                           .size = {.width = 1000, .height = 620}});
 }
 
 std::vector<Row> work_rows(const std::vector<WorkPoint>& points)

@@ -32,8 +32,6 @@ struct WorkPoint {
 [[nodiscard]] std::vector<WorkPoint> measure_run_time_error(bool quick);
 
 [[nodiscard]] std::string work_csv(const std::vector<WorkPoint>& points);
-/// Errors over wall time, both logarithmic.
-[[nodiscard]] std::string work_svg(const std::vector<WorkPoint>& points);
 /// What a run as everybody makes it is off by: a tick of 1 ms and exact hands; ten seeds of T3.
 [[nodiscard]] std::vector<Row> work_rows(const std::vector<WorkPoint>& points);
 

@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::string_view program = "bench_scene";
 constexpr std::string_view usage =
-    "usage: bench_scene [--quick] [--json FILE] [--markdown FILE] [--csv FILE] [--plot FILE.svg]\n"
+    "usage: bench_scene [--quick] [--json FILE] [--markdown FILE] [--csv FILE]\n"
     "       bench_scene --spin SUBJECT locked|free STEPS\n"
     "Compares Hapnet's scene with Bullet, ODE and MuJoCo: errors against what is known, cost per\n"
-    "step, and how far each can be driven. --json: the rows; --markdown: the rows as tables; --csv "
-    "and\n"
-    "--plot: the work-precision diagram. --quick ends within a minute, and counts no "
+    "step, and how far each can be driven. --json: the rows; --markdown: the rows as tables; "
+    "--csv:\n"
+    "the points of the work-precision diagram. --quick ends within a minute, and counts no\n"
     "instructions.\n"
     "--spin only runs the paper's scene: it is what Valgrind counts the instructions of.\n";
 
@@ -46,8 +46,7 @@ base::Result<int> measure(const Options& options)
     if (const auto missing = missing_peers(); !missing.empty()) net::say(program, missing);
     const std::vector<Subject> all = subjects();
 
-    const bool wants_points =
-        files.wants("--csv") || files.wants("--plot") || files.wants("--markdown");
+    const bool wants_points = files.wants("--csv") || files.wants("--markdown");
     Stages stages{program, 5 + (options.quick ? 0 : 1) + (wants_points ? 1 : 0)};
     stages.begin("costs");
     std::vector<Row> rows = measure_costs(all, options.quick);
@@ -82,7 +81,6 @@ base::Result<int> measure(const Options& options)
                 markdown(rows) + "Error at 1 ms, and its order in the tick from 4 to 0.25 ms:\n\n" +
                     precision_markdown(points) + "\nMissed:\n\n" + misses(rows));
     files.write("--csv", precision_csv(points));
-    files.write("--plot", precision_svg(points));
     if (const auto said = complaints_of_peers(); !said.empty()) net::say(program, said);
     return 0;
 }
@@ -99,7 +97,6 @@ int main(int argc, char** argv)
         const bool is_locked = std::string_view{argv[3]} == "locked";
         return bench::spin(argv[2], is_locked, std::atoi(argv[4])) ? 0 : hapnet::net::exit_usage;
     }
-    return bench::main_of(
-        {bench::program, bench::usage, {"--json", "--markdown", "--csv", "--plot"}}, words,
-        bench::measure);
+    return bench::main_of({bench::program, bench::usage, {"--json", "--markdown", "--csv"}}, words,
+                          bench::measure);
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/scene/precision.hpp"
 
-#include "proto/plot/plot.hpp"
 #include "tests/bench/scene/compare.hpp"
 
 #include <algorithm>
@@ -16,10 +15,6 @@ namespace hapnet::bench {
 
 namespace {
 
-constexpr double drawn_error_min = 1e-17; // what is exact is drawn here: a logarithm has no zero
-constexpr int panel_height = 280;         // of lab::plot::svg_plot
-constexpr int panel_width = 900;
-
 std::vector<Scenario> chosen()
 {
     using scene::Turning;
@@ -32,32 +27,6 @@ std::vector<Scenario> chosen()
                               off_centre_push()};
     for (Scenario& one : element_scenarios()) all.push_back(std::move(one));
     return all;
-}
-
-const char* colour_of(std::string_view subject)
-{
-    if (subject == "hapnet") return "#1b7837";
-    if (subject == "bullet") return "#b2182b";
-    if (subject == "bullet-double") return "#ef8a62";
-    if (subject == "mujoco") return "#762a83";
-    if (subject == "mujoco rk4") return "#c2a5cf";
-    return subject == "ode-quick" ? "#67a9cf" : "#2166ac";
-}
-
-/// One panel: the points of one scenario, which lie next to each other.
-std::string panel_of(std::span<const WorkPoint> points)
-{
-    std::vector<plot::Curve> curves;
-    for (const WorkPoint& point : points) {
-        if (curves.empty() || curves.back().name != point.subject) {
-            curves.push_back({point.subject, colour_of(point.subject), {}});
-        }
-        curves.back().points.push_back(
-            {point.ns_per_simulated_ms, std::max(point.error, drawn_error_min)});
-    }
-    const std::string title = points.front().scenario + ", tick 4 to 0.25 ms";
-    return plot::svg_plot({title, "cost, ns per simulated ms", points.front().metric}, curves,
-                          {.scales = {plot::Scale::logarithmic, plot::Scale::logarithmic}});
 }
 
 /// The power of the tick with which the errors grow, between the longest and the shortest.
@@ -137,27 +106,6 @@ std::string precision_markdown(std::span<const WorkPoint> points)
         text += "\n";
     }
     return text;
-}
-
-std::string precision_svg(std::span<const WorkPoint> points)
-{
-    std::string panels;
-    int count = 0;
-    for (auto begin = points.begin(); begin != points.end();) {
-        const auto end = std::find_if(begin, points.end(), [&](const WorkPoint& one) {
-            return one.scenario != begin->scenario;
-        });
-        std::string panel = panel_of({begin, end});
-        panel.insert(panel.find(' '),
-                     fmt::format(" y='{}' width='{}' height='{}'", panel_height * count++,
-                                 panel_width, panel_height));
-        panels += panel;
-        begin = end;
-    }
-    return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {} {}' "
-                       "font-family='sans-serif' font-size='12'>\n"
-                       "<rect width='100%' height='100%' fill='white'/>\n{}</svg>\n",
-                       panel_width, panel_height * std::max(count, 1), panels);
 }
 
 } // namespace hapnet::bench

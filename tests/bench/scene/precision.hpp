@@ -29,7 +29,4 @@ struct WorkPoint {
 /// from 4 to 0.25 ms.
 [[nodiscard]] std::string precision_markdown(std::span<const WorkPoint> points);
 
-/// One SVG picture, a log-log panel for each scenario: down is more accurate, left is cheaper.
-[[nodiscard]] std::string precision_svg(std::span<const WorkPoint> points);
-
 } // namespace hapnet::bench

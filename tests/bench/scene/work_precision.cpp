@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view program = "work_precision";
 constexpr std::string_view usage =
-    "usage: work_precision [--quick] [--csv FILE] [--plot FILE.svg]\n"
+    "usage: work_precision [--quick] [--csv FILE]\n"
     "Error against cost for ticks of 4 to 0.25 ms, of Hapnet's scene, Bullet, ODE and MuJoCo.\n"
     "Without --csv the table goes to stdout.\n";
 
@@ -23,7 +23,6 @@ base::Result<int> measure(const Options& options)
     const auto points = measure_precision(subjects(), options.quick);
     if (!files.wants("--csv")) fmt::print("{}", precision_csv(points));
     files.write("--csv", precision_csv(points));
-    files.write("--plot", precision_svg(points));
     return 0;
 }
 
@@ -35,6 +34,5 @@ int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
     const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
-    return bench::main_of({bench::program, bench::usage, {"--csv", "--plot"}}, words,
-                          bench::measure);
+    return bench::main_of({bench::program, bench::usage, {"--csv"}}, words, bench::measure);
 }

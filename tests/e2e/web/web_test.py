@@ -16,7 +16,7 @@ import unittest
 from served import PROGRAM, Live, Server, children_of
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
-PAGE_BYTES_MAX = 260_000  # packed: the page, its scripts, styles and modules
+PAGE_BYTES_MAX = 240_000  # packed: the page, its scripts, styles and modules
 
 
 class Web(unittest.TestCase):

@@ -3,7 +3,7 @@
 // A double of hapnet-web that speaks docs/formats/live.md: for tests of the page alone, where no
 // program is built. It simulates no physics and no network: see peers.mjs and network.mjs.
 import { createServer } from "node:http";
-import { readFileSync } from "node:fs";
+import { readFileSync, readdirSync } from "node:fs";
 import { basename, dirname, extname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { Double } from "./double.mjs";
@@ -12,17 +12,11 @@ import { accept } from "./websocket.mjs";
 const root = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 const page = join(root, "web/page");
 const modules = {
-  "three.module.min.js": "three/build/three.module.min.js",
-  "three.core.min.js": "three/build/three.core.min.js",
-  "uPlot.module.min.js": "uplot/dist/uPlot.iife.min.js",
-  "uPlot.min.css": "uplot/dist/uPlot.min.css",
-  "three-LICENSE.txt": "three/LICENSE",
-  "uplot-LICENSE.txt": "uplot/LICENSE",
+  "three.module.min.js": "/usr/share/javascript/three/three.min.js",
+  "three-LICENSE.txt": "/usr/share/doc/libjs-three/copyright",
 };
-const sheets = [
-  "proto/plot/palette.css",
-  ...["shared", "app", "parts", "figures"].map((name) => `web/page/${name}.css`),
-];
+const sheets = ["palette", "shared", "app", "parts", "figures"]
+  .map((name) => `web/page/${name}.css`);
 const types = {
   ".js": "text/javascript",
   ".css": "text/css",
@@ -47,18 +41,27 @@ const answer = (response, status, type, body) => {
   response.end(body);
 };
 
-/** The contents of a file of the page; uPlot's classic script gets its export as in the build. */
+/** What makes Debian's three.js a module, as in the build. */
+const endOfModule = () => {
+  const painters = readdirSync(join(page, "paint"))
+    .map((name) => readFileSync(join(page, "paint", name), "utf8")).join("");
+  const names = new Set([...painters.matchAll(/three\.([A-Z]\w+)/g)].map(([, name]) => name));
+  return readFileSync(join(root, "cmake/debian_three.js.in"), "utf8")
+    .replace("@names@", ["REVISION", ...names].join(", "));
+};
+
+/** The contents of a file of the page. */
 const contentsOf = (name) => {
   if (name === "page.css") return sheets.map((sheet) => readFileSync(join(root, sheet))).join("");
   if (!modules[name]) return readFileSync(join(page, name));
-  const bytes = readFileSync(join(page, "node_modules", modules[name]));
-  return name.startsWith("uPlot.module") ? `${bytes}export default uPlot;\n` : bytes;
+  const text = readFileSync(modules[name], "utf8");
+  return name.endsWith(".js") ? `${text}\n${endOfModule()}` : text;
 };
 
 const asset = (response, name, withModules) => {
   const known = modules[name]
     ? withModules
-    : /^(paint\/)?[a-z0-9]+\.(js|css|svg)$/i.test(name) && !name.startsWith("node_modules");
+    : /^((figures|paint)\/)?[a-z0-9_]+\.(js|css|svg)$/i.test(name);
   try {
     if (!known) throw new Error("not an asset");
     answer(response, 200, types[extname(name)] ?? "text/plain", contentsOf(name));

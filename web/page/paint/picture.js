@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// One picture of one peer's world: what both painters draw. Lengths are in mm, forces in N.
+// One picture of one peer's world: what the painters draw. Lengths are in mm, forces in N.
 // It holds solids {shape, half, at, turn, look}, hands {at, radius, place, force, look}, planes
 // and fields as the scene has them.
 

@@ -4,21 +4,39 @@
 // place of one body in a chart, in which a click goes there.
 
 import { fillSelect, make, say } from "../dom.js";
+import { Chart } from "../figures/chart.js";
 import { legendOf } from "../legend.js";
 import { Orbit } from "../orbit.js";
-import { colourOfPeer, onColours, readColours } from "../paint/palette.js";
+import { colourOfPeer } from "../paint/palette.js";
 import { pictureOf } from "../paint/picture.js";
 import { length } from "../paint/vector.js";
+import { painterFor } from "../painters.js";
 import { makePane } from "../pane.js";
 import { Rhythm } from "../rhythm.js";
 import { Replay } from "./replay.js";
 
 const stripPoints = 1500; // of a curve: finer than pixels
-const leastWidth = 80; // pixels: a chart in less has no room for its scale
 const thrown = 400; // mm: what flew off is cut
 
 /** "L" of "L", "3" of "peer 3". */
 const letterOf = (name) => name.split(" ").at(-1).slice(0, 2);
+
+const speeds = [["0.1", "⅒"], ["0.25", "¼"], ["1", "1"], ["2", "2"], ["5", "5"]];
+
+/** The elements that a player changes, by their classes. */
+const partsOf = () => {
+  const speed = make("select", { class: "speed" });
+  fillSelect(speed, speeds, "1");
+  return {
+    algorithm: make("select", { class: "algorithm" }), task: make("select", { class: "task" }),
+    play: make("button", { type: "button", class: "play", "aria-label": "play or stop" }, "▶"),
+    time: make("input", {
+      type: "range", class: "time", min: "0", value: "0", step: "1", "aria-label": "time",
+    }),
+    speed, clock: make("output", { class: "clock" }), apart: make("output", { class: "apart" }),
+    worlds: make("div", { class: "worlds" }),
+  };
+};
 
 export class Player {
   at = 0; // row, with a fraction
@@ -26,25 +44,37 @@ export class Player {
   #asked = false; // a frame that paints
   #hidden = new Set();
 
-  constructor(root, data, { painterFor, makeChart }) {
-    Object.assign(this, { root, data, makeChart, painterFor });
+  constructor(root, data) {
+    Object.assign(this, { root, data, parts: partsOf() });
     this.replays = data.map(() => null); // unpacked when first shown
-    const find = (name) => root.querySelector(`.${name}`);
-    this.parts = Object.fromEntries(["algorithm", "task", "speed", "play", "time", "clock", "apart",
-      "strip", "worlds"].map((name) => [name, find(name)]));
+    this.#build();
     this.orbit = new Orbit();
+    this.chart = new Chart(this.stripArea, { group: "player", isLive: true });
+    this.#listen();
+  }
+
+  #build() {
+    const { algorithm, task, play, time, speed, clock, apart, worlds } = this.parts;
     this.stripArea = make("div", { class: "plot" });
     this.stripLegend = make("div", { class: "legend" });
-    this.parts.strip.append(this.stripArea, this.stripLegend);
-    this.chart = makeChart(this.stripArea, { group: "player" });
-    this.colours = readColours();
-    this.#listen();
+    Object.assign(this.root, {
+      tabIndex: 0, role: "group",
+      ariaLabel: "Replay: space plays and stops, arrow keys step, Home and End go to the ends",
+    });
+    this.root.append(
+      make("div", { class: "controls" }, make("label", {}, "algorithm ", algorithm),
+        make("label", {}, "task ", task), play, time, make("label", {}, "speed ", speed)),
+      make("p", { class: "numbers" }, clock, " ", apart), worlds,
+      make("div", {
+        class: "strip", role: "group",
+        "aria-label": "x of a body in all copies over time; click to go there",
+      }, this.stripArea, this.stripLegend));
   }
 
   get isPlaying() { return this.#last !== null; }
 
   async start() {
-    this.painter = await this.painterFor(this.parts.worlds);
+    this.painter = await painterFor(this.parts.worlds);
     this.rhythm = new Rhythm({ level: this.painter.level });
     this.rhythm.addEventListener("change", () => this.painter.setLevel(this.rhythm.level));
     const { algorithm } = this.parts;
@@ -62,19 +92,12 @@ export class Player {
     play.addEventListener("click", () => this.toggle());
     time.addEventListener("input", () => this.goTo(Number(time.value)));
     this.stripArea.addEventListener("click", ({ clientX }) => {
+      if (!this.chart.isDrawn) return;
       this.goTo((this.chart.valueAt(clientX) - this.replay.start) / this.replay.step);
     });
     this.root.addEventListener("keydown", (event) => this.#key(event));
     this.orbit.addEventListener("change", () => this.draw());
-    onColours(() => {
-      this.colours = readColours();
-      this.draw();
-    });
     new ResizeObserver(() => this.draw()).observe(this.parts.worlds);
-    new ResizeObserver(() => {
-      if (this.stripArea.clientWidth >= leastWidth) this.chart.resize();
-      this.draw();
-    }).observe(this.stripArea);
   }
 
   #key(event) {
@@ -121,14 +144,15 @@ export class Player {
       rows.map((row) => Math.min(thrown, Math.max(-thrown, side.bodies[farthest].x[row]))));
     this.strip = {
       times: rows.map((row) => this.replay.timeAt(row)),
-      series: columns.map((value) => ({ value, least: value, most: value })),
+      values: columns,
     };
     this.curves = sides.map((side, place) => ({
-      name: side.name, label: `x at ${side.name}, mm`, colour: colourOfPeer(place), show: "mean",
+      name: side.name, label: `x at ${side.name}, mm`, colour: colourOfPeer(place),
     }));
     const all = columns.flat();
     const [low, high] = [Math.min, Math.max].map((pick) => all.reduce((a, b) => pick(a, b)));
-    this.range = high > low ? [low, high] : [low - 1, high + 1];
+    const room = high > low ? 0.04 * (high - low) : 1;
+    this.range = [low - room, high + room];
     this.#hidden.clear();
     const { buttons, values } = legendOf(this.curves, this.#hidden, () => this.draw());
     this.stripValues = values;
@@ -208,14 +232,13 @@ export class Player {
   }
 
   #paintStrip(row) {
-    if (this.stripArea.clientWidth < leastWidth) return;
-    const curves = this.curves.map((curve) =>
-      ({ ...curve, hidden: this.#hidden.has(curve.name) }));
-    const { times } = this.strip;
-    const view = {
+    const { times, values } = this.strip;
+    const curves = this.curves.map((curve, i) => ({
+      ...curve, x: times, y: values[i], width: 1.75, hidden: this.#hidden.has(curve.name),
+    }));
+    this.chart.update(curves, {
       x: [times[0], times.at(-1)], y: this.range, moment: this.replay.timeAt(row),
       says: (mark) => `${mark} s`,
-    };
-    this.chart.update({ ...this.strip, curves }, view, this.colours);
+    });
   }
 }

@@ -1,37 +1,36 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Puts a report together: figures and player by the painters of the live page.
+// Puts a page together from the data that it carries: words, tables, figures and the player.
 
 import { make } from "../dom.js";
-import { chartMaker, painterFor } from "../painters.js";
-import { setUpFigures } from "./figures.js";
-import { Player } from "./player.js";
-
-const dataIn = (id) => JSON.parse(document.getElementById(id)?.textContent ?? "null");
+import { Document } from "./document.js";
 
 /** What is written in the licences of the libraries that the page carries. */
-const showLicences = (files) => {
+const showLicences = (main, files) => {
   const texts = Object.entries(files).filter(([name]) => name.endsWith("-LICENSE.txt"));
   if (texts.length === 0) return;
-  document.querySelector("main").append(make("footer", {},
+  main.append(make("footer", {},
     make("details", {}, make("summary", {}, "Licences of what draws this page"),
       ...texts.map(([name, words]) =>
         make("pre", {}, `${name.replace("-LICENSE.txt", "")}\n\n${words}`)))));
 };
 
+const startPlayer = async (replays) => {
+  const root = document.querySelector(".player");
+  if (!root || !replays) return null;
+  const { Player } = await import("./player.js");
+  return new Player(root, replays);
+};
+
 /** `files` are those that the page carries, by name. */
 export const start = async (files) => {
-  if (files["uPlot.min.css"]) {
-    const sheet = make("style");
-    sheet.textContent = files["uPlot.min.css"];
-    document.head.append(sheet);
-  }
-  showLicences(files);
-  const makeChart = await chartMaker();
-  const figures = setUpFigures(dataIn("figures") ?? {}, makeChart);
-  const replays = dataIn("replays");
-  const root = document.querySelector(".player");
-  const player = root && replays ? new Player(root, replays, { painterFor, makeChart }) : null;
+  const data = JSON.parse(document.getElementById("hapnet-data").textContent);
+  const main = document.querySelector("main");
+  const page = new Document(data);
+  page.fill(main);
+  showLicences(main, files);
+  document.getElementById(location.hash.slice(1))?.scrollIntoView();
+  const player = await startPlayer(data.replays);
   document.body.dataset.view = player ? await player.start() : "none";
-  globalThis.hapnet = { figures, player }; // for the tests, and for the curious at the console
+  globalThis.hapnet = { data, figures: page.figures, player }; // for tests, and for the curious
 };

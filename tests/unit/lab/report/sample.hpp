@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/report/report.hpp"
+#include "tests/support/page_data.hpp"
 
 #include <gtest/gtest.h>
 #include <string>
@@ -185,6 +186,19 @@ inline std::string text_of(const std::vector<results::File>& files, std::string_
 inline std::string page_of(const std::vector<results::File>& files)
 {
     return text_of(report_files(files), "report.html");
+}
+
+/// The words and tables of the page of these files, as JSON.
+inline std::string words_of(const std::vector<results::File>& files)
+{
+    return test::words_of(page_of(files));
+}
+
+/// A figure of that page; null when it has none of that id.
+inline nlohmann::ordered_json figure_of(const std::vector<results::File>& files,
+                                        std::string_view id)
+{
+    return test::figure_of(page_of(files), id);
 }
 
 inline bool holds(std::string_view text, std::string_view part)

@@ -3,6 +3,7 @@
 #include "emulator/tools/run_page/run_page.hpp"
 
 #include "emulator/tools/run_page/figures.hpp"
+#include "tests/support/page_data.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -58,20 +59,22 @@ TEST(RunPage, EscapesWhatIsNotItsOwn)
     const auto page = page_of(statistics());
     EXPECT_TRUE(has(page, "<title>a &lt;b&gt; &amp; c</title>"));
     EXPECT_FALSE(has(page, "<b> & c"));
+    EXPECT_EQ(test::data_of(page)["title"], "a <b> & c");
 }
 
 TEST(RunPage, SaysWhetherTheRunIsValidAndWhyNot)
 {
-    EXPECT_TRUE(has(page_of(statistics()), "class=\"banner met\""));
+    const auto banner_of = [](const Json& of) { return test::data_of(page_of(of))["head"][0]; };
+    EXPECT_EQ(banner_of(statistics())["style"], "met");
     auto invalid = statistics();
     invalid["valid"] = false;
     invalid["invalid_because"] = {"up: p99 of 3 ms"};
-    EXPECT_TRUE(has(page_of(invalid), "class=\"banner missed\""));
-    EXPECT_TRUE(has(page_of(invalid), "<li>up: p99 of 3 ms</li>"));
+    EXPECT_EQ(banner_of(invalid)["style"], "missed");
+    EXPECT_EQ(banner_of(invalid)["list"][0], "up: p99 of 3 ms");
     auto unmet = statistics();
     unmet["checks"] = {{{"require", "up.received>=9"}, {"value", 4.0}, {"met", false}}};
-    EXPECT_TRUE(has(page_of(unmet), "class=\"banner missed\""));
-    EXPECT_TRUE(has(page_of(unmet), "not met: up.received&gt;=9, it is 4"));
+    EXPECT_EQ(banner_of(unmet)["style"], "missed");
+    EXPECT_EQ(banner_of(unmet)["list"][0], "not met: up.received>=9, it is 4");
 }
 
 TEST(RunPage, ShowsTheCausesThatOccurredAndNoOthers)
@@ -102,22 +105,28 @@ TEST(RunPage, ListsTheChangesAndPlotsThem)
     EXPECT_TRUE(has(page, "1499"));
 }
 
-TEST(RunPage, HasPlotsWhereThereAreDistributionsAndFates)
+TEST(RunPage, HasFiguresWhereThereAreDistributionsAndFates)
 {
     const auto page = page_of(statistics(), two_lost_of_four());
-    for (const char* title :
-         {"Delay, up", "Lateness of the emulator, up", "Losses, up", "Runs of losses, up"}) {
-        EXPECT_TRUE(has(page, title)) << title;
-    }
-    EXPECT_FALSE(has(page, "Losses, down"));
-    EXPECT_TRUE(has(page, "datagrams 1 to 1: 1 of 1 lost"));
-    EXPECT_TRUE(has(page, "datagrams 3 to 3: 0 of 1 lost"));
+    const auto data = test::data_of(page);
+    std::vector<std::string> ids;
+    for (const auto& figure : data["figures"]) ids.push_back(figure["id"]);
+    EXPECT_EQ(ids,
+              (std::vector<std::string>{"delay-up", "lateness-up", "loss-runs-up", "losses-up"}));
+    const auto delay = test::figure_of(page, "delay-up");
+    EXPECT_EQ(delay["x"].dump(), R"({"label":"delay","unit":"ms"})");
+    EXPECT_EQ(delay["series"].back()["name"], "as it came out");
+    const auto cells = test::figure_of(page, "losses-up")["series"][0]["cells"];
+    EXPECT_EQ(cells[1]["tip"], "datagrams 1 to 1: 1 of 1 lost");
+    EXPECT_FALSE(cells[1].contains("opacity")) << "all of it was lost";
+    EXPECT_EQ(cells[3]["tip"], "datagrams 3 to 3: 0 of 1 lost");
+    EXPECT_EQ(cells[3]["opacity"], 0.04);
 }
 
 TEST(RunPage, NeedsNoOtherFile)
 {
     const auto page = page_of(statistics(), two_lost_of_four());
-    for (const char* link : {"src=", "href=", "@import", "url("}) EXPECT_FALSE(has(page, link));
+    for (const char* link : {"src=", "href=\"", "@import", "url("}) EXPECT_FALSE(has(page, link));
 }
 
 TEST(RunPage, SurvivesStatisticsThatLackEverything)
@@ -136,11 +145,14 @@ TEST(LossRuns, FallAsAGeometricDistributionWithTheLawsMean)
                      .conditions = &conditions,
                      .fates = fates.up,
                      .spacing_s = 1e-3};
-    EXPECT_TRUE(has(loss_runs_figure(run), "geometric, the law"));
+    const auto series = [&] { return page::json_of(*loss_runs_figure(run))["series"]; };
+    ASSERT_EQ(series().size(), 2U);
+    // Half of all are lost: so is half of the runs' continuations.
+    EXPECT_EQ(series()[1]["points"].dump(), "[[1.0,1.0],[2.0,0.5],[3.0,0.25]]");
     run.conditions = nullptr;
-    EXPECT_FALSE(has(loss_runs_figure(run), "geometric, the law"));
+    EXPECT_EQ(series().size(), 1U);
     run.fates = {};
-    EXPECT_EQ(loss_runs_figure(run), "");
+    EXPECT_FALSE(loss_runs_figure(run));
 }
 
 } // namespace

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/page/figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::page {
+
+namespace {
+
+/// To seven digits: more than a record has, and half as long as a double.
+double short_value(double value)
+{
+    if (value == 0.0) return 0.0;
+    const double digits = 6.0 - std::floor(std::log10(std::abs(value)));
+    if (std::abs(digits) > 22.0) return value; // beyond it powers of ten are not exact
+    const double scale = std::pow(10.0, std::abs(digits));
+    return digits >= 0.0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+}
+
+Json json_of(const Axis& axis)
+{
+    Json json{{"label", axis.label}, {"unit", axis.unit}};
+    if (axis.scale == Scale::logarithmic) json["scale"] = "log";
+    if (!axis.range.is_empty()) json["range"] = Json::array({axis.range.low, axis.range.high});
+    return json;
+}
+
+/// An axis along which groups, columns or rows stand.
+Json json_of(const Axis& axis, const std::vector<std::string>& categories)
+{
+    Json json = json_of(axis);
+    json["categories"] = categories;
+    return json;
+}
+
+Json json_of(const std::vector<Point>& points)
+{
+    Json list = Json::array();
+    for (const Point& point : points) {
+        if (std::isfinite(point.x) && std::isfinite(point.y))
+            list.push_back(Json::array({short_value(point.x), short_value(point.y)}));
+    }
+    return list;
+}
+
+Json json_of(const Curve& curve)
+{
+    Json json{{"name", curve.name}, {"colour", curve.colour}, {"width", curve.width}};
+    if (curve.is_dashed) json["dash"] = "6 3";
+    if (curve.shows_points) json["dots"] = true;
+    json["points"] = json_of(curve.points);
+    if (!curve.scatter.empty()) json["scatter"] = json_of(curve.scatter);
+    return json;
+}
+
+Json json_of(const Bar& bar, std::size_t at)
+{
+    Json json{{"at", at}, {"value", bar.value}, {"text", bar.text}};
+    if (bar.is_open) json["open"] = true;
+    if (bar.is_missed) json["missed"] = true;
+    if (bar.interval) {
+        json["low"] = bar.interval->low;
+        json["high"] = bar.interval->high;
+    }
+    json["tip"] = bar.tip;
+    return json;
+}
+
+/// The series in the order in which they stand in the groups; a group may lack some of them.
+std::vector<std::string> series_in(const Bars& groups)
+{
+    std::vector<std::string> names;
+    for (const BarGroup& group : groups) {
+        auto place = names.begin();
+        for (const Bar& bar : group.bars) {
+            const auto known = std::find(names.begin(), names.end(), bar.series);
+            place = (known != names.end() ? known : names.insert(place, bar.series)) + 1;
+        }
+    }
+    return names;
+}
+
+/// A series has a colour of its own where all of its bars do.
+Json series_of(const Bars& groups, const std::string& name)
+{
+    Json bars = Json::array();
+    std::vector<const Bar*> all;
+    for (std::size_t at = 0; at < groups.size(); ++at) {
+        for (const Bar& bar : groups[at].bars) {
+            if (bar.series != name || !std::isfinite(bar.value)) continue;
+            all.push_back(&bar);
+            bars.push_back(json_of(bar, at));
+        }
+    }
+    Json series = Json::object();
+    series["name"] = name;
+    if (all.empty()) return series;
+    const bool is_one_colour = std::all_of(
+        all.begin(), all.end(), [&](const Bar* bar) { return bar->colour == all[0]->colour; });
+    if (is_one_colour) series["colour"] = all[0]->colour;
+    for (std::size_t i = 0; i < all.size() && !is_one_colour; ++i)
+        bars[i]["colour"] = all[i]->colour;
+    if (all[0]->is_outlined) series["outlined"] = true;
+    series["bars"] = std::move(bars);
+    return series;
+}
+
+void add_content(Json& json, const Figure& figure, const Curves& content)
+{
+    json["kind"] = "curves";
+    json["x"] = json_of(figure.x);
+    json["y"] = json_of(figure.y);
+    json["series"] = Json::array();
+    for (const Curve& curve : content.curves) json["series"].push_back(json_of(curve));
+    for (const Level& level : content.levels)
+        json["levels"].push_back({{"y", level.y}, {"name", level.name}});
+}
+
+void add_content(Json& json, const Figure& figure, const Bars& groups)
+{
+    json["kind"] = "bars";
+    std::vector<std::string> categories;
+    for (const BarGroup& group : groups) categories.push_back(group.name);
+    json["x"] = json_of(figure.x, categories);
+    json["y"] = json_of(figure.y);
+    json["series"] = Json::array();
+    for (const std::string& name : series_in(groups)) {
+        if (Json series = series_of(groups, name); series.contains("bars"))
+            json["series"].push_back(std::move(series));
+    }
+}
+
+void add_content(Json& json, const Figure& figure, const HeatMap& map)
+{
+    json["kind"] = "heat-map";
+    json["x"] = json_of(figure.x, map.columns);
+    json["y"] = json_of(figure.y, map.rows);
+    Json cells = Json::array();
+    for (const HeatCell& one : map.cells) {
+        Json cell{{"x", one.column}, {"y", one.row}, {"colour", one.colour}};
+        if (one.opacity != 1.0) cell["opacity"] = one.opacity;
+        if (!one.symbol.empty()) cell["symbol"] = one.symbol;
+        cell["tip"] = one.tip;
+        cells.push_back(std::move(cell));
+    }
+    Json series = Json::object();
+    series["name"] = figure.title;
+    series["cells"] = std::move(cells);
+    json["series"] = Json::array();
+    json["series"].push_back(std::move(series));
+}
+
+std::string quoted(const Json& text)
+{
+    std::string out = "\"";
+    for (const char c : text.get<std::string>()) out += c == '"' ? "\"\"" : std::string{c};
+    return out + '"';
+}
+
+std::string csv_of_bars(const Json& figure)
+{
+    std::string out = "group,bar,value,low,high\n";
+    const Json& groups = figure.at("x").at("categories");
+    for (std::size_t at = 0; at < groups.size(); ++at) {
+        for (const Json& series : figure.at("series")) {
+            for (const Json& bar : series.at("bars")) {
+                if (bar.at("at").get<std::size_t>() != at) continue;
+                const auto end = [&](const char* name) {
+                    return bar.contains(name) ? bar.at(name).dump() : std::string{};
+                };
+                out += fmt::format("{},{},{},{},{}\n", quoted(groups[at]), quoted(bar.at("tip")),
+                                   bar.at("value").dump(), end("low"), end("high"));
+            }
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+void Range::include(double value)
+{
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+}
+
+std::string plain_id(std::string text)
+{
+    for (char& c : text) {
+        const bool is_plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        if (!is_plain) c = '-';
+    }
+    return text;
+}
+
+std::vector<Point> thinned(std::span<const Point> points, std::size_t count_max)
+{
+    if (points.size() <= count_max) return {points.begin(), points.end()};
+    const std::size_t stretches = std::max<std::size_t>(count_max / 2, 1);
+    const std::size_t length = (points.size() + stretches - 1) / stretches;
+    std::vector<Point> kept;
+    for (std::size_t begin = 0; begin < points.size(); begin += length) {
+        const auto part = points.subspan(begin, std::min(length, points.size() - begin));
+        const auto [low, high] = std::minmax_element(
+            part.begin(), part.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+        kept.push_back(*std::min(low, high));
+        if (low != high) kept.push_back(*std::max(low, high));
+    }
+    return kept;
+}
+
+Json json_of(const Figure& figure)
+{
+    Json json{{"id", figure.id}, {"kind", ""}, {"title", figure.title}};
+    std::visit([&](const auto& content) { add_content(json, figure, content); }, figure.content);
+    json["width"] = figure.size.width;
+    json["height"] = figure.size.height;
+    json["caption"] = figure.caption;
+    if (!figure.sources.empty()) json["sources"] = figure.sources;
+    return json;
+}
+
+std::string csv_of(const Json& figure)
+{
+    if (figure.at("kind").get<std::string>() == "bars") return csv_of_bars(figure);
+    std::string out = "curve,x,y\n";
+    for (const Json& series : figure.at("series")) {
+        const std::string name = quoted(series.at("name"));
+        for (const char* key : {"points", "scatter"}) {
+            if (!series.contains(key)) continue;
+            for (const Json& point : series.at(key))
+                out += fmt::format("{},{},{}\n", name, point.at(0).dump(), point.at(1).dump());
+        }
+    }
+    return out;
+}
+
+} // namespace hapnet::page

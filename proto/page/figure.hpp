@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/page/blocks.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hapnet::page {
+
+// Figures as data; web/page/figures draws them. Colours are names of palette.css: "left".
+
+/// What values span; empty until one is included.
+struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool is_empty() const { return !(low <= high); }
+    /// Widens the range to a value; one that is not finite changes nothing.
+    void include(double value);
+};
+
+enum class Scale : std::uint8_t { linear, logarithmic };
+
+/// What stands along a side of a figure.
+struct Axis {
+    std::string label;
+    std::string unit{};
+    Scale scale = Scale::linear;
+    Range range{}; // that it spans besides the values
+};
+
+struct Point {
+    double x = 0.0;
+    double y = 0.0;
+};
+
+/// A curve, in the order of x; values that are not finite are left out.
+struct Curve {
+    std::string name; // in the legend; empty: not there
+    std::string_view colour;
+    std::vector<Point> points{};
+    std::vector<Point> scatter{}; // dots beside the curve, which belong to it
+    double width = 1.2;           // pixels; 0: only dots
+    bool is_dashed = false;
+    bool shows_points = false; // a dot at each point
+};
+
+/// A value that curves are held against: a dashed line across the figure.
+struct Level {
+    double y = 0.0;
+    std::string_view name;
+};
+
+struct Curves {
+    std::vector<Curve> curves;
+    std::vector<Level> levels{};
+};
+
+/// A bar from zero to a value that is not negative, which its text says in words.
+struct Bar {
+    std::string series; // those that stand at the same place in each group
+    double value = 0.0;
+    std::string text;
+    std::string_view colour;
+    bool is_outlined = false;        // for what others measured
+    bool is_open = false;            // the value is more than that: an arrow instead of an end
+    bool is_missed = false;          // its text is red
+    std::optional<Range> interval{}; // in which the value lies
+    std::string tip{};               // shown where a pointer rests
+};
+
+struct BarGroup {
+    std::string name;
+    std::vector<Bar> bars;
+};
+using Bars = std::vector<BarGroup>;
+
+/// A field of a heat map. The symbol says the same as the colour.
+struct HeatCell {
+    std::size_t column = 0;
+    std::size_t row = 0; // 0: lowest
+    std::string_view colour;
+    double opacity = 1.0;
+    std::string_view symbol{};
+    std::string tip;
+};
+
+struct HeatMap {
+    std::vector<std::string> columns; // what stands below each
+    std::vector<std::string> rows;    // and beside each, from the lowest up
+    std::vector<HeatCell> cells;
+};
+
+/// Width and height for which a figure is made, in pixels; a page may draw it wider or narrower.
+struct Size {
+    double width = 900.0;
+    double height = 280.0;
+};
+
+struct Figure {
+    std::string id; // letters, digits and hyphens: see plain_id()
+    std::string title;
+    Axis x;
+    Axis y;
+    std::variant<Curves, Bars, HeatMap> content;
+    Size size{};
+    Json caption = "";
+    std::vector<std::string> sources{}; // files with its numbers, as paths from the page
+};
+
+/// The text with a hyphen for each character that an id may not have.
+[[nodiscard]] std::string plain_id(std::string text);
+
+/// At most about so many of the points of a curve: the lowest and the highest of each stretch, so
+/// that no peak is lost.
+[[nodiscard]] std::vector<Point> thinned(std::span<const Point> points, std::size_t count_max);
+
+/// The figure as pages carry it: `{id, kind, title, x, y, series, ...}`. Points to seven digits.
+[[nodiscard]] Json json_of(const Figure& figure);
+
+/// The numbers of a figure that json_of() returned, as CSV: "curve,x,y" or
+/// "group,bar,value,low,high", in its units.
+[[nodiscard]] std::string csv_of(const Json& figure);
+
+} // namespace hapnet::page
