@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/abi/algorithm.h"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/situation.hpp"
 #include "proto/base/describe.hpp"
 #include "proto/base/result.hpp"
@@ -39,6 +40,9 @@ using Loaded = std::shared_ptr<const hapnet_algorithm>;
 /// loads it. A copy has memory of its own.
 class SharedObject {
 public:
+    /// What it may bring into a hand at an Omni: as base, whatever it does.
+    static constexpr auto energy_limits = energy_at_an_omni(0.46);
+
     SharedObject() = default;
     explicit SharedObject(const SharedObjectOptions& options) : options_{options} {}
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/presence.hpp"
 
 #include <optional>
@@ -19,6 +20,9 @@ namespace hapnet::peer {
 ///   within 100 ms, so that the copies agree again.
 class BaseAlgorithm {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(0.46);
+
     BaseAlgorithm() = default;
     explicit BaseAlgorithm(const BaseOptions& options) : options_{options} {}
 

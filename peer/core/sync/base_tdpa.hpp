@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/sync/base_algorithm.hpp"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -33,6 +34,9 @@ constexpr auto fields_of(base::Tag<BaseTdpaOptions> /*struct*/)
 /// model and no clock. docs/design/algorithms.md has the equations.
 class BaseTdpa {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(0.5, 0.2);
+
     BaseTdpa() = default;
     explicit BaseTdpa(const BaseTdpaOptions& options) : options_{options}, base_{options.base} {}
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/recent_age.hpp"
 
 #include <glm/vec3.hpp>
@@ -37,6 +38,9 @@ constexpr auto fields_of(base::Tag<CoupleOptions> /*struct*/)
 /// docs/design/algorithms.md has the equations.
 class Couple {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(0.7);
+
     Couple() : Couple(CoupleOptions{}) {}
     explicit Couple(const CoupleOptions& options) : options_{options} {}
 

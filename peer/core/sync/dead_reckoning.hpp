@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/sync/base_algorithm.hpp"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/one_way_delay.hpp"
 
 #include <optional>
@@ -92,6 +93,9 @@ constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
 /// as where a body at rest settles. Forces and velocities are as received.
 class DeadReckoning {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(1.1);
+
     DeadReckoning() : DeadReckoning(DeadReckoningOptions{}) {}
     explicit DeadReckoning(const DeadReckoningOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include "peer/core/sync/alpha_beta.hpp"
 #include "peer/core/sync/base_algorithm.hpp"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/one_way_delay.hpp"
 
 #include <optional>
@@ -60,6 +61,9 @@ constexpr auto fields_of(base::Tag<EstimatorPredictorOptions> /*struct*/)
 /// TiDeC, of which no equations are published, and like it leaves the body's pose alone.
 class EstimatorPredictor {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(1.1);
+
     EstimatorPredictor() : EstimatorPredictor(EstimatorPredictorOptions{}) {}
     explicit EstimatorPredictor(const EstimatorPredictorOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include "peer/core/sync/age_quantile.hpp"
 #include "peer/core/sync/base_options.hpp"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/hand_history.hpp"
 
 #include <chrono>
@@ -42,6 +43,9 @@ constexpr auto fields_of(base::Tag<LagOptions> /*struct*/)
 /// docs/design/algorithms.md has the equations.
 class Lag {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(0.25);
+
     Lag() : Lag(LagOptions{}) {}
     explicit Lag(const LagOptions& options) : options_{options} {}
 

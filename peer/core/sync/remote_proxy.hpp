@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/pose_correction.hpp"
 #include "peer/core/sync/proxy_hand.hpp"
 
@@ -46,6 +47,9 @@ constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
 /// algorithms derives the bound, and a property test holds sessions over random networks to it.
 class RemoteProxy {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(0.4);
+
     RemoteProxy() : RemoteProxy(RemoteProxyOptions{}) {}
     explicit RemoteProxy(const RemoteProxyOptions& options);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/sync/energy_at_an_omni.hpp"
 #include "peer/core/sync/hand_history.hpp"
 #include "peer/core/sync/proxy_hand.hpp"
 #include "proto/base/ensure.hpp"
@@ -56,6 +57,9 @@ constexpr auto fields_of(base::Tag<RollbackOptions> /*struct*/)
 /// this is a yardstick for the others. docs/design/algorithms.md has the equations.
 class Rollback {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(0.25);
+
     Rollback() : Rollback(RollbackOptions{}) {}
     explicit Rollback(const RollbackOptions& options) : options_{options} {}
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/energy_at_an_omni.hpp"
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -31,6 +32,9 @@ constexpr auto fields_of(base::Tag<WaveOptions> /*struct*/)
 /// impedance. docs/design/algorithms.md has the equations.
 class Wave {
 public:
+    /// What it may bring into a hand at an Omni.
+    static constexpr auto energy_limits = energy_at_an_omni(1.2);
+
     Wave() : Wave(WaveOptions{}) {}
     explicit Wave(const WaveOptions& options);
 
