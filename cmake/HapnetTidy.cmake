@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 #
 # The target `tidy`: clang-tidy over everything but the tests, in five units. It matches all that a
-# unit includes, the headers of libraries too, and begins anew with every unit: CLI11 and JSON alone
-# are 20 s of each program. Nothing is compiled: the presets that test do that.
+# unit includes, the headers of libraries too, and begins anew with every unit: JSON alone takes
+# seconds of each. Nothing is compiled: the presets that test do that.
 find_program(HAPNET_CLANG_TIDY clang-tidy-14 REQUIRED)
 
 # hapnet_tidy_unit(NAME TARGET ...): the sources of some targets are read as one file.

@@ -15,7 +15,7 @@ node), --ship and --fleet those that its kinds of these names need, with --packa
 scripts/package.sh needs, with --figures matplotlib, with which scripts/plot.py draws. Runs as root
 or with sudo, asks nothing, and does nothing when nothing is missing."
 
-emulator_packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev
+emulator_packages=(g++ cmake jq ninja-build libboost-dev libexpected-dev
     librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev)
 packages=("${emulator_packages[@]}" libglm-dev libhidapi-dev libjs-three libsodium-dev
     libusb-1.0-0-dev pkg-config)

@@ -9,7 +9,6 @@
 #include "proto/cli/manual.hpp"
 #include "proto/cli/synonyms.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <spdlog/fmt/fmt.h>
@@ -27,20 +26,6 @@ constexpr std::array<std::string_view, 2> version_words{"-V", "--version"};
 bool is_any_of(std::span<const std::string_view> choices, std::string_view word)
 {
     return std::find(choices.begin(), choices.end(), word) != choices.end();
-}
-
-/// CLI11 takes a list in brackets apart at its commas; ours are lists of a profile. A letter that
-/// nobody types keeps it from that.
-constexpr char guard = '\x01';
-
-std::string guarded(std::string word)
-{
-    return word.starts_with('[') ? guard + std::move(word) : std::move(word);
-}
-
-std::string unguarded(std::string word)
-{
-    return word.starts_with(guard) ? word.substr(1) : std::move(word);
 }
 
 /// `help`, `help run` and, where the program has an argument, `SOCKET help set`, as --help.
@@ -98,36 +83,16 @@ std::optional<std::string> answer(const Words& words, const Command& program)
 
 } // namespace
 
-/// A command with what CLI11 found for it.
+/// Sorts a program's words: the chosen command, and what stands behind each option.
 class Syntax {
 public:
-    explicit Syntax(Command& program) : program_{program}, app_{"", program.name()}
-    {
-        add(program, app_);
-        app_.allow_extras();
-        app_.require_subcommand(0, 1);
-        for (Command& command : program.commands_) {
-            CLI::App& app = *app_.add_subcommand(command.name());
-            for (const std::string& alias : command.aliases()) app.alias(alias);
-            app.allow_extras();
-            if (program.needs_command()) app.fallthrough();
-            add(command, app);
-        }
-    }
+    explicit Syntax(Command& program) : program_{program} {}
 
     base::Result<void> read(Words words)
     {
-        typed_ = words;
-        std::transform(words.begin(), words.end(), words.begin(), guarded);
-        std::reverse(words.begin(), words.end()); // as CLI11 wants it
-        try {
-            app_.parse(std::move(words));
-        } catch (const CLI::ArgumentMismatch& error) {
-            return base::fail(missing_value(error.what()));
-        } catch (const CLI::ParseError& error) {
-            return base::fail(error.what());
-        }
-        note_command();
+        typed_ = std::move(words);
+        if (auto sorted = sort(); !sorted) return sorted;
+        for (Command& command : program_.commands_) command.is_chosen_ = &command == chosen_;
         auto done = nothing_left();
         if (done) done = take_values(chosen());
         if (done && &chosen() != &program_ && program_.needs_command()) {
@@ -138,55 +103,129 @@ public:
     }
 
 private:
-    void add(Command& command, CLI::App& app)
+    /// The first word that is the name of a command chooses it. Behind "--" are arguments alone.
+    base::Result<void> sort()
     {
-        app.set_help_flag();
-        for (Option& option : command.options_) {
-            CLI::Option* added =
-                option.is_flag() ? app.add_flag(option.names) : app.add_option(option.names);
-            if (!option.is_flag()) {
-                added->take_all();
-                added->expected(option.is_positional() && option.is_repeated ? -1 : 1);
+        bool are_arguments = false;
+        while (next_ < typed_.size()) {
+            const std::string word = typed_[next_++];
+            Command* const command = chosen_ == nullptr ? command_of(word) : nullptr;
+            if (are_arguments) {
+                take_argument(word);
+            } else if (word == "--") {
+                are_arguments = true;
+            } else if (command != nullptr) {
+                chosen_ = command;
+            } else if (!is_option(word)) {
+                take_argument(word);
+            } else if (auto taken = take_option(word); !taken) {
+                return taken;
             }
-            found_[&option] = added;
         }
+        return {};
     }
 
-    void note_command()
+    [[nodiscard]] Command* command_of(const std::string& word) const
     {
-        const auto parsed = app_.get_subcommands();
         for (Command& command : program_.commands_) {
-            command.is_chosen_ = !parsed.empty() && parsed.front()->get_name() == command.name();
-            if (command.is_chosen_) chosen_ = &command;
+            const auto& aliases = command.aliases();
+            const bool is_alias = std::find(aliases.begin(), aliases.end(), word) != aliases.end();
+            if (command.name() == word || is_alias) return &command;
         }
+        return nullptr;
+    }
+
+    /// Calls look(options) for those that may stand here, until it gives something.
+    template <typename Look>
+    [[nodiscard]] Option* look_here(const Look& look) const
+    {
+        Option* found = look(chosen().options_);
+        const bool has_more = chosen_ != nullptr && program_.needs_command();
+        return found == nullptr && has_more ? look(program_.options_) : found;
+    }
+
+    /// "-s" or "--socket"; nullptr: there is none of that name here.
+    [[nodiscard]] Option* option_of(std::string_view name) const
+    {
+        return look_here([name](std::list<Option>& options) -> Option* {
+            for (Option& option : options) {
+                if (option.is_positional()) continue;
+                const auto comma = option.names.find(',');
+                const bool is_short =
+                    comma != std::string::npos && option.names.compare(0, comma, name) == 0;
+                if (is_short || option.name() == name) return &option;
+            }
+            return nullptr;
+        });
+    }
+
+    /// A number with a sign is none.
+    [[nodiscard]] bool is_option(const std::string& word) const
+    {
+        if (word.size() < 2 || word[0] != '-') return false;
+        const bool is_digit = word[1] >= '0' && word[1] <= '9';
+        return !is_digit || option_of(word.substr(0, 2)) != nullptr;
+    }
+
+    /// `--delay 1ms`, `--delay=1ms`, `-d 1ms`, `-d1ms` and `-d=1ms`.
+    base::Result<void> take_option(const std::string& word)
+    {
+        const bool is_long = word.starts_with("--");
+        const auto sign = word.find('=');
+        const std::string name = word.substr(0, is_long ? sign : 2);
+        Option* const option = option_of(name);
+        if (option == nullptr) {
+            unknown_.push_back(word);
+            return {};
+        }
+        std::optional<std::string> text;
+        if (name.size() < word.size()) text = word.substr(name.size());
+        if (text && text->starts_with('=')) text->erase(0, 1);
+        if (option->is_flag()) {
+            if (text && !is_long && sign == std::string::npos) {
+                found_[option].emplace_back();
+                return take_option('-' + *text); // several flags in one word
+            }
+            if (text) return base::fail(fmt::format("{} takes no value", option->name()));
+            found_[option].emplace_back();
+            return {};
+        }
+        if (!text && next_ < typed_.size()) text = typed_[next_++];
+        if (!text || (text->empty() && sign != std::string::npos)) {
+            return base::fail(
+                fmt::format("{0} needs a value: {0} {1}", option->name(), option->value));
+        }
+        found_[option].push_back(*std::move(text));
+        return {};
+    }
+
+    void take_argument(const std::string& word)
+    {
+        Option* const argument = look_here([this](std::list<Option>& options) -> Option* {
+            for (Option& option : options) {
+                const bool has_room = option.is_repeated || !found_.contains(&option);
+                if (option.is_positional() && has_room) return &option;
+            }
+            return nullptr;
+        });
+        (argument == nullptr ? rest_ : found_[argument]).push_back(word);
+    }
+
+    [[nodiscard]] const Words& texts_of(const Option& option) const
+    {
+        static const Words none;
+        const auto found = found_.find(&option);
+        return found == found_.end() ? none : found->second;
     }
 
     [[nodiscard]] Command& chosen() const { return chosen_ == nullptr ? program_ : *chosen_; }
 
-    /// "--delay: 1 required TEXT missing" is what CLI11 says.
-    [[nodiscard]] std::string missing_value(std::string_view what) const
-    {
-        const auto name = what.substr(0, what.find(':'));
-        for (const auto& [option, found] : found_) {
-            if (option->name() != name) continue;
-            return fmt::format("{0} needs a value: {0} {1}", name, option->value);
-        }
-        return std::string{what};
-    }
-
     /// Words that nothing has taken, and options that the chosen command does not have.
     [[nodiscard]] base::Result<void> nothing_left() const
     {
-        const auto left = app_.remaining(/*recurse*/ true);
         const bool is_command_missing = program_.needs_command() && chosen_ == nullptr;
-        for (const std::string& word : left) {
-            if (word.starts_with('-') && word != "-" && word != "--") {
-                return base::fail(unknown_option(chosen(), word));
-            }
-        }
-        for (const std::string& guarded_word : left) {
-            const std::string word = unguarded(guarded_word);
-            if (word == "--") continue;
+        if (!unknown_.empty()) return base::fail(unknown_option(chosen(), unknown_.front()));
+        for (const std::string& word : rest_) {
             if (auto split = split_value(word)) return base::fail(*std::move(split));
             if (chosen_ == nullptr && !program_.commands().empty()) {
                 return base::fail(unknown_command(program_, word));
@@ -196,7 +235,7 @@ private:
         if (is_command_missing) return command_missing();
         if (chosen_ == nullptr || program_.needs_command()) return {};
         for (const Option& option : program_.options_) {
-            if (found_.at(&option)->count() == 0) continue;
+            if (texts_of(option).empty()) continue;
             return base::fail(unknown_option(*chosen_, option.name()));
         }
         return {};
@@ -225,7 +264,7 @@ private:
     {
         // What stands where a command belongs may have been taken for the program's argument.
         for (const Option& option : program_.options_) {
-            const auto& texts = found_.at(&option)->results();
+            const Words& texts = texts_of(option);
             if (option.is_positional() && !texts.empty() &&
                 !command_meant(program_, texts.front()).empty()) {
                 return base::fail(unknown_command(program_, texts.front()));
@@ -240,7 +279,7 @@ private:
     [[nodiscard]] base::Result<void> take_values(Command& command)
     {
         for (Option& option : command.options_) {
-            const auto& texts = found_.at(&option)->results();
+            const Words& texts = texts_of(option);
             option.is_given = !texts.empty();
             if (texts.size() > 1 && !option.is_repeated && !option.is_flag()) {
                 return base::fail(
@@ -250,7 +289,7 @@ private:
                 if (auto split = option.is_positional() ? split_value(text) : std::nullopt) {
                     return base::fail(*std::move(split));
                 }
-                if (const auto taken = option.take(unguarded(text)); !taken) {
+                if (const auto taken = option.take(text); !taken) {
                     return base::fail(fmt::format("{}: {}", option.name(), taken.error().message));
                 }
             }
@@ -280,9 +319,11 @@ private:
 
     Command& program_;
     Words typed_;
+    std::size_t next_ = 0;      // of these, to be sorted
     Command* chosen_ = nullptr; // nullptr: the program itself
-    CLI::App app_;
-    std::map<const Option*, CLI::Option*> found_;
+    std::map<const Option*, Words> found_;
+    Words unknown_; // options that there are none of
+    Words rest_;    // that nothing takes
 };
 
 Command::Command(std::string name, std::string summary)

@@ -26,7 +26,7 @@ inline std::vector<std::string> lines_of(const std::string& text)
 }
 
 /// What is wrong with one page of help: a line that is too long, an option without a text, words of
-/// CLI11, no usage line that can be pasted.
+/// a library, no usage line that can be pasted.
 inline std::vector<std::string> page_faults(const std::string& program, const std::string& page)
 {
     std::vector<std::string> faults;

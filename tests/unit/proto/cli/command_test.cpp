@@ -138,6 +138,49 @@ TEST(Command, KeepsAListInBracketsInOnePiece)
     EXPECT_EQ(relay.settings, std::vector<std::string>{"[3,4]"});
 }
 
+TEST(Command, TakesShortOptionsInEachSpelling)
+{
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"-d", "1ms", "-qv"}, {"-d1ms", "-vq"}, {"-qvd=1ms"},
+          {"-q", "-v", "--delay=1ms"}}) {
+        Command program{"relay"};
+        base::Duration delay{};
+        bool is_quiet = false, is_verbose = false;
+        program.option("-d,--delay", "TIME", "How long", into(delay, base::parse_duration));
+        program.flag("-q,--quiet", "Say less", is_quiet);
+        program.flag("-v,--verbose", "Say more", is_verbose);
+        Typed typed{"relay", words};
+        ASSERT_TRUE(program.parse(typed.words())) << words.front();
+        EXPECT_EQ(delay, 1ms);
+        EXPECT_TRUE(is_quiet && is_verbose) << words.front();
+    }
+}
+
+TEST(Command, TakesNumbersWithASignAndWhatStandsBehindTwoDashesAsArguments)
+{
+    Relay relay;
+    ASSERT_EQ(relay.refusal({"play", "-5ms", "-", "--", "--set", "list", "--"}), "taken");
+    EXPECT_EQ(relay.files, (std::vector<std::string>{"-5ms", "-", "--set", "list", "--"}));
+    EXPECT_TRUE(relay.settings.empty());
+    EXPECT_EQ(Relay{}.refusal({"--place", "x", "--", "play"}),
+              "unknown command 'play': commands are play, list");
+}
+
+TEST(Command, TakesTheWordBehindAnOptionAsItsValueWhateverItIs)
+{
+    Relay relay;
+    ASSERT_EQ(relay.refusal({"--place", "--loud", "--stats", "play"}), "taken");
+    EXPECT_EQ(relay.place, "--loud");
+    EXPECT_EQ(relay.stats, "play");
+    EXPECT_FALSE(relay.is_loud);
+}
+
+TEST(Command, RefusesAnEmptyValueAndAValueOfAFlag)
+{
+    EXPECT_EQ(Relay{}.refusal({"--place=", "x"}), "--place needs a value: --place ADDRESS");
+    EXPECT_EQ(Relay{}.refusal({"--place", "x", "--loud=no"}), "--loud takes no value");
+}
+
 TEST(Command, KnowsACommandByItsAlias)
 {
     Relay relay;
