@@ -95,7 +95,7 @@ Cflags: -I${includedir}/hapnet -I${includedir} -std=c++20 -ffp-contract=off @def
     install(FILES ${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT hapnet-dev)
 endfunction()
 hapnet_pkg_config(hapnet-base "Hapnet: units, time, chance and text" REQUIRES spdlog
-    ARCHIVES base base_document)
+    ARCHIVES base base_texts)
 hapnet_pkg_config(hapnet-proto "Hapnet: messages, records, keys, sockets"
     REQUIRES hapnet-base libsodium ARCHIVES record wire secure net disk)
 hapnet_pkg_config(hapnet-scene "Hapnet: the physics of the shared scene" REQUIRES hapnet-base

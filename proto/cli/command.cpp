@@ -178,24 +178,21 @@ private:
             unknown_.push_back(word);
             return {};
         }
-        std::optional<std::string> text;
-        if (name.size() < word.size()) text = word.substr(name.size());
-        if (text && text->starts_with('=')) text->erase(0, 1);
+        std::string behind = word.substr(name.size());
+        const bool has_sign = behind.starts_with('=');
         if (option->is_flag()) {
-            if (text && !is_long && sign == std::string::npos) {
-                found_[option].emplace_back();
-                return take_option('-' + *text); // several flags in one word
-            }
-            if (text) return base::fail(fmt::format("{} takes no value", option->name()));
+            if (has_sign) return base::fail(fmt::format("{} takes no value", option->name()));
             found_[option].emplace_back();
-            return {};
+            // Several flags in one word: "-qv".
+            return behind.empty() ? base::Result<void>{} : take_option('-' + behind);
         }
-        if (!text && next_ < typed_.size()) text = typed_[next_++];
-        if (!text || (text->empty() && sign != std::string::npos)) {
+        if (has_sign) behind.erase(0, 1);
+        const bool is_next = behind.empty() && !has_sign && next_ < typed_.size();
+        if (behind.empty() && !is_next) {
             return base::fail(
                 fmt::format("{0} needs a value: {0} {1}", option->name(), option->value));
         }
-        found_[option].push_back(*std::move(text));
+        found_[option].push_back(is_next ? typed_[next_++] : std::move(behind));
         return {};
     }
 

@@ -181,11 +181,11 @@ const std::set<std::string>& without_table()
         "Search", "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques",
         "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube",
         // JSON, CSV and the settings in a record's header
-        "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "Table1Row", "TaskRow",
-        "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow", "PrecisionRow", "SensitivityRow",
-        "Judged", "CurveRow", "ClaimRow", "ClaimQuantileRow", "ClaimSessionRow", "ConditionRow",
-        "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount",
-        "WrittenConfig"};
+        "Examination", "Finding", "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics",
+        "Table1Row", "TaskRow", "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow",
+        "PrecisionRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow", "ClaimQuantileRow",
+        "ClaimSessionRow", "ConditionRow", "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow",
+        "ReplayRow", "WrittenMount", "WrittenConfig"};
     return names;
 }
 

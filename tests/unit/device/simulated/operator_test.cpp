@@ -4,6 +4,7 @@
 #include "device/simulated/operator.hpp"
 #include "device/simulated/reactions.hpp"
 #include "device/simulated/task_options.hpp"
+#include "proto/base/fields.hpp"
 
 #include <chrono>
 #include <cmath>

@@ -43,7 +43,8 @@ TEST(PeerOptions, HaveACompleteHelp)
     const auto prints = cli::prints_of("hapnet-peer", parse_command_line);
     EXPECT_EQ(cli::help_faults("hapnet-peer", prints), std::vector<std::string>{});
     EXPECT_EQ(cli::listed_commands(prints({"--help"}).value()),
-              (std::vector<std::string>{"list-devices", "doctor", "self-test", "keygen", "key", "schema"}));
+              (std::vector<std::string>{"list-devices", "doctor", "self-test", "keygen", "key",
+                                        "schema"}));
     EXPECT_EQ(prints({"--help"})->rfind("Usage: hapnet-peer [OPTIONS]\n", 0), 0U);
     EXPECT_EQ(prints({"self-test", "-h"})->rfind("Usage: hapnet-peer self-test --device ", 0), 0U);
 }
