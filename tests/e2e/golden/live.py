@@ -48,6 +48,8 @@ LOOSE = [
     (r"(^|\.)(boot_id|socket)$", "text"), (r"governor(\.state)?$", "text"),
     (r"(^|\.)events$", "list"), (r"events\[\]\.generation$", "left out"),
     (r"findings\[\]\.fix$", "null or text"), (r"findings\[\]\.\w+$", "text"),
+    # Of a page: the length of the run in words, and whether the machine kept time.
+    (r"^lead$", "text"), (r"^head\[\]\.", "left out"),
 ]
 # Of frames: moments in which nothing came, or before the session is told.
 LOOSE_FRAMES = [
