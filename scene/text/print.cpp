@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "scene/text/fields.hpp"
 #include "proto/base/fields.hpp"
+#include "scene/text/fields.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
