@@ -220,8 +220,8 @@ std::string cell_of(const ValueKind& kind, const void* value)
 bool read_cell(const ValueKind& kind, std::string_view cell, void* value)
 {
     if (kind.shape == Shape::maybe) {
-        if (!kind.remake(value, cell.empty() ? 0 : 1)) return false;
-        return cell.empty() || read_cell(*kind.element, cell, kind.at(value, 0));
+        kind.clear(value);
+        return cell.empty() || read_cell(*kind.element, cell, kind.add(value));
     }
     ensure(kind.set != nullptr);
     const auto leaf = leaf_in(cell, kind.shape);

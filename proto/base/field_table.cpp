@@ -98,13 +98,12 @@ void read_field(const FieldRow& row, const Node& node, void* owner, Reading& rea
     }
     const auto* word = std::get_if<std::string>(&node.value);
     if (!row.absent.empty() && word != nullptr && *word == row.absent) {
-        std::ignore = kind.remake(member, 0);
-        return;
+        return kind.clear(member);
     }
     const bool is_new = kind.size(member) == 0;
-    if (is_new) std::ignore = kind.remake(member, 1);
-    row.written->read(row.format, node, kind.at(member, 0), reading);
-    if (is_new && !reading.is_good()) std::ignore = kind.remake(member, 0);
+    void* const value = is_new ? kind.add(member) : kind.at(member, 0);
+    row.written->read(row.format, node, value, reading);
+    if (is_new && !reading.is_good()) kind.clear(member);
 }
 
 std::optional<std::string> field_text(const FieldRow& row, const void* owner)

@@ -38,9 +38,13 @@ std::optional<Leaf> leaf_of(const Json& json)
 
 bool read_list(const ValueKind& kind, const Json& json, void* value)
 {
-    if (!json.is_array() || !kind.remake(value, json.size())) return false;
+    if (!json.is_array()) return false;
+    const bool grows = kind.add != nullptr;
+    if (grows) kind.clear(value);
+    if (!grows && json.size() != kind.size(value)) return false;
     for (std::size_t i = 0; i < json.size(); ++i) {
-        if (!read_json(*kind.element, json[i], kind.at(value, i))) return false;
+        void* const element = grows ? kind.add(value) : kind.at(value, i);
+        if (!read_json(*kind.element, json[i], element)) return false;
     }
     return true;
 }
@@ -89,8 +93,8 @@ bool read_json(const ValueKind& kind, const Json& json, void* value)
     switch (kind.shape) {
     case Shape::opaque: return false;
     case Shape::maybe:
-        return kind.remake(value, json.is_null() ? 0 : 1) &&
-               (json.is_null() || read_json(*kind.element, json, kind.at(value, 0)));
+        kind.clear(value);
+        return json.is_null() || read_json(*kind.element, json, kind.add(value));
     case Shape::list: return read_list(kind, json, value);
     case Shape::record: return read_record(kind.table(), json, value);
     default: {

@@ -56,9 +56,12 @@ struct ValueKind {
     // maybe and list
     const ValueKind* element = nullptr;
     std::size_t (*size)(const void* value) = nullptr;
-    /// So many elements, all new; false where the list cannot have so many.
-    bool (*remake)(void* value, std::size_t count) = nullptr;
     void* (*at)(void* value, std::size_t index) = nullptr;
+    // nullptr: a list of fixed length
+    void (*clear)(void* value) = nullptr;
+    /// A new element behind the others. One at a time, so that a text of many wrong elements takes
+    /// no more memory than those that are read. A maybe has none before.
+    void* (*add)(void* value) = nullptr;
 
     // record
     const FieldTable& (*table)() = nullptr;
@@ -189,23 +192,18 @@ struct Kind<std::optional<T>> {
             [](const void* value) {
                 return std::size_t{static_cast<const Maybe*>(value)->has_value() ? 1U : 0U};
             },
-        .remake =
-            [](void* value, std::size_t count) {
-                static_cast<Maybe*>(value)->reset();
-                if (count == 1) static_cast<Maybe*>(value)->emplace();
-                return count <= 1;
-            },
-        .at = [](void* value, std::size_t) -> void* { return &**static_cast<Maybe*>(value); }};
+        .at = [](void* value, std::size_t) -> void* { return &**static_cast<Maybe*>(value); },
+        .clear = [](void* value) { static_cast<Maybe*>(value)->reset(); },
+        .add = [](void* value) -> void* { return &static_cast<Maybe*>(value)->emplace(); }};
 };
 
 /// Of a container whose elements have addresses.
 template <typename List>
-[[nodiscard]] constexpr ValueKind list_kind(bool (*remake)(void* value, std::size_t count))
+[[nodiscard]] constexpr ValueKind list_kind()
 {
     return {.shape = ValueKind::Shape::list,
             .element = &Kind<typename List::value_type>::kind,
             .size = [](const void* value) { return static_cast<const List*>(value)->size(); },
-            .remake = remake,
             .at = [](void* value, std::size_t index) -> void* {
                 return &(*static_cast<List*>(value))[index];
             }};
@@ -214,18 +212,19 @@ template <typename List>
 template <typename T>
 requires(!std::is_same_v<T, bool>) // vector<bool> has no elements with addresses
     struct Kind<std::vector<T>> {
-    static constexpr ValueKind kind = list_kind<std::vector<T>>([](void* value, std::size_t count) {
-        auto& own = *static_cast<std::vector<T>*>(value);
-        own.clear();
-        own.resize(count);
-        return true;
-    });
+    static constexpr ValueKind kind = [] {
+        ValueKind list = list_kind<std::vector<T>>();
+        list.clear = [](void* value) { static_cast<std::vector<T>*>(value)->clear(); };
+        list.add = [](void* value) -> void* {
+            return &static_cast<std::vector<T>*>(value)->emplace_back();
+        };
+        return list;
+    }();
 };
 
 template <typename T, std::size_t size>
 struct Kind<std::array<T, size>> {
-    static constexpr ValueKind kind = list_kind<std::array<T, size>>(
-        [](void* /*value*/, std::size_t count) { return count == size; });
+    static constexpr ValueKind kind = list_kind<std::array<T, size>>();
 };
 
 } // namespace detail

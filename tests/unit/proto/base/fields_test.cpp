@@ -215,6 +215,10 @@ TEST(Fields, AreReadFromJsonOnlyWhereTheirTypesHaveTheValue)
     EXPECT_FALSE(read("1.0", "[]"));
     EXPECT_FALSE(read("1", R"(["x"])"));
     EXPECT_FALSE(read("1", "5"));
+    Lane lane_of_three;
+    EXPECT_FALSE(read_json(nlohmann::json::parse(R"({"laps":1,"strides":[],"offset":[1,2,3],)"
+                                                 R"("rider":{"straps":3}})"),
+                           lane_of_three));
     EXPECT_FALSE(read("true", "[]"));
     EXPECT_EQ(read("1", "null"), (Lane{1, std::nullopt, {-1, 2}, {3}}));
 }
