@@ -30,9 +30,11 @@ MASKS = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r'("(?:wall_time_s|processor_time_s|speed_ratio|started_unix_s)": ?)[\d.e+-]+', r"\g<1>0.0"),
     (r'(?<="host": )\{[^}]*\}', lambda found: re.sub(
         r'(?<=: )("?)[^",\n]+', lambda value: f'"MASKED' if value[1] else "0", found[0])),
-    (r"(?m)^((?:version|commit|compiler|host|start|(?:wall|processor) time, s|speed ratio) \|).*",
-     r"\1 MASKED"),
-    (r"(?m)^(reported/\S+ \| [^|]* \|) [\d.]+ \| ([\d.]+) \| [\d.]+", r"\1 MASKED | \2 | MASKED"),
+    # In the tables of a page.
+    (r'(\["(?:version|commit|compiler|host|start|(?:wall|processor) time, s|speed ratio)",'
+     r'\{"text":)"[^"]*"', r'\1"MASKED"'),
+    (r'(\["reported/[^"]*",\{"text":"[^"]*","style":"words"\},)"[\d.]+",("[\d.]+"),"[\d.]+"',
+     r'\1"MASKED",\2,"MASKED"'),
     (r"(?m)^\d+/\d+ sessions \(.*\n", ""),  # progress
     (r"(?m)^hapnet-\w+: (SCHED_FIFO|locked memory).*\n", ""),  # of the machine, not of the run
 )]
