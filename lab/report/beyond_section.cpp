@@ -72,7 +72,7 @@ void add_tug_of_war(Section& section, const results::Results& results)
         cells.push_back({condition});
         for (const std::string& task : tasks) {
             cells.push_back({above_2hz(results, condition, task)});
-            is_empty = is_empty && cells.back().text == "";
+            is_empty = is_empty && cells.back().text.empty();
         }
     }
     if (is_empty) return;

@@ -73,6 +73,6 @@ template <typename Value, typename Keeps>
                                   std::string tip);
 
 /// Adds what a terminal shows as text, with its remarks below.
-void add_table(page::Section& section, const records::TextTable& table);
+void add_table(page::Section& section, const records::TextTable& text);
 
 } // namespace hapnet::lab::report

@@ -139,8 +139,9 @@ template <typename T>
 bool set_leaf(void* value, const Leaf& leaf)
 {
     auto read = value_from<T>(leaf);
-    if (read) *static_cast<T*>(value) = *std::move(read);
-    return read.has_value();
+    if (!read) return false;
+    *static_cast<T*>(value) = *std::move(read);
+    return true;
 }
 
 template <typename T>

@@ -110,16 +110,14 @@ private:
         while (next_ < typed_.size()) {
             const std::string word = typed_[next_++];
             Command* const command = chosen_ == nullptr ? command_of(word) : nullptr;
-            if (are_arguments) {
-                take_argument(word);
-            } else if (word == "--") {
+            if (!are_arguments && word == "--") {
                 are_arguments = true;
-            } else if (command != nullptr) {
+            } else if (!are_arguments && command != nullptr) {
                 chosen_ = command;
-            } else if (!is_option(word)) {
+            } else if (!are_arguments && is_option(word)) {
+                if (auto taken = take_option(word); !taken) return taken;
+            } else {
                 take_argument(word);
-            } else if (auto taken = take_option(word); !taken) {
-                return taken;
             }
         }
         return {};

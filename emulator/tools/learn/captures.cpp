@@ -125,9 +125,9 @@ std::uint64_t reordered_of(const std::vector<base::Duration>& arrivals)
 {
     std::uint64_t reordered = 0;
     base::Duration earliest = base::Duration::max(); // of those that were sent later
-    for (auto at = arrivals.rbegin(); at != arrivals.rend(); ++at) {
-        if (*at > earliest) ++reordered;
-        earliest = std::min(earliest, *at);
+    for (std::size_t i = arrivals.size(); i-- > 0;) {
+        if (arrivals[i] > earliest) ++reordered;
+        earliest = std::min(earliest, arrivals[i]);
     }
     return reordered;
 }

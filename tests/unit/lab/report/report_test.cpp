@@ -293,7 +293,8 @@ TEST(Report, CarriesTheDataOfItsFigures)
     EXPECT_EQ(bar.at("low"), 157.0);
     EXPECT_EQ(bar.at("high"), 163.0);
     const std::string words = test::words_of(page);
-    for (const auto& figure : test::data_of(page).at("figures")) {
+    const auto data = test::data_of(page);
+    for (const auto& figure : data.at("figures")) {
         const auto id = figure.at("id").get<std::string>();
         EXPECT_TRUE(holds(words, R"({"figure":")" + id + R"("})")) << id << " is shown";
         for (const char* key : {"title", "x", "y", "series"}) EXPECT_TRUE(figure.contains(key));
