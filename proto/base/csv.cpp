@@ -124,7 +124,7 @@ std::optional<Leaf> leaf_in(std::string_view cell, Shape shape)
         return cell.starts_with('-') ? number_in<std::int64_t>(cell)
                                      : number_in<std::uint64_t>(cell);
     case Shape::number: {
-        const auto number = number_in<double>(cell);
+        auto number = number_in<double>(cell);
         if (number && !std::isfinite(std::get<double>(*number))) return std::nullopt;
         return number;
     }

@@ -70,13 +70,13 @@ constexpr std::array<WholeUnit, 8> size_units{{
     {"B", 1},
 }};
 
-struct Quantity {
+struct NumberAndUnit {
     std::string_view digits;
     std::string_view unit;
 };
 
 /// "160ms" into "160" and "ms".
-Quantity split(std::string_view text)
+NumberAndUnit split(std::string_view text)
 {
     const auto end = std::min(text.find_first_not_of("0123456789."), text.size());
     return {text.substr(0, end), text.substr(end)};
@@ -96,7 +96,7 @@ std::optional<double> number(std::string_view digits, int exponent = 0)
 /// The whole number of the smallest unit that `digits` of `unit` are; nullopt: not whole, or not
 /// one of the units.
 template <std::size_t N>
-std::optional<std::uint64_t> whole(const Quantity& quantity,
+std::optional<std::uint64_t> whole(const NumberAndUnit& quantity,
                                    const std::array<WholeUnit, N>& whole_units)
 {
     const auto count = number(quantity.digits);
