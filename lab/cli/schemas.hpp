@@ -8,7 +8,7 @@
 
 namespace hapnet::lab {
 
-/// Those of docs/formats/schemas that are of this program's documents.
+/// The schemas in docs/formats/schemas of the documents that this program prints or writes.
 [[nodiscard]] std::span<const cli::DocumentSchema> written_schemas();
 
 } // namespace hapnet::lab

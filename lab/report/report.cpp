@@ -135,7 +135,8 @@ void add_reasons(std::vector<Json>& reasons, const results::Run& run)
         add(reason.is_string() ? reason.get<std::string>() : reason.dump());
 }
 
-/// Whether the results count, and why not; null for recorded sessions, which say so themselves.
+/// The banner that says whether the results are valid, and why not. null for recorded sessions:
+/// their own sections say it.
 Json validity(const results::Results& results)
 {
     std::vector<Json> reasons;
@@ -160,7 +161,7 @@ Json tile(std::size_t count, std::string_view text, std::string_view style)
     return Json::object({{"count", count}, {"text", text}, {"style", style}});
 }
 
-/// How many results stand against the paper in which way; null: none.
+/// The number of results for each verdict against the paper; null where there are none.
 Json tiles_of(const Claims& claims)
 {
     if (claims.are_none()) return nullptr;

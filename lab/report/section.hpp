@@ -24,7 +24,7 @@ using page::Section;
 /// The demo's own numbers.
 [[nodiscard]] std::optional<Section> demo_section(const results::Results& results);
 [[nodiscard]] std::optional<Section> replay_section(const results::Results& results);
-/// What the player shows; null: nothing.
+/// The data of the replay that the player shows; null where there is none.
 [[nodiscard]] Json replays_of(const results::Results& results);
 /// Recorded sessions over time, and their analysis.
 [[nodiscard]] std::optional<Section> session_section(const results::Results& results);

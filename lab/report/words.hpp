@@ -31,7 +31,7 @@ namespace hapnet::lab::report {
 
 [[nodiscard]] std::string_view claim_text(results::Claim claim); // "calibrated"
 [[nodiscard]] page::Json claim_badge(results::Claim claim);      // "" for none
-/// How a number came about, and how it stands to the paper's.
+/// The class of a number and its verdict against the paper's.
 [[nodiscard]] page::Json class_badge(results::Provenance provenance);
 [[nodiscard]] page::Json status_badge(results::LimitStatus status);
 [[nodiscard]] std::string_view tier_symbol(metrics::Tier tier);

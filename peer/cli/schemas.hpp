@@ -12,7 +12,7 @@ namespace hapnet::peer {
 /// The schemas of all that the program prints and writes.
 [[nodiscard]] std::vector<cli::DocumentSchema> schemas();
 
-/// Those of docs/formats/schemas.
+/// The part of them that is written by hand, in docs/formats/schemas.
 [[nodiscard]] std::span<const cli::DocumentSchema> written_schemas();
 
 } // namespace hapnet::peer

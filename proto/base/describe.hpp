@@ -92,15 +92,6 @@ struct Fields {
 namespace detail {
 
 template <typename T>
-struct WithoutOptional {
-    using type = T;
-};
-template <typename T>
-struct WithoutOptional<std::optional<T>> {
-    using type = T;
-};
-
-template <typename T>
 inline constexpr bool is_part = false;
 template <typename Struct, typename Value>
 inline constexpr bool is_part<Part<Struct, Value>> = true;
@@ -108,7 +99,7 @@ inline constexpr bool is_part<Part<Struct, Value>> = true;
 } // namespace detail
 
 template <typename Struct, typename Value, typename Format>
-requires FormatOf<Format, typename detail::WithoutOptional<Value>::type>
+requires FormatOf<Format, WithoutOptional<Value>>
 [[nodiscard]] constexpr auto field(std::string_view key, Value Struct::*member, Format format,
                                    std::string_view about = {})
 {

@@ -109,7 +109,7 @@ void add_row(std::vector<FieldRow>& rows, const void* root,
                  .is_always_printed = field.is_always_printed};
     if (field.printed_if != nullptr) row.printed_if = offset_in(root, &(owner.*field.printed_if));
     if constexpr (!std::is_same_v<Format, Unwritten>) {
-        row.written = &written_as<Format, typename WithoutOptional<Value>::type>;
+        row.written = &written_as<Format, WithoutOptional<Value>>;
     }
     if constexpr (requires { field.format.decimals; }) row.decimals = field.format.decimals;
     if constexpr (requires { Format::is_spare; }) row.is_spare = true;

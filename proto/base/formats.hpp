@@ -214,6 +214,21 @@ struct List {
     [[nodiscard]] std::string describe() const { return "a list: each " + element.describe(); }
 };
 
+namespace detail {
+template <typename T>
+struct Held {
+    using type = T;
+};
+template <typename T>
+struct Held<std::optional<T>> {
+    using type = T;
+};
+} // namespace detail
+
+/// The type that an optional holds; any other type itself.
+template <typename T>
+using WithoutOptional = typename detail::Held<T>::type;
+
 /// The format of the values of a type, where a field names none.
 template <typename T>
 struct UsualFormat;

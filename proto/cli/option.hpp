@@ -45,24 +45,13 @@ template <typename T, base::FormatOf<T> Format>
     return base::fail(reading.complaint()->substr(2)); // behind the empty name and its colon
 }
 
-namespace detail {
-template <typename T>
-struct Value {
-    using type = T;
-};
-template <typename T>
-struct Value<std::optional<T>> {
-    using type = T;
-};
-} // namespace detail
-
 /// Puts into `target` what the text says by a format.
 template <typename Target, typename Format>
-requires base::FormatOf<Format, typename detail::Value<Target>::type>
+requires base::FormatOf<Format, base::WithoutOptional<Target>>
 [[nodiscard]] Take into(Target& target, Format format)
 {
     return into(target, [format](const std::string& text) {
-        return value_of<typename detail::Value<Target>::type>(format, text);
+        return value_of<base::WithoutOptional<Target>>(format, text);
     });
 }
 

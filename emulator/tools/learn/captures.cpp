@@ -119,8 +119,8 @@ struct Arrival {
     std::size_t count = 0;
 };
 
-/// How many arrived after one that was sent later (RFC 4737, 3.3). `arrivals` in the order of
-/// sending.
+/// Number of packets that arrived after a packet that was sent later (RFC 4737, 3.3). `arrivals`:
+/// their times of arrival, in the order of sending.
 std::uint64_t reordered_of(const std::vector<base::Duration>& arrivals)
 {
     std::uint64_t reordered = 0;
