@@ -22,3 +22,13 @@ function(hapnet_schemas out)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in.cpp.in ${source} @ONLY)
     set(${out} ${source} PARENT_SCOPE)
 endfunction()
+
+# hapnet_schema_files(PROGRAM): writes all schemas that it prints into schemas/ of the build, from
+# where packages install them, whenever it is linked.
+function(hapnet_schema_files program)
+    set(folder ${PROJECT_BINARY_DIR}/schemas)
+    file(MAKE_DIRECTORY ${folder})
+    add_custom_command(TARGET ${program} POST_BUILD
+        COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${program}> -DOUT=${folder}
+                -P ${PROJECT_SOURCE_DIR}/cmake/write_schemas.cmake)
+endfunction()

@@ -21,22 +21,21 @@ base::Result<void> ensure_keys(const Checks& checks, const nlohmann::ordered_jso
     return {};
 }
 
-nlohmann::ordered_json judged(const Checks& checks, const nlohmann::ordered_json& statistics)
+std::vector<CheckReport> judged(const Checks& checks, const nlohmann::ordered_json& statistics)
 {
-    auto list = nlohmann::ordered_json::array();
+    std::vector<CheckReport> reports;
     for (const base::Condition& check : checks) {
-        const auto value = control::value_in(statistics, check).value_or(std::optional<double>{});
-        list.push_back({{"require", to_text(check)},
-                        {"value", value ? nlohmann::ordered_json(*value) : nullptr},
-                        {"met", control::is_met(check, statistics).value_or(false)}});
+        reports.push_back({.require = to_text(check),
+                           .value = control::value_in(statistics, check).value_or(std::nullopt),
+                           .is_met = control::is_met(check, statistics).value_or(false)});
     }
-    return list;
+    return reports;
 }
 
-std::string not_met(const nlohmann::ordered_json& judged_checks)
+std::string not_met(const nlohmann::ordered_json& statistics)
 {
     std::string text;
-    for (const auto& check : judged_checks) {
+    for (const auto& check : statistics.value("checks", nlohmann::ordered_json::array())) {
         if (check["met"].get<bool>()) continue;
         const auto& value = check["value"];
         text +=

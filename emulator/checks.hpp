@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/control/run_statistics.hpp"
 #include "proto/base/condition.hpp"
 #include "proto/base/result.hpp"
 
@@ -18,11 +19,11 @@ using Checks = std::vector<base::Condition>;
 [[nodiscard]] base::Result<void> ensure_keys(const Checks& checks,
                                              const nlohmann::ordered_json& statistics);
 
-/// A list of {require, value, met}; value is null where there is none.
-[[nodiscard]] nlohmann::ordered_json judged(const Checks& checks,
-                                            const nlohmann::ordered_json& statistics);
+[[nodiscard]] std::vector<CheckReport> judged(const Checks& checks,
+                                              const nlohmann::ordered_json& statistics);
 
-/// A line for each that was not met: "NOT MET: up.received>=1000 is required, and it is 42".
-[[nodiscard]] std::string not_met(const nlohmann::ordered_json& judged_checks);
+/// A line for each of the statistics' checks that was not met: "NOT MET: up.received>=1000 is
+/// required, and it is 42".
+[[nodiscard]] std::string not_met(const nlohmann::ordered_json& statistics);
 
 } // namespace hapnet::emulator

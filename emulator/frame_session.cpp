@@ -3,7 +3,6 @@
 #include "emulator/frame_session.hpp"
 
 #include "emulator/checks.hpp"
-#include "emulator/direction_report.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/report.hpp"
 #include "proto/net/clock.hpp"
@@ -18,21 +17,9 @@ namespace hapnet::emulator {
 
 namespace {
 
-using FrameJson = nlohmann::ordered_json;
-
 void say_of_frames(std::string_view text) { net::say("hapnet-emulator", text); }
 
-FrameJson json_of(const std::string& interface, const InterfaceState& side)
-{
-    return {{"interface", interface},
-            {"undisturbed", side.undisturbed},
-            {"not_ip", side.not_ip},
-            {"oversized", side.oversized},
-            {"lost_undisturbed", side.lost_undisturbed},
-            {"told_too_big", side.told_too_big}};
-}
-
-std::string frames_in_words(const char* name, const InterfaceState& side)
+std::string frames_in_words(const char* name, const InterfaceReport& side)
 {
     if (side.undisturbed + side.oversized == 0) return "";
     auto text = fmt::format("frames from {}: {} passed undisturbed", name, side.undisturbed);
@@ -122,31 +109,20 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
 nlohmann::ordered_json FrameSession::statistics(const control::DoWork& work)
 {
     look_at(run_, frames_, work, state_);
-    const PathState& path = state_.paths.front();
-    FrameJson json = head_of(run_, state_);
-    json["command"] = setup_.command;
-    if (setup_.through) json["through"] = *setup_.through;
-    json["frames"] = {{"a", json_of(frames_.a().interface, state_.a)},
-                      {"b", json_of(frames_.b().interface, state_.b)}};
-    json["generation"] = state_.generation;
-    add_course(json, run_, path);
-    add_files(json, run_);
-    add_validity(json, run_, reasons_against(state_, run_.options.budget));
-    json["up"] = json_of_way(path.up, run_, state_);
-    json["down"] = json_of_way(path.down, run_, state_);
-    add_checks(json, run_);
-    return json;
+    RunStatistics statistics = statistics_of_any(run_, state_);
+    statistics.command = setup_.command;
+    statistics.through = setup_.through;
+    statistics.frames = state_.interfaces;
+    tell_of_path(statistics, run_, state_);
+    return json_of(statistics, run_);
 }
 
 std::string FrameSession::summary() const
 {
-    const auto budget = run_.options.budget;
-    const PathState& path = state_.paths.front();
     return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(state_.elapsed),
                        run_.scenario.seed.value()) +
-           in_words("up   (A to B)", path.up.view(), budget) +
-           in_words("down (B to A)", path.down.view(), budget) + frames_in_words("A", state_.a) +
-           frames_in_words("B", state_.b) + incomplete(recorder_) + failures_in_words(state_);
+           words_of_path(run_, state_) + frames_in_words("A", state_.interfaces.a) +
+           frames_in_words("B", state_.interfaces.b) + closing_words(run_, state_);
 }
 
 bool FrameSession::finish()

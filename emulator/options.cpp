@@ -567,7 +567,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> all_words)
     ProbeOptions probing;
     const cli::Command& probe = add_probe(program, probing);
     FrameCommands frames{program};
-    const cli::SchemaCommand schema{program, {written_schemas().begin(), written_schemas().end()}};
+    const cli::SchemaCommand schema{program, schemas()};
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (schema.is_chosen()) return net::Answer{schema.text()};

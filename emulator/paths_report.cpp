@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/paths_report.hpp"
 
-#include "emulator/direction_report.hpp"
+#include "emulator/direction_words.hpp"
 #include "emulator/run_state.hpp"
 
 #include <nlohmann/json.hpp>
@@ -16,8 +16,6 @@
 namespace hapnet::emulator {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::span<const PathState> present(const RunState& state)
 {
@@ -34,13 +32,13 @@ struct Sums {
     std::uint64_t overflowed_down = 0;
     std::size_t paths = 0; // at present
 
-    [[nodiscard]] DirectionOfRun of_up() const
+    [[nodiscard]] DirectionReport of_up(base::Duration budget) const
     {
-        return {up, nullptr, strangers_up, overflowed_up};
+        return {&up, nullptr, strangers_up, overflowed_up, budget};
     }
-    [[nodiscard]] DirectionOfRun of_down() const
+    [[nodiscard]] DirectionReport of_down(base::Duration budget) const
     {
-        return {down, nullptr, strangers_down, overflowed_down};
+        return {&down, nullptr, strangers_down, overflowed_down, budget};
     }
 };
 
@@ -65,67 +63,62 @@ Sums sums_of(const RunState& state)
     return sums;
 }
 
-Json json_of(const PathState& client, const UpstreamRun& run, const RunState& state)
+ClientReport report_of(const PathState& client, const UpstreamRun& run, const RunState& state)
 {
-    Json json{
-        {"client", client.client}, {"name", client.name}, {"address", client.end_a->to_text()}};
-    add_course(json, run, client);
-    json["up"] = json_of_way(client.up, run, state);
-    json["down"] = json_of_way(client.down, run, state);
-    return json;
+    return {.number = client.client,
+            .name = client.name,
+            .address = client.end_a->to_text(),
+            .course = course_of(run, client),
+            .up = report_of(client.up, run, state),
+            .down = report_of(client.down, run, state)};
 }
 
-Json json_of(const PathState& link, const ports::Relay& relay, const LinksRun& run,
-             const RunState& state)
+LinkReport report_of(const PathState& link, const ports::Relay& relay, const LinksRun& run,
+                     const RunState& state)
 {
-    const auto text = [](const std::optional<net::Endpoint>& end) {
-        return end ? Json(end->to_text()) : Json(nullptr);
+    const auto text_of = [](const std::optional<net::Endpoint>& end) {
+        return end ? std::optional{end->to_text()} : std::nullopt;
     };
-    Json json{{"listen_1", relay.a().local.to_text()},
-              {"listen_2", relay.b().local.to_text()},
-              {"end_1", text(link.end_a)},
-              {"end_2", text(link.end_b)}};
-    add_course(json, run, link);
-    json["up"] = json_of_way(link.up, run, state);
-    json["down"] = json_of_way(link.down, run, state);
-    return json;
+    return {.listen_1 = relay.a().local.to_text(),
+            .listen_2 = relay.b().local.to_text(),
+            .end_1 = text_of(link.end_a),
+            .end_2 = text_of(link.end_b),
+            .course = course_of(run, link),
+            .up = report_of(link.up, run, state),
+            .down = report_of(link.down, run, state)};
 }
 
-/// `reasons`: what is against it apart from the sums.
-void add_sums(Json& json, const AnyRun& run, const Sums& sums, std::vector<std::string> reasons)
+/// `reasons`: what is against the run apart from the sums, which it refers to.
+void tell_of_sums(RunStatistics& statistics, const AnyRun& run, const Sums& sums,
+                  std::vector<std::string> reasons)
 {
-    const auto budget = run.options.budget;
-    for (const auto& [way, direction] :
-         {std::pair{"up", sums.of_up()}, std::pair{"down", sums.of_down()}}) {
-        for (const std::string& reason : reasons_against(direction, budget)) {
-            reasons.push_back(fmt::format("{}: {}", way, reason));
-        }
-    }
-    add_validity(json, run, std::move(reasons));
-    json["up"] = json_of(sums.of_up(), budget);
-    json["down"] = json_of(sums.of_down(), budget);
+    statistics.up = sums.of_up(run.options.budget);
+    statistics.down = sums.of_down(run.options.budget);
+    add_reasons(reasons, "up", statistics.up);
+    add_reasons(reasons, "down", statistics.down);
+    judge(statistics, run, std::move(reasons));
 }
 
 /// Each link has to be on time, not only all together.
-std::vector<std::string> reasons_of_links(const RunState& state, base::Duration budget)
+std::vector<std::string> reasons_of_links(const LinksRun& run, const RunState& state)
 {
     std::vector<std::string> reasons = state.failures;
     for (const PathState& link : present(state)) {
         for (const auto& [direction, way] :
              {std::pair{Direction::up, &link.up}, std::pair{Direction::down, &link.down}}) {
-            for (const std::string& reason : reasons_against(way->view(), budget)) {
-                reasons.push_back(fmt::format("{}: {}", way_name(link.name, direction), reason));
-            }
+            add_reasons(reasons, way_name(link.name, direction), report_of(*way, run, state));
         }
     }
     return reasons;
 }
 
-std::string status_of(const RunState& state, std::string_view paths)
+std::string status_of(const AnyRun& run, const RunState& state, std::string_view paths)
 {
     const Sums sums = sums_of(state);
+    const auto budget = run.options.budget;
     return fmt::format("{:.0f} s | {} {} | {} | {}", base::to_seconds(state.elapsed), sums.paths,
-                       paths, in_short("up", sums.of_up()), in_short("down", sums.of_down()));
+                       paths, in_short("up", sums.of_up(budget)),
+                       in_short("down", sums.of_down(budget)));
 }
 
 } // namespace
@@ -150,40 +143,36 @@ std::string ready_line(const UpstreamRun& run)
 
 nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
 {
-    Json json = head_of(run, state);
-    json["generation"] = state.generation;
-    json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
-    add_files(json, run);
-    add_sums(json, run, sums_of(state), reasons_of_links(state, run.options.budget));
-    Json links = Json::object();
+    const Sums sums = sums_of(state);
+    RunStatistics statistics = statistics_of_any(run, state);
+    statistics.course.at_start = configuration_of(run.scenario.profile.path);
+    tell_of_sums(statistics, run, sums, reasons_of_links(run, state));
+    auto& links = statistics.links.emplace();
     const auto& relays = run.port.relays();
     for (std::size_t i = 0; i < state.count; ++i) {
-        links[relays[i]->name()] = json_of(state.paths[i], *relays[i], run, state);
+        links.emplace_back(relays[i]->name(), report_of(state.paths[i], *relays[i], run, state));
     }
-    json["links"] = std::move(links);
-    add_checks(json, run);
-    return json;
+    return json_of(statistics, run);
 }
 
 nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state)
 {
-    Json json = head_of(run, state);
-    json["listen"] = run.port.local().to_text();
-    json["upstream"] = run.port.server().to_text();
-    json["clients_seen"] = state.server.clients_seen;
-    json["clients_forgotten"] = state.server.departed.count;
-    json["refused"] = state.server.refused;
-    json["generation"] = state.generation;
-    json["configuration_at_start"] = configuration_json(run.scenario.profile.path);
+    const Sums sums = sums_of(state);
+    RunStatistics statistics = statistics_of_any(run, state);
+    statistics.listen = run.port.local().to_text();
+    statistics.upstream = run.port.server().to_text();
+    statistics.clients_seen = state.server.clients_seen;
+    statistics.clients_forgotten = state.server.departed.count;
+    statistics.refused = state.server.refused;
+    statistics.course.at_start = configuration_of(run.scenario.profile.path);
     // Of whoever comes now.
-    json["configuration_at_end"] = configuration_json(*state.server.newcomers);
-    add_files(json, run);
-    add_sums(json, run, sums_of(state), state.failures);
-    Json clients = Json::array();
-    for (const PathState& client : present(state)) clients.push_back(json_of(client, run, state));
-    json["clients"] = std::move(clients);
-    add_checks(json, run);
-    return json;
+    statistics.course.at_end = configuration_of(*state.server.newcomers);
+    tell_of_sums(statistics, run, sums, state.failures);
+    auto& clients = statistics.clients.emplace();
+    for (const PathState& client : present(state)) {
+        clients.push_back(report_of(client, run, state));
+    }
+    return json_of(statistics, run);
 }
 
 std::string summary(const LinksRun& run, const RunState& state)
@@ -194,10 +183,10 @@ std::string summary(const LinksRun& run, const RunState& state)
         for (const auto& [direction, way] :
              {std::pair{Direction::up, &link.up}, std::pair{Direction::down, &link.down}}) {
             const auto title = way_name(link.name, direction);
-            text += in_words(title.c_str(), way->view(), run.options.budget);
+            text += in_words(title, report_of(*way, run, state));
         }
     }
-    return text + incomplete(run.recorder) + failures_in_words(state);
+    return text + closing_words(run, state);
 }
 
 std::string summary(const UpstreamRun& run, const RunState& state)
@@ -210,19 +199,19 @@ std::string summary(const UpstreamRun& run, const RunState& state)
         text +=
             fmt::format("{} datagrams found no place for their client: raise --clients\n", refused);
     }
-    return text + in_words("up   (to the server)", sums.of_up(), run.options.budget) +
-           in_words("down (to the clients)", sums.of_down(), run.options.budget) +
-           incomplete(run.recorder) + failures_in_words(state);
+    const auto budget = run.options.budget;
+    return text + in_words("up   (to the server)", sums.of_up(budget)) +
+           in_words("down (to the clients)", sums.of_down(budget)) + closing_words(run, state);
 }
 
-std::string status_line(const LinksRun& /*run*/, const RunState& state)
+std::string status_line(const LinksRun& run, const RunState& state)
 {
-    return status_of(state, "links");
+    return status_of(run, state, "links");
 }
 
-std::string status_line(const UpstreamRun& /*run*/, const RunState& state)
+std::string status_line(const UpstreamRun& run, const RunState& state)
 {
-    return status_of(state, "clients");
+    return status_of(run, state, "clients");
 }
 
 } // namespace hapnet::emulator

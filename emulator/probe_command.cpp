@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
-#include "emulator/stream_json.hpp"
 #include "emulator/tools/probe_answerer.hpp"
 #include "emulator/tools/probe_message.hpp"
 #include "emulator/tools/probe_statistics.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/base/version.hpp"
 #include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
@@ -28,7 +28,6 @@ namespace hapnet::emulator {
 namespace {
 
 using namespace std::chrono_literals;
-using ProbeJson = nlohmann::ordered_json;
 
 double probe_ms(base::Duration duration) { return 1e3 * base::to_seconds(duration); }
 
@@ -37,49 +36,12 @@ net::Endpoint any_of(int family)
     return net::resolve({family == AF_INET6 ? "::" : "0.0.0.0", 0});
 }
 
-ProbeJson json_of(const std::optional<tools::ProbeDelays>& delays)
-{
-    if (!delays) return nullptr;
-    return {{"min", probe_ms(delays->min)},
-            {"mean", probe_ms(delays->mean)},
-            {"p50", probe_ms(delays->quantiles.p50)},
-            {"p99", probe_ms(delays->quantiles.p99)},
-            {"max", probe_ms(delays->quantiles.max)}};
-}
-
-ProbeJson json_of(const tools::ProbeWay& way)
-{
-    return {{"lost", way.lost}, {"delay_ms", json_of(way.delay)}, {"ipdv_ms", json_of(way.ipdv)}};
-}
-
-std::string json_of(const tools::ProbeSummary& of, const net::Endpoint& target)
-{
-    const auto loss =
-        of.sent == 0 ? 0.0
-                     : static_cast<double>(of.sent - of.answered) / static_cast<double>(of.sent);
-    const ProbeJson json{{"program", "hapnet-emulator"},
-                         {"version", base::version()},
-                         {"target", target.to_text()},
-                         {"sent", of.sent},
-                         {"answered", of.answered},
-                         {"loss", loss},
-                         {"copies", of.copies},
-                         {"reordered", of.reordered},
-                         {"clocks_are_one", of.clocks_are_one},
-                         {"round_trip", json_of(of.round_trip)},
-                         {"there", json_of(of.there)},
-                         {"back", json_of(of.back)},
-                         {"lost_on_unknown_way", of.unknown}};
-    return json.dump(2) + "\n";
-}
-
 std::string line_of(const char* name, const std::optional<tools::ProbeDelays>& delays)
 {
     if (!delays) return "";
     return fmt::format("{:<18}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name,
-                       probe_ms(delays->min), probe_ms(delays->mean),
-                       probe_ms(delays->quantiles.p50), probe_ms(delays->quantiles.p99),
-                       probe_ms(delays->quantiles.max));
+                       probe_ms(delays->min), probe_ms(delays->mean), probe_ms(delays->p50),
+                       probe_ms(delays->p99), probe_ms(delays->max));
 }
 
 std::string losses_in_words(const tools::ProbeSummary& of)
@@ -93,12 +55,9 @@ std::string losses_in_words(const tools::ProbeSummary& of)
 
 std::string words_of(const tools::ProbeSummary& of, const net::Endpoint& target)
 {
-    const auto lost = of.sent - of.answered;
-    auto text = fmt::format(
-        "--- {} probe statistics ---\n{} sent, {} answered, {:.3g}% lost{}", target.to_text(),
-        of.sent, of.answered,
-        of.sent == 0 ? 0.0 : 100.0 * static_cast<double>(lost) / static_cast<double>(of.sent),
-        losses_in_words(of));
+    auto text =
+        fmt::format("--- {} probe statistics ---\n{} sent, {} answered, {:.3g}% lost{}",
+                    target.to_text(), of.sent, of.answered, 100.0 * of.loss(), losses_in_words(of));
     if (of.copies > 0) text += fmt::format(", {} copies", of.copies);
     if (of.reordered > 0) text += fmt::format(", {} reordered", of.reordered);
     text += "\n";
@@ -147,7 +106,13 @@ public:
     int finish()
     {
         const auto summary = statistics_.summary();
-        fmt::print("{}", options_.as_json ? json_of(summary, target_) : words_of(summary, target_));
+        if (options_.as_json) {
+            const tools::ProbeReport report{
+                .version = base::version(), .target = target_.to_text(), .summary = summary};
+            fmt::print("{}\n", base::json_of(report).dump(2));
+        } else {
+            fmt::print("{}", words_of(summary, target_));
+        }
         if (csv_) csv_->commit(statistics_.csv());
         if (summary.answered > 0) return 0;
         net::say("hapnet-emulator",

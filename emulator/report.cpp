@@ -7,11 +7,13 @@
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
-#include "emulator/direction_report.hpp"
+#include "emulator/direction_words.hpp"
 #include "emulator/run_state.hpp"
-#include "emulator/stream_json.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/base/version.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -23,37 +25,24 @@ namespace hapnet::emulator {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json text_of(const std::optional<net::Endpoint>& address)
-{
-    return address ? Json(address->to_text()) : Json(nullptr);
-}
-
 const ports::Relay& relay_of(const Run& run) { return *run.port.relays().front(); }
 
 /// The changes that a path saw, each with the settings that changed. The generation is that of the
 /// run where it has one path only.
-Json changes_json(const std::vector<ConditionChange>& changes, std::string_view name)
+std::vector<ChangeReport> changes_of(const std::vector<ConditionChange>& changes,
+                                     std::string_view name)
 {
-    Json list = Json::array();
+    std::vector<ChangeReport> list;
     for (const ConditionChange& change : changes) {
-        Json json = Json::object();
-        if (name.empty()) json["generation"] = change.generation;
-        json["elapsed_s"] = base::to_seconds(change.elapsed);
-        json["effective_at"] = {{"up", change.effective_up}, {"down", change.effective_down}};
-        json["by"] = to_text(change.by);
-        Json settings = Json::object();
-        for (const auto& [key, value] :
-             texts_of(Direction::up, change.patch(Direction::up), name)) {
-            settings[key] = value;
+        ChangeReport& report = list.emplace_back();
+        if (name.empty()) report.generation = change.generation;
+        report.elapsed = change.elapsed;
+        report.effective_at = {change.effective_up, change.effective_down};
+        report.by = change.by;
+        for (const Direction direction : {Direction::up, Direction::down}) {
+            auto texts = texts_of(direction, change.patch(direction), name);
+            std::ranges::move(texts, std::back_inserter(report.settings));
         }
-        for (const auto& [key, value] :
-             texts_of(Direction::down, change.patch(Direction::down), name)) {
-            settings[key] = value;
-        }
-        json["settings"] = std::move(settings);
-        list.push_back(std::move(json));
     }
     return list;
 }
@@ -72,98 +61,108 @@ std::vector<std::string> lacks_of(const Recorder& recorder)
 
 } // namespace
 
-std::string incomplete(const Recorder& recorder)
+Configuration configuration_of(const Path& path)
 {
-    std::string text;
-    for (const std::string& lack : lacks_of(recorder))
-        text += fmt::format("NOT COMPLETE: {}\n", lack);
-    return text;
+    const auto of = [](Direction direction, const Conditions& conditions) {
+        auto texts = texts_of(direction, to_patch(conditions));
+        for (auto& [key, value] : texts) key.erase(0, key.find('.') + 1);
+        return texts;
+    };
+    return {of(Direction::up, path.up), of(Direction::down, path.down)};
 }
 
-std::string failures_in_words(const RunState& state)
+RunStatistics statistics_of_any(const AnyRun& run, const RunState& state)
 {
-    std::string text;
-    for (const std::string& failure : state.failures)
-        text += fmt::format("NOT VALID: {}\n", failure);
-    return text;
+    RunStatistics statistics;
+    statistics.version = base::version();
+    statistics.commit = base::commit();
+    statistics.compiler = base::compiler();
+    statistics.seed = run.scenario.seed.value();
+    statistics.timing = base::name_of(run.options.timing);
+    statistics.budget = run.options.budget;
+    statistics.duration = state.elapsed;
+    statistics.real_time = {run.real_time.fifo, run.real_time.locked_memory};
+    statistics.generation = state.generation;
+    statistics.profile = to_text(run.scenario.profile);
+    statistics.fates = run.options.fates;
+    statistics.replay = run.options.replay;
+    statistics.capture = run.options.capture;
+    statistics.fates_lost = run.recorder.fates_lost();
+    statistics.capture_lost = run.recorder.capture_lost();
+    if (!state.is_over) statistics.elapsed = state.elapsed;
+    return statistics;
 }
 
-void add_validity(nlohmann::ordered_json& json, const AnyRun& run, std::vector<std::string> reasons)
+CourseReport course_of(const AnyRun& run, const PathState& path)
+{
+    return {.at_start = configuration_of(profile_of(run.scenario.profile, path.name).path),
+            .at_end = configuration_of(*path.conditions),
+            .changes = changes_of(path.changes, path.name),
+            .changes_omitted = path.changes_omitted};
+}
+
+DirectionReport report_of(const WayState& way, const AnyRun& run, const RunState& state)
+{
+    return {.statistics = &way.statistics,
+            .stream = &way.stream,
+            .strangers = way.strangers,
+            .overflowed = way.overflowed,
+            .budget = run.options.budget,
+            .has_distributions = state.is_over && run.options.fates.has_value()};
+}
+
+void judge(RunStatistics& statistics, const AnyRun& run, std::vector<std::string> reasons)
 {
     for (const std::string& lack : lacks_of(run.recorder))
         reasons.push_back(fmt::format("files: {}", lack));
-    json["valid"] = reasons.empty();
-    json["invalid_because"] = std::move(reasons);
+    statistics.is_valid = reasons.empty();
+    statistics.invalid_because = std::move(reasons);
 }
 
-nlohmann::ordered_json configuration_json(const Path& path)
+void add_reasons(std::vector<std::string>& reasons, std::string_view way,
+                 const DirectionReport& report)
 {
-    const auto of = [](Direction direction, const Conditions& conditions) {
-        Json json = Json::object();
-        for (const auto& [key, value] : texts_of(direction, to_patch(conditions))) {
-            json[key.substr(key.find('.') + 1)] = value;
-        }
-        return json;
-    };
-    return {{"up", of(Direction::up, path.up)}, {"down", of(Direction::down, path.down)}};
-}
-
-nlohmann::ordered_json head_of(const AnyRun& run, const RunState& state)
-{
-    return {{"program", "hapnet-emulator"},
-            {"version", base::version()},
-            {"commit", base::commit()},
-            {"compiler", base::compiler()},
-            {"seed", run.scenario.seed.value()},
-            {"timing", base::name_of(run.options.timing)},
-            {"budget_us", json_in_us(run.options.budget)},
-            {"duration_s", base::to_seconds(state.elapsed)},
-            {"real_time",
-             {{"fifo", run.real_time.fifo}, {"locked_memory", run.real_time.locked_memory}}}};
-}
-
-void add_course(nlohmann::ordered_json& json, const AnyRun& run, const PathState& path)
-{
-    json["configuration_at_start"] =
-        configuration_json(profile_of(run.scenario.profile, path.name).path);
-    json["configuration_at_end"] = configuration_json(*path.conditions);
-    json["changes"] = changes_json(path.changes, path.name);
-    json["changes_omitted"] = path.changes_omitted;
-}
-
-void add_files(nlohmann::ordered_json& json, const AnyRun& run)
-{
-    json["profile"] = to_text(run.scenario.profile);
-    json["fates"] = or_null(run.options.fates);
-    json["replay"] = or_null(run.options.replay);
-    json["capture"] = or_null(run.options.capture);
-    json["fates_lost"] = run.recorder.fates_lost();
-    json["capture_lost"] = run.recorder.capture_lost();
-}
-
-nlohmann::ordered_json json_of_way(const WayState& way, const AnyRun& run, const RunState& state)
-{
-    DirectionOfRun direction = way.view();
-    direction.has_distributions = state.is_over && run.options.fates.has_value();
-    return json_of(direction, run.options.budget);
-}
-
-std::vector<std::string> reasons_against(const RunState& state, base::Duration budget)
-{
-    std::vector<std::string> reasons = state.failures;
-    const PathState& path = state.paths.front();
-    for (const auto& [way, one] : {std::pair{"up", &path.up}, std::pair{"down", &path.down}}) {
-        for (const std::string& reason : reasons_against(one->view(), budget)) {
-            reasons.push_back(fmt::format("{}: {}", way, reason));
-        }
+    for (const std::string& reason : report.reasons()) {
+        reasons.push_back(fmt::format("{}: {}", way, reason));
     }
-    return reasons;
 }
 
-void add_checks(nlohmann::ordered_json& json, const AnyRun& run)
+void tell_of_path(RunStatistics& statistics, const AnyRun& run, const RunState& state)
 {
-    const auto& checks = run.scenario.checks;
-    if (!checks.empty()) json["checks"] = judged(checks, json);
+    const PathState& path = state.paths.front();
+    statistics.course = course_of(run, path);
+    statistics.up = report_of(path.up, run, state);
+    statistics.down = report_of(path.down, run, state);
+    std::vector<std::string> reasons = state.failures;
+    add_reasons(reasons, "up", statistics.up);
+    add_reasons(reasons, "down", statistics.down);
+    judge(statistics, run, std::move(reasons));
+}
+
+nlohmann::ordered_json json_of(RunStatistics& statistics, const AnyRun& run)
+{
+    auto json = base::json_of(statistics);
+    if (run.scenario.checks.empty()) return json;
+    statistics.checks = judged(run.scenario.checks, json);
+    json["checks"] = base::json_of(statistics.checks);
+    return json;
+}
+
+std::string words_of_path(const AnyRun& run, const RunState& state)
+{
+    const PathState& path = state.paths.front();
+    return in_words("up   (A to B)", report_of(path.up, run, state)) +
+           in_words("down (B to A)", report_of(path.down, run, state));
+}
+
+std::string closing_words(const AnyRun& run, const RunState& state)
+{
+    std::string text;
+    for (const std::string& lack : lacks_of(run.recorder))
+        text += fmt::format("NOT COMPLETE: {}\n", lack);
+    for (const std::string& failure : state.failures)
+        text += fmt::format("NOT VALID: {}\n", failure);
+    return text;
 }
 
 std::string ready_line(const Run& run)
@@ -177,38 +176,33 @@ std::string ready_line(const Run& run)
 nlohmann::ordered_json statistics_of(const Run& run, const RunState& state)
 {
     const PathState& path = state.paths.front();
-    Json json = head_of(run, state);
-    json["listen_a"] = relay_of(run).a().local.to_text();
-    json["listen_b"] = relay_of(run).b().local.to_text();
-    json["a"] = text_of(path.end_a);
-    json["b"] = text_of(path.end_b);
-    json["strangers"] = path.up.strangers + path.down.strangers;
-    json["overflowed"] = path.up.overflowed + path.down.overflowed;
-    json["generation"] = state.generation;
-    add_course(json, run, path);
-    add_files(json, run);
-    add_validity(json, run, reasons_against(state, run.options.budget));
-    json["up"] = json_of_way(path.up, run, state);
-    json["down"] = json_of_way(path.down, run, state);
-    add_checks(json, run);
-    return json;
+    const auto text_of = [](const std::optional<net::Endpoint>& address) {
+        return address ? std::optional{address->to_text()} : std::nullopt;
+    };
+    RunStatistics statistics = statistics_of_any(run, state);
+    statistics.listen_a = relay_of(run).a().local.to_text();
+    statistics.listen_b = relay_of(run).b().local.to_text();
+    statistics.a = text_of(path.end_a);
+    statistics.b = text_of(path.end_b);
+    statistics.strangers = path.up.strangers + path.down.strangers;
+    statistics.overflowed = path.up.overflowed + path.down.overflowed;
+    tell_of_path(statistics, run, state);
+    return json_of(statistics, run);
 }
 
 std::string summary(const Run& run, const RunState& state)
 {
-    const PathState& path = state.paths.front();
     return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(state.elapsed),
                        run.scenario.seed.value()) +
-           in_words("up   (A to B)", path.up.view(), run.options.budget) +
-           in_words("down (B to A)", path.down.view(), run.options.budget) +
-           incomplete(run.recorder) + failures_in_words(state);
+           words_of_path(run, state) + closing_words(run, state);
 }
 
-std::string status_line(const Run& /*run*/, const RunState& state)
+std::string status_line(const Run& run, const RunState& state)
 {
     const PathState& path = state.paths.front();
     return fmt::format("{:.0f} s | {} | {}", base::to_seconds(state.elapsed),
-                       in_short("up", path.up.view()), in_short("down", path.down.view()));
+                       in_short("up", report_of(path.up, run, state)),
+                       in_short("down", report_of(path.down, run, state)));
 }
 
 } // namespace hapnet::emulator

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/control/run_statistics.hpp"
 #include "emulator/core/all_paths.hpp"
-#include "emulator/direction_report.hpp"
+#include "emulator/core/direction_report.hpp"
 #include "emulator/options.hpp"
 #include "emulator/ports/links.hpp"
 #include "emulator/recorder.hpp"
@@ -52,41 +53,42 @@ using Run = RunOf<ports::Links, false>;
 
 // The parts of statistics that runs of all kinds have.
 
-/// What they begin with: the program, and how it ran.
-[[nodiscard]] nlohmann::ordered_json head_of(const AnyRun& run, const RunState& state);
+/// What they begin with: the program, how it ran, the profile and the files of the run.
+[[nodiscard]] RunStatistics statistics_of_any(const AnyRun& run, const RunState& state);
 
 /// What of each direction differs from the default, as a profile says it.
-[[nodiscard]] nlohmann::ordered_json configuration_json(const Path& path);
+[[nodiscard]] Configuration configuration_of(const Path& path);
 
 /// What held on the path at the start and in the end, and how it changed. While the run goes on,
 /// only the last changes.
-void add_course(nlohmann::ordered_json& json, const AnyRun& run, const PathState& path);
+[[nodiscard]] CourseReport course_of(const AnyRun& run, const PathState& path);
 
-/// The profile and the files of the run.
-void add_files(nlohmann::ordered_json& json, const AnyRun& run);
+/// A direction of one path, which it refers to. A run that keeps each fate keeps whole
+/// distributions, too, once it is over.
+[[nodiscard]] DirectionReport report_of(const WayState& way, const AnyRun& run,
+                                        const RunState& state);
 
-/// Whether the run counts: it does when nothing is against it (`reasons`), and its files
-/// lack nothing.
-void add_validity(nlohmann::ordered_json& json, const AnyRun& run,
-                  std::vector<std::string> reasons);
+/// Adds what is against the validity of a direction: "up: ...".
+void add_reasons(std::vector<std::string>& reasons, std::string_view way,
+                 const DirectionReport& report);
 
-/// A direction of one path. A run that keeps each fate keeps whole distributions, too, once it is
-/// over.
-[[nodiscard]] nlohmann::ordered_json json_of_way(const WayState& way, const AnyRun& run,
-                                                 const RunState& state);
+/// Whether the run counts: it does when nothing is against it (`reasons`), and its files lack
+/// nothing.
+void judge(RunStatistics& statistics, const AnyRun& run, std::vector<std::string> reasons);
 
-/// What is against the validity of a run with one path: what it has lost, and "up: ...".
-[[nodiscard]] std::vector<std::string> reasons_against(const RunState& state,
-                                                       base::Duration budget);
+/// All that is told of the path of a run that has one.
+void tell_of_path(RunStatistics& statistics, const AnyRun& run, const RunState& state);
 
-/// What has become of the checks, if there are any: after all that they may speak of.
-void add_checks(nlohmann::ordered_json& json, const AnyRun& run);
+/// With what has become of the checks, if there are any.
+[[nodiscard]] nlohmann::ordered_json json_of(RunStatistics& statistics, const AnyRun& run);
 
-/// What is missing in the files that were asked for, a line each.
-[[nodiscard]] std::string incomplete(const Recorder& recorder);
+// The parts of a summary that runs of all kinds have.
 
-/// What the run has lost for good or for a time, a line each.
-[[nodiscard]] std::string failures_in_words(const RunState& state);
+/// A line for each direction of a run that has one path.
+[[nodiscard]] std::string words_of_path(const AnyRun& run, const RunState& state);
+/// What is missing in the files that were asked for, and what the run has lost for good or for a
+/// time, a line each.
+[[nodiscard]] std::string closing_words(const AnyRun& run, const RunState& state);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run, const RunState& state);

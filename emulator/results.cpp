@@ -44,7 +44,7 @@ bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
     } catch (const std::system_error&) {
         failure = std::current_exception();
     }
-    const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
+    const std::string failed = not_met(statistics);
     net::tell(base::visible_lines(reports.summary() + failed));
     if (failure) std::rethrow_exception(failure);
     const bool is_complete = recorder.fates_lost() == 0 && recorder.capture_lost() == 0;

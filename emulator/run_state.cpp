@@ -76,10 +76,14 @@ std::size_t look_at(const ports::Upstream::Client& client, std::size_t changes_m
     return bytes;
 }
 
-InterfaceState state_of(const ports::Frames::Side& side)
+InterfaceReport report_of(const ports::Frames::Side& side)
 {
-    return {side.undisturbed, side.not_ip, side.oversized, side.lost_undisturbed,
-            side.told_too_big};
+    return {.interface = side.interface,
+            .undisturbed = side.undisturbed,
+            .not_ip = side.not_ip,
+            .oversized = side.oversized,
+            .lost_undisturbed = side.lost_undisturbed,
+            .told_too_big = side.told_too_big};
 }
 
 /// Takes those out that are none of `present`; the others stay in their order.
@@ -160,8 +164,7 @@ void look_at(const AnyRun& run, const ports::Frames& port, const control::DoWork
         look_at(port.path(), told_changes(state, 1), path);
         path.up.overflowed = port.a().socket.overflowed();
         path.down.overflowed = port.b().socket.overflowed();
-        state.a = state_of(port.a());
-        state.b = state_of(port.b());
+        state.interfaces = {report_of(port.a()), report_of(port.b())};
         end_look(run, state);
         return true;
     });

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/control/run_statistics.hpp"
 #include "emulator/core/change_log.hpp"
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/emulated_path.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
-#include "emulator/direction_report.hpp"
 #include "emulator/ports/frames.hpp"
 #include "emulator/ports/links.hpp"
 #include "emulator/ports/upstream.hpp"
@@ -31,11 +31,6 @@ struct WayState {
     StreamTotals stream{};
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
-
-    [[nodiscard]] DirectionOfRun view() const
-    {
-        return {statistics, &stream, strangers, overflowed};
-    }
 };
 
 /// A path as it was at a moment, and how its conditions have changed until then.
@@ -49,15 +44,6 @@ struct PathState {
     std::uint64_t changes_omitted = 0;    // before them, or for want of room
     WayState up;
     WayState down;
-};
-
-/// What an interface passed on, apart from what its path did.
-struct InterfaceState {
-    std::uint64_t undisturbed = 0;
-    std::uint64_t not_ip = 0;
-    std::uint64_t oversized = 0;
-    std::uint64_t lost_undisturbed = 0;
-    std::uint64_t told_too_big = 0;
 };
 
 /// A run as it was at a moment: all that its reports are made from, apart from what never changes.
@@ -80,8 +66,7 @@ struct RunState {
         std::shared_ptr<const Path> newcomers; // what holds for whoever comes
     };
     Server server{};
-    InterfaceState a{}; // of a run between two interfaces
-    InterfaceState b{};
+    InterfaceReports interfaces{}; // of a run between two
 };
 
 // Looks at a run by steps of `work`, of which none copies more than some 100 KiB. `state` is one

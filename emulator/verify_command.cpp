@@ -6,6 +6,7 @@
 #include "emulator/profile_file.hpp"
 #include "emulator/run_files.hpp"
 #include "emulator/tools/verify/verify.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
@@ -22,28 +23,6 @@
 namespace hapnet::emulator {
 
 namespace {
-
-nlohmann::json json_of(const std::vector<tools::TestResult>& results)
-{
-    auto list = nlohmann::json::array();
-    for (const tools::TestResult& result : results) {
-        list.push_back({{"test", result.name},
-                        {"outcome", to_text(result.outcome)},
-                        {"statistic", result.statistic},
-                        {"p_value", result.p_value ? nlohmann::json(*result.p_value) : nullptr},
-                        {"says", result.sentence}});
-    }
-    return list;
-}
-
-std::string json_of(const tools::Verification& verification)
-{
-    const nlohmann::json json{{"passed", !verification.failed()},
-                              {"up", json_of(verification.up)},
-                              {"down", json_of(verification.down)},
-                              {"between", json_of(verification.between)}};
-    return json.dump(2) + "\n";
-}
 
 /// The fates of a run, and the profile that they are to follow.
 struct Evidence {
@@ -128,7 +107,8 @@ base::Result<int> run(const VerifyOptions& request)
                              .spacing = request.spacing,
                              .name = request.link.value_or("")};
     const auto verification = verify(claim, evidence->fates.up, evidence->fates.down);
-    fmt::print("{}", request.as_json ? json_of(verification) : to_text(verification));
+    fmt::print("{}", request.as_json ? base::json_of(verification).dump(2) + "\n"
+                                     : to_text(verification));
     return verification.failed() ? net::exit_failed : 0;
 }
 

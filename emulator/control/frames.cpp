@@ -2,46 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/control/frames.hpp"
 
+#include "proto/base/fields_json.hpp"
+#include "proto/control/core/reply.hpp"
+
 #include <algorithm>
-#include <iterator>
-#include <spdlog/fmt/fmt.h>
-#include <utility>
 
 namespace hapnet::emulator {
 
 namespace {
 
 constexpr std::array directions{Direction::up, Direction::down};
-
-template <typename... Values>
-void put(std::string& text, fmt::format_string<Values...> form, Values&&... values)
-{
-    fmt::format_to(std::back_inserter(text), form, std::forward<Values>(values)...);
-}
-
-void put_name(std::string& text, std::string_view name)
-{
-    text += '"';
-    for (const char c : name) { // of letters, digits and few signs; see path_name.hpp
-        if (c != '"' && c != '\\' && static_cast<unsigned char>(c) >= ' ') text += c;
-    }
-    text += '"';
-}
-
-void put_pulse(std::string& text, const Pulse& pulse)
-{
-    if (pulse.count == 0) {
-        text += ",\"delay_ms\":null,\"late_us\":null}";
-        return;
-    }
-    const auto count = static_cast<double>(pulse.count);
-    put(text,
-        ",\"delay_ms\":{{\"min\":{:.4f},\"mean\":{:.4f},\"max\":{:.4f}}},"
-        "\"late_us\":{{\"mean\":{:.1f},\"max\":{:.1f}}}}}",
-        base::to_nanoseconds(pulse.delay_min) / 1e6, pulse.delay_sum_ns / count / 1e6,
-        base::to_nanoseconds(pulse.delay_max) / 1e6, pulse.late_sum_ns / count / 1e3,
-        base::to_nanoseconds(pulse.late_max) / 1e3);
-}
 
 } // namespace
 
@@ -97,49 +67,43 @@ Frames::Look Frames::share_out(AllPaths& paths, const control::DoWork& work)
     return look;
 }
 
-void Frames::write(std::string& text, Way& way, const Seen& seen)
+WayFrame Frames::frame_of(Way& way, const Seen& seen)
 {
     const Counts& now = seen.counts;
     // A path that has gone and come again begins at 0.
     if (now.received < way.counts.received) way = {};
-    put(text, "{{\"received\":{},\"delivered\":{},\"duplicated\":{},\"dropped\":{{",
-        now.received - way.counts.received, now.delivered - way.counts.delivered,
-        now.duplicated - way.counts.duplicated);
-    bool is_first = true;
-    for (std::size_t i = 0; i < drop_causes.size(); ++i) {
-        const auto count = now.dropped[i] - way.counts.dropped[i];
-        if (count == 0) continue;
-        put(text, "{}\"{}\":{}", is_first ? "" : ",", to_text(drop_causes[i]), count);
-        is_first = false;
+    const Counts& before = way.counts;
+    WayFrame frame{.received = now.received - before.received,
+                   .delivered = now.delivered - before.delivered,
+                   .duplicated = now.duplicated - before.duplicated,
+                   .dropped = {},
+                   .in_flight = seen.in_flight,
+                   .pulse = way.pulse};
+    for (const DropCause cause : drop_causes) {
+        const auto count = now.dropped[cause] - before.dropped[cause];
+        if (count > 0) frame.dropped.emplace_back(to_text(cause), count);
     }
-    put(text, "}},\"in_flight\":{}", seen.in_flight);
-    put_pulse(text, way.pulse);
     way = {{}, now};
+    return frame;
 }
 
 void Frames::write(std::string& text, Watch& watch, const Look& look, std::uint64_t left_out)
 {
-    put(text,
-        "{{\"ok\":true,\"frame\":{},\"at_ns\":{},\"elapsed_s\":{:.4f},\"generation\":{},\"paths\":"
-        "[",
-        watch.frames++, look.at.time_since_epoch().count(), base::to_seconds(look.elapsed),
-        look.generation);
+    EmulatorFrame frame{.number = watch.frames++,
+                        .at = look.at,
+                        .elapsed = look.elapsed,
+                        .generation = look.generation,
+                        .paths = {}};
     for (const SeenPath& one : look.paths) {
         Ways& ways = watch.paths[one.name];
-        text += &one == look.paths.data() ? "{\"name\":" : ",{\"name\":";
-        put_name(text, one.name);
-        text += ",\"up\":";
-        write(text, ways[0], one.ways[0]);
-        text += ",\"down\":";
-        write(text, ways[1], one.ways[1]);
-        text += '}';
+        frame.paths.push_back(
+            {one.name, frame_of(ways[0], one.ways[0]), frame_of(ways[1], one.ways[1])});
     }
-    text += ']';
     if (look.all_paths > look.paths.size()) {
-        put(text, ",\"paths_left_out\":{}", look.all_paths - look.paths.size());
+        frame.paths_left_out = look.all_paths - look.paths.size();
     }
-    if (left_out > 0) put(text, ",\"left_out\":{}", left_out);
-    text += '}';
+    if (left_out > 0) frame.left_out = left_out;
+    text += control::line_of(base::json_of(frame));
     if (watch.paths.size() <= 2 * paths_max) return;
     // Clients come and go: forget those that have gone.
     std::erase_if(watch.paths, [&](const auto& entry) {

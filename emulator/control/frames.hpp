@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/control/frame_report.hpp"
 #include "emulator/core/all_paths.hpp"
 #include "emulator/core/pulse.hpp"
 #include "emulator/core/statistics.hpp"
@@ -35,7 +36,7 @@ private:
         std::uint64_t received = 0;
         std::uint64_t delivered = 0;
         std::uint64_t duplicated = 0;
-        std::array<std::uint64_t, drop_causes.size()> dropped{};
+        base::ByName<DropCause, std::uint64_t> dropped{};
     };
     /// The counters of one direction of a path at a look.
     struct Seen {
@@ -69,7 +70,8 @@ private:
     [[nodiscard]] static Look look(AllPaths& paths);
     /// Takes a look, and gives what has left the links to every watch.
     [[nodiscard]] Look share_out(AllPaths& paths, const control::DoWork& work);
-    static void write(std::string& text, Way& way, const Seen& seen);
+    /// What became of one direction since the last frame, which this one is now.
+    [[nodiscard]] static WayFrame frame_of(Way& way, const Seen& seen);
     static void write(std::string& text, Watch& watch, const Look& look, std::uint64_t left_out);
 
     std::vector<std::weak_ptr<Watch>> watches_;

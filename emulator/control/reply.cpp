@@ -5,6 +5,7 @@
 #include "emulator/control/change.hpp"
 #include "emulator/control/frames.hpp"
 #include "emulator/control/moment.hpp"
+#include "emulator/control/run_statistics.hpp"
 #include "emulator/control/settings.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
@@ -304,6 +305,18 @@ nlohmann::ordered_json statistics_of(Emulation& emulation)
     return json;
 }
 
+output::Metrics metrics_of(nlohmann::ordered_json statistics)
+{
+    // Not the sums of links besides: whoever adds up would count all twice.
+    if (statistics.contains("links")) {
+        statistics.erase("up");
+        statistics.erase("down");
+    }
+    output::Metrics metrics;
+    metrics.add(base::field_table<RunStatistics>(), statistics);
+    return metrics;
+}
+
 control::Answer answer_to(std::string_view line, Emulation& emulation, base::TimePoint now)
 {
     const auto request = parse_request(line, emulation.held);
@@ -314,6 +327,9 @@ control::Answer answer_to(std::string_view line, Emulation& emulation, base::Tim
                 return one;
             } else if constexpr (std::is_same_v<One, StatsRequest>) {
                 return control::statistics_reply(statistics_of(emulation));
+            } else if constexpr (std::is_same_v<One, MetricsRequest>) {
+                return line_of(
+                    {{"ok", true}, {"metrics", metrics_of(statistics_of(emulation)).json()}});
             } else if constexpr (std::is_same_v<One, StopRequest>) {
                 return reply_to(one, emulation);
             } else {

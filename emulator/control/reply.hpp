@@ -6,6 +6,7 @@
 #include "emulator/control/request.hpp"
 #include "proto/base/time.hpp"
 #include "proto/control/core/conversation.hpp"
+#include "proto/output/metrics.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -31,6 +32,9 @@ namespace hapnet::emulator {
 
 /// The emulator's statistics with "generation" and "elapsed_s".
 [[nodiscard]] nlohmann::ordered_json statistics_of(Emulation& emulation);
+
+/// What Prometheus is told of a run: by the statistics, each link on its own.
+[[nodiscard]] output::Metrics metrics_of(nlohmann::ordered_json statistics);
 
 /// What becomes of a request.
 [[nodiscard]] control::Answer answer_to(std::string_view line, Emulation& emulation,

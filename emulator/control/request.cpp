@@ -89,6 +89,7 @@ Request request_of(std::string_view command, Members& members, std::optional<bas
     }
     if (command == "reset") return ResetRequest{};
     if (command == "stats") return StatsRequest{};
+    if (command == "metrics") return MetricsRequest{};
     if (command == "stop") return StopRequest{};
     if (command == "wait") return control::wait_request(members);
     if (command == "keep") return control::keep_request(members, held);
@@ -100,8 +101,9 @@ Request request_of(std::string_view command, Members& members, std::optional<bas
 
 base::Result<Request> parse_request(std::string_view line, std::optional<base::Duration> held)
 {
-    constexpr std::array<std::string_view, 10> commands{"show",  "set",  "apply", "diff", "reset",
-                                                        "stats", "wait", "watch", "keep", "stop"};
+    constexpr std::array<std::string_view, 11> commands{"show",  "set",   "apply",   "diff",
+                                                        "reset", "stats", "metrics", "wait",
+                                                        "watch", "keep",  "stop"};
     const auto json =
         control::parse_object(line); // settings count in the order in which they stand
     if (!json) return tl::unexpected{json.error()};

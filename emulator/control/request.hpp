@@ -52,13 +52,15 @@ struct DiffRequest {
 };
 struct ResetRequest {};
 struct StatsRequest {};
+struct MetricsRequest {};
 struct StopRequest {};
 using control::KeepRequest;
 using control::WaitRequest;
 using control::WatchRequest;
 
-using Request = std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest,
-                             StatsRequest, WaitRequest, WatchRequest, KeepRequest, StopRequest>;
+using Request =
+    std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest, StatsRequest,
+                 MetricsRequest, WaitRequest, WatchRequest, KeepRequest, StopRequest>;
 
 /// The most settings, and the most files, of one request.
 inline constexpr std::size_t settings_max = 64;

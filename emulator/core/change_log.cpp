@@ -8,16 +8,6 @@
 
 namespace hapnet::emulator {
 
-std::string_view to_text(ChangeCause cause)
-{
-    switch (cause) {
-    case ChangeCause::hand: return "hand";
-    case ChangeCause::timeline: return "timeline";
-    case ChangeCause::reload: return "reload";
-    }
-    return {};
-}
-
 Patch ConditionChange::patch(Direction direction) const
 {
     const bool is_up = direction == Direction::up;

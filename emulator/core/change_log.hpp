@@ -3,12 +3,12 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
+#include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -16,7 +16,10 @@ namespace hapnet::emulator {
 /// What makes conditions change: a setting made by hand, or its end; the profile's timeline; the
 /// profile read again.
 enum class ChangeCause : std::uint8_t { hand, timeline, reload };
-[[nodiscard]] std::string_view to_text(ChangeCause cause);
+constexpr auto names_of(base::Tag<ChangeCause>)
+{
+    return base::names("hand", "timeline", "reload");
+}
 
 /// A change of the conditions of a path while it runs.
 struct ConditionChange {

@@ -91,7 +91,7 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
             admission.drop = DropCause::queue_full;
         }
     }
-    if (admission.drop) ++statistics_.dropped_by(*admission.drop);
+    if (admission.drop) ++statistics_.dropped[*admission.drop];
     if (setup_.has_stream_statistics) stream_statistics_.on_packet(fate);
     return admission;
 }
@@ -191,7 +191,7 @@ void Link::schedule_copy(Datagram copy, base::Duration after)
 {
     ++statistics_.duplicated;
     if (!store(copy)) {
-        ++statistics_.dropped_by(DropCause::queue_full);
+        ++statistics_.dropped[DropCause::queue_full];
         return;
     }
     copy.is_copy = true;
@@ -247,7 +247,7 @@ void Link::on_passed(const Queued& passed)
     if (!passed.dropped) statistics_.sojourn.add(passed.begun - passed.datagram.arrival);
     if (passed.fate.drop) return; // it was counted when it arrived
     if (passed.dropped) {
-        ++statistics_.dropped_by(*passed.dropped);
+        ++statistics_.dropped[*passed.dropped];
         release(passed.datagram);
         return;
     }
@@ -282,7 +282,7 @@ void Link::on_sent(const Datagram& datagram, base::TimePoint at)
 
 void Link::on_failed(const Datagram& datagram, DropCause cause)
 {
-    ++statistics_.dropped_by(cause);
+    ++statistics_.dropped[cause];
     release(datagram);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/figures/moments.hpp"
 #include "proto/base/time.hpp"
 
 #include <algorithm>
@@ -38,6 +39,15 @@ struct Pulse {
         late_max = std::max(late_max, later.late_max);
         delay_sum_ns += later.delay_sum_ns;
         late_sum_ns += later.late_sum_ns;
+    }
+
+    [[nodiscard]] base::Duration delay_mean() const
+    {
+        return base::nearest_duration(delay_sum_ns / static_cast<double>(count));
+    }
+    [[nodiscard]] base::Duration late_mean() const
+    {
+        return base::nearest_duration(late_sum_ns / static_cast<double>(count));
     }
 };
 

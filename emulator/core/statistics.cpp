@@ -2,24 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/statistics.hpp"
 
-#include <cstddef>
 #include <numeric>
 
 namespace hapnet::emulator {
 
-std::uint64_t& Statistics::dropped_by(DropCause cause)
-{
-    return dropped[static_cast<std::size_t>(cause)];
-}
-
-std::uint64_t Statistics::dropped_by(DropCause cause) const
-{
-    return dropped[static_cast<std::size_t>(cause)];
-}
-
 std::uint64_t Statistics::dropped_total() const
 {
-    return std::accumulate(dropped.begin(), dropped.end(), std::uint64_t{0});
+    return std::accumulate(dropped.values.begin(), dropped.values.end(), std::uint64_t{0});
 }
 
 void Statistics::add(const Statistics& other)
@@ -35,7 +24,7 @@ void Statistics::add(const Statistics& other)
     ce_out += other.ce_out;
     bytes_in += other.bytes_in;
     bytes_out += other.bytes_out;
-    for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] += other.dropped[i];
+    for (const DropCause cause : drop_causes) dropped[cause] += other.dropped[cause];
     lateness.add(other.lateness);
     sojourn.add(other.sojourn);
 }

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "emulator/core/fate.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/histogram.hpp"
 #include "proto/base/time.hpp"
+#include "proto/base/value_kind.hpp"
 
-#include <array>
 #include <cstdint>
 
 namespace hapnet::emulator {
@@ -14,23 +15,21 @@ namespace hapnet::emulator {
 /// What became of the datagrams of one direction. At every moment
 /// received + duplicated = delivered + dropped_total() + in_flight.
 struct Statistics {
-    std::uint64_t received = 0;   // from the endpoint that this direction belongs to
-    std::uint64_t delivered = 0;  // handed to the system, which took them
-    std::uint64_t duplicated = 0; // extra copies
+    std::uint64_t received = 0;
+    std::uint64_t delivered = 0;
+    std::uint64_t duplicated = 0;
     std::uint64_t corrupted = 0;
-    std::uint64_t reordered = 0; // left after one with a higher number had left (RFC 4737)
-    std::uint64_t in_flight = 0; // waiting to leave
-    std::uint64_t ce_in = 0;     // of `received`: marked CE (RFC 3168) when it came
-    std::uint64_t ce_marked = 0; // marked CE by the law of a queue
-    std::uint64_t ce_out = 0;    // of `delivered`: marked CE when it left
-    std::uint64_t bytes_in = 0;  // payload of `received`
-    std::uint64_t bytes_out = 0; // payload of `delivered`
-    std::array<std::uint64_t, drop_causes.size()> dropped{};
+    std::uint64_t reordered = 0;
+    std::uint64_t in_flight = 0;
+    std::uint64_t ce_in = 0;
+    std::uint64_t ce_marked = 0;
+    std::uint64_t ce_out = 0;
+    std::uint64_t bytes_in = 0;
+    std::uint64_t bytes_out = 0;
+    base::ByName<DropCause, std::uint64_t> dropped{};
     base::SnapshotHistogram lateness; // of each delivered one: left minus due
     base::SnapshotHistogram sojourn;  // before a bottleneck, of each that it sent
 
-    [[nodiscard]] std::uint64_t& dropped_by(DropCause cause);
-    [[nodiscard]] std::uint64_t dropped_by(DropCause cause) const;
     [[nodiscard]] std::uint64_t dropped_total() const;
 
     /// Adds up the directions of several paths.
@@ -43,5 +42,46 @@ struct Statistics {
     /// How many left more than `budget` late.
     [[nodiscard]] std::uint64_t late_beyond(base::Duration budget) const;
 };
+/// The counters.
+constexpr auto fields_of(base::Tag<Statistics>)
+{
+    using S = Statistics;
+    return base::fields(
+        "counters",
+        base::member("received", &S::received,
+                     "Datagrams taken from the end that belongs to this direction.")
+            .always_told("received")
+            .counter("hapnet_emulator_received"),
+        base::member("delivered", &S::delivered,
+                     "Datagrams, copies included, that the kernel took for sending.")
+            .always_told("delivered")
+            .counter("hapnet_emulator_delivered"),
+        base::member("duplicated", &S::duplicated, "Copies made.")
+            .told("duplicated")
+            .counter("hapnet_emulator_duplicated"),
+        base::member("corrupted", &S::corrupted, "Datagrams whose bits were flipped.")
+            .told("corrupted")
+            .counter("hapnet_emulator_corrupted"),
+        base::member("reordered", &S::reordered,
+                     "Datagrams, without copies, that left after one with a higher number (RFC "
+                     "4737).")
+            .told("reordered")
+            .counter("hapnet_emulator_reordered"),
+        base::member("in_flight", &S::in_flight, "Datagrams that wait to leave.")
+            .always_told("in flight")
+            .gauge("hapnet_emulator_in_flight"),
+        base::member("bytes_in", &S::bytes_in, "Payload of `received`.")
+            .counter("hapnet_emulator_received_bytes"),
+        base::member("bytes_out", &S::bytes_out, "Payload of `delivered`.")
+            .counter("hapnet_emulator_delivered_bytes"),
+        base::member("ce_in", &S::ce_in,
+                     "Of `received`, those with the mark CE, congestion experienced (RFC 3168), in "
+                     "their IP header."),
+        base::member("ce_marked", &S::ce_marked, "Datagrams that the queue of a rate marked CE."),
+        base::member("ce_out", &S::ce_out, "Of `delivered`, those with the mark CE."),
+        base::member("dropped", &S::dropped, "Datagrams that were dropped, by cause.")
+            .told("")
+            .counter("hapnet_emulator_dropped", "cause"));
+}
 
 } // namespace hapnet::emulator

@@ -20,7 +20,7 @@ std::vector<std::string> invalid_because(const Statistics& statistics, std::uint
     const auto add = [&](std::string_view cause, std::uint64_t count) {
         if (count > 0) reasons.push_back(fmt::format("the emulator lost {} as {}", count, cause));
     };
-    for (const DropCause cause : own_losses) add(to_text(cause), statistics.dropped_by(cause));
+    for (const DropCause cause : own_losses) add(to_text(cause), statistics.dropped[cause]);
     add("overflowed", overflowed);
     return reasons;
 }

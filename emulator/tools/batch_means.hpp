@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,6 +17,11 @@ struct Precision {
     double mean = 0.0;
     double sd = 0.0; // 0 for values that are all the same
 };
+constexpr auto fields_of(base::Tag<Precision>)
+{
+    return base::fields("precision", base::member("mean", &Precision::mean),
+                        base::member("sd", &Precision::sd));
+}
 
 /// Tells by the method of batch means (Law, "Simulation Modeling and Analysis", 9.5.3) how far a
 /// series whose neighbours may be correlated has settled. Keeps 32 to 63 batches of equal length:

@@ -241,7 +241,7 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
                                    "Mbit/s with overhead): its queue stays full",
                                    stream.bytes, at_rate, load_of(conditions, stream) / 1e6));
     }
-    if (prediction.statistics.dropped_by(DropCause::queue_full) > 0) {
+    if (prediction.statistics.dropped[DropCause::queue_full] > 0) {
         list.push_back(fmt::format("more would be in flight than the emulator holds (--in-flight "
                                    "{}, {} datagrams): the rest is dropped as queue_full, and the "
                                    "run is not valid",

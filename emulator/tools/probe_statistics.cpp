@@ -20,12 +20,18 @@ std::optional<ProbeDelays> delays_of(const base::DurationSample& sample)
     if (!quantiles) return std::nullopt;
     base::RunningMoments moments;
     for (const auto value : sample.values()) moments.add(value);
-    return ProbeDelays{std::ranges::min(sample.values()), moments.moments()->mean, *quantiles};
+    return ProbeDelays{std::ranges::min(sample.values()), moments.moments()->mean, quantiles->p50,
+                       quantiles->p99, quantiles->max};
 }
 
 double milliseconds(base::Duration duration) { return 1e3 * base::to_seconds(duration); }
 
 } // namespace
+
+double ProbeSummary::loss() const
+{
+    return sent == 0 ? 0.0 : static_cast<double>(sent - answered) / static_cast<double>(sent);
+}
 
 ProbeMessage ProbeStatistics::next_question(base::TimePoint now)
 {

@@ -3,14 +3,15 @@
 #pragma once
 
 #include "emulator/tools/probe_message.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/figures/arrivals.hpp"
-#include "proto/base/figures/quantiles.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::emulator::tools {
@@ -28,26 +29,82 @@ struct ProbeReply {
 struct ProbeDelays {
     base::Duration min{};
     base::Duration mean{};
-    base::Quantiles quantiles{};
+    base::Duration p50{};
+    base::Duration p99{};
+    base::Duration max{};
 };
+constexpr auto fields_of(base::Tag<ProbeDelays>)
+{
+    using D = ProbeDelays;
+    return base::fields("delays", base::member("min", &D::min), base::member("mean", &D::mean),
+                        base::member("p50", &D::p50), base::member("p99", &D::p99),
+                        base::member("max", &D::max));
+}
 
 struct ProbeWay {
-    std::optional<ProbeDelays> delay; // nullopt: no answers, or of one way by two clocks
-    std::optional<ProbeDelays> ipdv;  // the absolute values; nullopt: no two answers in a row
+    std::optional<ProbeDelays> delay;
+    std::optional<ProbeDelays> ipdv;
     std::uint64_t lost = 0;
 };
+constexpr auto fields_of(base::Tag<ProbeWay>)
+{
+    using W = ProbeWay;
+    return base::fields(
+        "way", base::member("lost", &W::lost),
+        base::member("delay_ms", &W::delay,
+                     "null: there are no answers, or one way was measured by two clocks."),
+        base::member("ipdv_ms", &W::ipdv,
+                     "|IPDV| (RFC 3393). null: no two questions in a row were answered."));
+}
 
 struct ProbeSummary {
     std::uint64_t sent = 0;
-    std::uint64_t answered = 0; // questions with an answer at least
-    std::uint64_t copies = 0;   // answers beyond the first
+    std::uint64_t answered = 0;
+    std::uint64_t copies = 0;
     std::uint64_t reordered = 0;
     bool clocks_are_one = false;
     ProbeWay round_trip{};
-    ProbeWay there{};          // losses of questions up to the last one answered
-    ProbeWay back{};           // losses of their answers
-    std::uint64_t unknown = 0; // not answered, and too late to tell the way
+    ProbeWay there{};
+    ProbeWay back{};
+    std::uint64_t unknown = 0;
+
+    /// Of the questions.
+    [[nodiscard]] double loss() const;
 };
+constexpr auto fields_of(base::Tag<ProbeSummary>)
+{
+    using S = ProbeSummary;
+    return base::fields(
+        "summary", base::member("sent", &S::sent, "Questions."),
+        base::member("answered", &S::answered, "Questions with an answer at least."),
+        base::computed<S>(
+            "loss", [](const S& summary) { return summary.loss(); },
+            "The share of the questions that have none."),
+        base::member("copies", &S::copies, "Answers beyond the first."),
+        base::member("reordered", &S::reordered,
+                     "Answers that came after one to a later question."),
+        base::member("clocks_are_one", &S::clocks_are_one, "Whether both ends read one clock."),
+        base::member("round_trip", &S::round_trip),
+        base::member("there", &S::there, "The questions; lost are those up to the last answered."),
+        base::member("back", &S::back, "Their answers."),
+        base::member("lost_on_unknown_way", &S::unknown,
+                     "Questions after the last one that was answered."));
+}
+
+/// What `probe --json` prints.
+struct ProbeReport {
+    std::string_view program = "hapnet-emulator";
+    std::string_view version;
+    std::string target;
+    ProbeSummary summary;
+};
+constexpr auto fields_of(base::Tag<ProbeReport>)
+{
+    using R = ProbeReport;
+    return base::fields(
+        "probe", base::member("program", &R::program), base::member("version", &R::version),
+        base::member("target", &R::target, "Who was asked."), base::part(&R::summary));
+}
 
 /// What a probe has sent and what came back. Does no I/O and reads no clock.
 class ProbeStatistics {

@@ -4,9 +4,11 @@
 
 #include "emulator/control/reply.hpp"
 #include "emulator/control/settings.hpp"
+#include "emulator/core/direction_report.hpp"
 #include "lab/experiment/session_spec.hpp"
 #include "lab/live/pace.hpp"
 #include "peer/control/statistics.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/base/version.hpp"
 #include "proto/record/rows.hpp"
 
@@ -31,19 +33,6 @@ constexpr base::Duration usual_countdown = 1s;
 constexpr base::Duration after_the_ticks = 1ns;
 /// 16 s of datagrams, more than a page can ask for.
 constexpr emulator::QueueLimits roomy{.datagrams_max = 16384, .bytes_max = 64U << 20};
-
-Json statistics_of(const emulator::Statistics& statistics)
-{
-    Json dropped = Json::object();
-    for (std::size_t i = 0; i < emulator::drop_causes.size(); ++i) {
-        dropped[std::string{to_text(emulator::drop_causes[i])}] = statistics.dropped[i];
-    }
-    return {{"received", statistics.received},
-            {"delivered", statistics.delivered},
-            {"duplicated", statistics.duplicated},
-            {"dropped", std::move(dropped)},
-            {"in_flight", statistics.in_flight}};
-}
 
 /// Whether a request of this kind may change what holds.
 bool may_change(std::string_view line)
@@ -217,10 +206,11 @@ nlohmann::ordered_json Session::statistics() const
 {
     const emulator::Link& up = world_->link(0, 1);
     const emulator::Link& down = world_->link(1, 0);
-    return {{"program", "hapnet-lab"},
-            {"up", statistics_of(up.statistics())},
-            {"down", statistics_of(down.statistics())},
-            {"valid", true}};
+    const auto told = [](const emulator::Link& link) {
+        return base::json_of(emulator::DirectionReport{
+            .statistics = &link.statistics(), .stream = &link.stream_statistics().totals()});
+    };
+    return {{"program", "hapnet-lab"}, {"up", told(up)}, {"down", told(down)}, {"valid", true}};
 }
 
 control::FrameSource Session::watch()

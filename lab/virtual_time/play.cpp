@@ -36,7 +36,7 @@ bool has_overflowed(const VirtualWorld& world)
         for (std::size_t to = 0; to < players; ++to) {
             if (from == to) continue;
             const emulator::Statistics& statistics = world.link(from, to).statistics();
-            if (statistics.dropped_by(emulator::DropCause::queue_full) > 0) return true;
+            if (statistics.dropped[emulator::DropCause::queue_full] > 0) return true;
         }
     }
     return false;

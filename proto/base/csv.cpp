@@ -75,15 +75,26 @@ tl::unexpected<Error> fail_at(const std::string& path, std::size_t line, const s
 
 using Shape = ValueKind::Shape;
 
-/// The text of a value, with so many decimals if any are named.
-std::string cell_text(const ValueKind& kind, const void* value, std::optional<int> decimals)
+/// How numbers stand in the cells of a column.
+struct CellScale {
+    std::optional<int> decimals{};
+    std::optional<double> ns_per_unit{}; // of times
+};
+
+/// The text of a value.
+std::string cell_text(const ValueKind& kind, const void* value, const CellScale& scale)
 {
     if (kind.shape == Shape::maybe) {
         if (kind.size(value) == 0) return "";
-        return cell_text(*kind.element, kind.element_at(value, 0), decimals);
+        return cell_text(*kind.element, kind.element_at(value, 0), scale);
     }
     ensure(kind.get != nullptr);
-    const Leaf leaf = kind.get(value);
+    const auto& decimals = scale.decimals;
+    Leaf leaf = kind.get(value);
+    if (kind.shape == Shape::time) {
+        ensure(scale.ns_per_unit.has_value()); // the column names its unit
+        leaf = static_cast<double>(std::get<std::int64_t>(leaf)) / *scale.ns_per_unit;
+    }
     if (const auto* number = std::get_if<double>(&leaf)) {
         if (!std::isfinite(*number)) return "";
         return decimals ? fmt::format("{:.{}f}", *number, *decimals) : fmt::format("{}", *number);
@@ -138,7 +149,11 @@ std::vector<const FieldRow*> columns_for(const FieldTable& fields,
 {
     std::vector<const FieldRow*> columns;
     for (const FieldRow& row : fields.rows) {
-        const auto fills = [&](const void* value) { return row.kind->size(row.in(value)) > 0; };
+        const auto fills = [&](const void* value) {
+            bool is_filled = false;
+            row.look(value, [&](const void* cell) { is_filled = row.kind->size(cell) > 0; });
+            return is_filled;
+        };
         if (!row.is_spare || std::ranges::any_of(values, fills)) columns.push_back(&row);
     }
     return columns;
@@ -171,7 +186,12 @@ std::string header_of(std::span<const FieldRow* const> columns)
 std::string line_of(std::span<const FieldRow* const> columns, const void* value)
 {
     return with_commas(columns, [&](const FieldRow& row) {
-        return cell_text(*row.kind, row.in(value), row.decimals);
+        const auto decimals = row.decimals ? row.decimals : row.telling.decimals;
+        std::string text;
+        row.look(value, [&](const void* cell) {
+            text = cell_text(*row.kind, cell, {decimals, time_unit_of(row.key)});
+        });
+        return text;
     });
 }
 
@@ -212,10 +232,7 @@ std::string csv_quoted(std::string_view cell)
     return out + '"';
 }
 
-std::string cell_of(const ValueKind& kind, const void* value)
-{
-    return cell_text(kind, value, std::nullopt);
-}
+std::string cell_of(const ValueKind& kind, const void* value) { return cell_text(kind, value, {}); }
 
 bool read_cell(const ValueKind& kind, std::string_view cell, void* value)
 {

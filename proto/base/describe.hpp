@@ -14,8 +14,9 @@
 namespace hapnet::base {
 
 // One description of a struct's fields, beside the struct. Reading and printing TOML, ranges and
-// their errors, and tables of keys (fields.hpp), JSON (fields_json.hpp), CSV (csv.hpp) and ramps
-// (ramp.hpp) follow from it, so that none of them can forget a field:
+// their errors, and tables of keys (fields.hpp), JSON (fields_json.hpp), CSV (csv.hpp), ramps
+// (ramp.hpp), and what programs tell of a run (proto/output) follow from it, so that none of them
+// can forget a field:
 //
 //     struct Burst {
 //         std::uint32_t lost = 1;
@@ -31,10 +32,79 @@ namespace hapnet::base {
 //             cycle the run begins"));
 //     }
 
+/// A name of Prometheus, and what kind of figure it is. A counter only grows.
+struct Metric {
+    std::string_view name; // without the unit; empty: none by itself
+    bool is_counter = false;
+    std::string_view label; // of what stands below it
+};
+
+/// How programs tell what they did. Words and names are of whoever reads the output.
+struct Telling {
+    /// Behind a count, in a line for people: "in flight". Of a map its names stand there.
+    std::optional<std::string_view> words;
+    bool is_told_always = false; // a count of 0, too
+    Metric metric;
+    std::optional<int> decimals;      // of a number in JSON; nullopt: as many as it takes
+    bool is_left_out_if_none = false; // the key itself, where there is no value: else it is null
+};
+
+/// The ways to say how a field is told, for a description that is a `Self`.
+template <typename Self>
+struct Told {
+    Telling telling{};
+
+    /// In lines for people, with these words behind the count, unless it is 0.
+    [[nodiscard]] constexpr Self told(std::string_view words) const
+    {
+        return with([&](Telling& t) { t.words = words; });
+    }
+    /// Likewise, also where it is 0.
+    [[nodiscard]] constexpr Self always_told(std::string_view words) const
+    {
+        return with([&](Telling& t) { t.words = words, t.is_told_always = true; });
+    }
+    /// A metric that only grows. Times are told in seconds, whatever unit the key has.
+    [[nodiscard]] constexpr Self counter(std::string_view name, std::string_view label = {}) const
+    {
+        return with([&](Telling& t) { t.metric = {name, true, label}; });
+    }
+    /// A metric that may fall.
+    [[nodiscard]] constexpr Self gauge(std::string_view name) const
+    {
+        return with([&](Telling& t) { t.metric = {name, false, {}}; });
+    }
+    /// What stands below it are metrics, which are told apart by this label: the key, or of a map
+    /// the names.
+    [[nodiscard]] constexpr Self label(std::string_view label) const
+    {
+        return with([&](Telling& t) { t.metric = {{}, false, label}; });
+    }
+    /// JSON has the number with so many decimals.
+    [[nodiscard]] constexpr Self rounded(int decimals) const
+    {
+        return with([&](Telling& t) { t.decimals = decimals; });
+    }
+    /// JSON has no such key where there is no value, or an empty list.
+    [[nodiscard]] constexpr Self left_out_if_none() const
+    {
+        return with([](Telling& t) { t.is_left_out_if_none = true; });
+    }
+
+private:
+    template <typename Change>
+    [[nodiscard]] constexpr Self with(const Change& change) const
+    {
+        Self copy = static_cast<const Self&>(*this);
+        change(copy.telling);
+        return copy;
+    }
+};
+
 /// A member of a struct: its key, the format of its values, and a few words about it. An optional
 /// without a value is left out, or written as `absent`.
 template <typename Struct, typename Value, typename Format>
-struct Field {
+struct Field : Told<Field<Struct, Value, Format>> {
     using Owner = Struct;
     using Member = Value;
 
@@ -46,6 +116,11 @@ struct Field {
     std::string_view absent{};
     bool is_always_printed = false;
     bool Struct::*printed_if = nullptr;
+
+    constexpr Field(std::string_view its_key, Value Struct::*its_member, Format its_format,
+                    std::string_view its_about)
+        : key{its_key}, member{its_member}, format{its_format}, about{its_about}
+    {}
 
     /// The same field, which has to be written.
     [[nodiscard]] constexpr Field required() const
@@ -83,6 +158,22 @@ struct Part {
     Value Struct::*member;
 };
 
+/// A figure that `Compute`, a lambda without captures, makes of the struct. It is told, and never
+/// read.
+template <typename Struct, typename Compute>
+struct Computed : Told<Computed<Struct, Compute>> {
+    std::string_view key;
+    std::string_view about{};
+
+    constexpr Computed(std::string_view its_key, std::string_view its_about)
+        : key{its_key}, about{its_about}
+    {}
+};
+
+/// A struct with fields of its own that `Compute` finds, which stand among those of the whole.
+template <typename Struct, typename Compute>
+struct ComputedPart {};
+
 template <typename... Members>
 struct Fields {
     std::string_view name; // of the struct where a text names it: the law of a loss
@@ -96,6 +187,13 @@ inline constexpr bool is_part = false;
 template <typename Struct, typename Value>
 inline constexpr bool is_part<Part<Struct, Value>> = true;
 
+template <typename T>
+inline constexpr bool is_computed = false;
+template <typename Struct, typename Compute>
+inline constexpr bool is_computed<Computed<Struct, Compute>> = true;
+template <typename Struct, typename Compute>
+inline constexpr bool is_computed<ComputedPart<Struct, Compute>> = true;
+
 } // namespace detail
 
 template <typename Struct, typename Value, typename Format>
@@ -103,7 +201,7 @@ requires FormatOf<Format, WithoutOptional<Value>>
 [[nodiscard]] constexpr auto field(std::string_view key, Value Struct::*member, Format format,
                                    std::string_view about = {})
 {
-    return Field<Struct, Value, Format>{key, member, format, about, false, {}};
+    return Field<Struct, Value, Format>{key, member, format, about};
 }
 
 /// With the usual format of the member's type.
@@ -111,7 +209,7 @@ template <typename Struct, typename Value>
 [[nodiscard]] constexpr auto field(std::string_view key, Value Struct::*member,
                                    std::string_view about = {})
 {
-    return Field<Struct, Value, UsualFormat<Value>>{key, member, {}, about, false, {}};
+    return Field<Struct, Value, UsualFormat<Value>>{key, member, {}, about};
 }
 
 /// The format of what is not written in TOML: rows of bytes, cells and JSON go by the type.
@@ -129,6 +227,22 @@ template <typename Struct, typename Value>
 [[nodiscard]] constexpr auto part(Value Struct::*member)
 {
     return Part<Struct, Value>{member};
+}
+
+/// A figure of a Struct that is not a member: computed<Link>("p50", [](const Link& link) { … }).
+/// The lambda returns a value, or a reference to one that lasts as long as the struct.
+template <typename Struct, typename Compute>
+[[nodiscard]] constexpr auto computed(std::string_view key, Compute /*by its type*/,
+                                      std::string_view about = {})
+{
+    return Computed<Struct, Compute>{key, about};
+}
+
+/// Fields of a described struct to which the lambda returns a reference.
+template <typename Struct, typename Compute>
+[[nodiscard]] constexpr auto computed_part(Compute /*by its type*/)
+{
+    return ComputedPart<Struct, Compute>{};
 }
 
 template <typename... Members>
@@ -151,7 +265,9 @@ template <auto wanted>
     return []<typename T, typename Value>(Value T::*own) {
         std::string_view words;
         const auto look = [&]<typename Member>(const Member& member) {
-            if constexpr (std::is_same_v<decltype(Member::member), Value T::*>) {
+            if constexpr (requires {
+                              requires std::is_same_v<decltype(Member::member), Value T::*>;
+                          }) {
                 if (member.member == own) words = member.about;
             }
         };
@@ -160,13 +276,17 @@ template <auto wanted>
     }(wanted);
 }
 
-/// Calls visit(field, member...) for every field of a T, with that member of each value.
+/// Calls visit(field, member...) for every field of a T that is a member, with that member of each
+/// value.
 template <typename Visit, typename First, typename... More>
 constexpr void for_each_field(const Visit& visit, First&& first, More&&... more)
 {
     using T = std::remove_cvref_t<First>;
     const auto one = [&](const auto& member) {
-        if constexpr (detail::is_part<std::remove_cvref_t<decltype(member)>>) {
+        using Member = std::remove_cvref_t<decltype(member)>;
+        if constexpr (detail::is_computed<Member>) {
+            // It is no member.
+        } else if constexpr (detail::is_part<Member>) {
             for_each_field(visit, first.*member.member, more.*member.member...);
         } else {
             visit(member, first.*member.member, more.*member.member...);

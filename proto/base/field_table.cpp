@@ -5,6 +5,7 @@
 #include "proto/base/ensure.hpp"
 #include "proto/base/text.hpp"
 
+#include <array>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
 #include <utility>
@@ -67,10 +68,33 @@ std::string cell(std::string_view text)
 
 const void* FieldRow::in(const void* owner) const
 {
+    ensure(compute == nullptr && find == nullptr);
     return static_cast<const std::byte*>(owner) + offset;
 }
 
-void* FieldRow::in(void* owner) const { return static_cast<std::byte*>(owner) + offset; }
+void* FieldRow::in(void* owner) const
+{
+    ensure(compute == nullptr && find == nullptr);
+    return static_cast<std::byte*>(owner) + offset;
+}
+
+void FieldRow::look(const void* owner, const UseValue& use) const
+{
+    const void* const whole = find != nullptr ? find(owner) : owner;
+    const void* const of = static_cast<const std::byte*>(whole) + offset;
+    if (compute != nullptr) return compute(of, use);
+    use(of);
+}
+
+std::optional<double> time_unit_of(std::string_view key)
+{
+    constexpr std::array<std::pair<std::string_view, double>, 4> units{
+        {{"_ns", 1.0}, {"_us", 1e3}, {"_ms", 1e6}, {"_s", 1e9}}};
+    for (const auto& [suffix, nanoseconds] : units) {
+        if (key.ends_with(suffix)) return nanoseconds;
+    }
+    return std::nullopt;
+}
 
 std::string allowed(const FieldRow& row)
 {

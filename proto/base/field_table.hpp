@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/reading.hpp"
 #include "proto/base/value_kind.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,13 +28,21 @@ struct WrittenAs {
     std::string (*example)(const void* format); // empty: the format has none
 };
 
-/// A member of a struct, as fields.hpp describes it.
+/// What is done with a value that is there for the moment.
+using UseValue = std::function<void(const void* value)>;
+
+/// A member of a struct, or a figure that is computed of it, as describe.hpp describes it.
 struct FieldRow {
-    std::string_view key;
-    std::string_view about;
-    std::string_view absent;
-    std::size_t offset = 0; // from the struct's first byte
+    std::string_view key{};
+    std::string_view about{};
+    std::string_view absent{};
+    std::size_t offset = 0; // from the struct's first byte, of the member or of what it is made of
+    /// Where it is computed: makes the value, and hands it on. nullptr: a member.
+    void (*compute)(const void* of, const UseValue& use) = nullptr;
+    /// Where it is of a struct that the struct finds: finds that. nullptr: it is of the struct.
+    const void* (*find)(const void* owner) = nullptr;
     const ValueKind* kind = nullptr;
+    Telling telling{};
     const void* format = nullptr;
     const WrittenAs* written = nullptr;      // nullptr: no text has it
     std::optional<int> decimals{};           // in a cell of CSV; nullopt: as many as it takes
@@ -41,8 +51,11 @@ struct FieldRow {
     bool is_always_printed = false;
     bool is_spare = false;
 
+    /// The place of a member.
     [[nodiscard]] const void* in(const void* owner) const;
     [[nodiscard]] void* in(void* owner) const;
+    /// Hands on the value, whether member or computed.
+    void look(const void* owner, const UseValue& use) const;
 };
 
 struct FieldTable {
@@ -50,6 +63,9 @@ struct FieldTable {
     const void* defaults = nullptr; // a struct with them
     std::vector<FieldRow> rows;
 };
+
+/// The nanoseconds of the unit of time that a key ends with: 1000 of "late_us"; nullopt: of none.
+[[nodiscard]] std::optional<double> time_unit_of(std::string_view key);
 
 /// What may be written into a field, for people: "a time from 0ms to 10s".
 [[nodiscard]] std::string allowed(const FieldRow& row);

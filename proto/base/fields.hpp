@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/describe.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/base/field_table.hpp"
 #include "proto/base/reading.hpp"
 #include "proto/base/value_kind.hpp"
@@ -104,6 +105,7 @@ void add_row(std::vector<FieldRow>& rows, const void* root,
                  .absent = field.absent,
                  .offset = offset_in(root, &(owner.*field.member)),
                  .kind = &Kind<Value>::kind,
+                 .telling = field.telling,
                  .format = &field.format,
                  .is_required = field.is_required,
                  .is_always_printed = field.is_always_printed};
@@ -118,6 +120,44 @@ void add_row(std::vector<FieldRow>& rows, const void* root,
 
 template <typename Struct>
 void add_rows(std::vector<FieldRow>& rows, const void* root, const Struct& owner);
+
+/// What the lambda of a description gives for a Struct.
+template <typename Struct, typename Compute>
+using ComputedBy = std::remove_cvref_t<std::invoke_result_t<Compute, const Struct&>>;
+
+template <typename Struct, typename Compute, typename Owner>
+void add_row(std::vector<FieldRow>& rows, const void* root, const Computed<Struct, Compute>& figure,
+             const Owner& owner)
+{
+    const Struct& own = owner; // of which it may be a base
+    FieldRow row{.key = figure.key,
+                 .about = figure.about,
+                 .offset = offset_in(root, &own),
+                 .compute =
+                     [](const void* of, const UseValue& use) {
+                         const auto& value = Compute{}(*static_cast<const Struct*>(of));
+                         use(&value);
+                     },
+                 .kind = &Kind<ComputedBy<Struct, Compute>>::kind,
+                 .telling = figure.telling};
+    rows.push_back(row);
+}
+
+template <typename Struct, typename Compute, typename Owner>
+void add_row(std::vector<FieldRow>& rows, const void* root,
+             const ComputedPart<Struct, Compute>& /*part*/, const Owner& owner)
+{
+    static_assert(std::is_lvalue_reference_v<std::invoke_result_t<Compute, const Struct&>>);
+    const Struct& own = owner;
+    ensure(static_cast<const void*>(&own) == root);
+    for (FieldRow row : field_table<ComputedBy<Struct, Compute>>().rows) {
+        ensure(row.find == nullptr);
+        row.find = [](const void* whole) -> const void* {
+            return &Compute{}(*static_cast<const Struct*>(whole));
+        };
+        rows.push_back(row);
+    }
+}
 
 template <typename Struct, typename Value, std::derived_from<Struct> Owner>
 void add_row(std::vector<FieldRow>& rows, const void* root, const Part<Struct, Value>& part,

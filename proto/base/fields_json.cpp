@@ -5,6 +5,7 @@
 #include "proto/base/ensure.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <variant>
@@ -17,11 +18,35 @@ using Json = nlohmann::json;
 using Ordered = nlohmann::ordered_json;
 using Shape = ValueKind::Shape;
 
-Ordered json_of_leaf(const Leaf& leaf)
+/// To a number of decimals; a number that is not finite stays.
+double rounded(double value, int decimals)
 {
-    const auto* number = std::get_if<double>(&leaf);
-    if (number != nullptr && !std::isfinite(*number)) return {};
-    return std::visit([](const auto& value) { return Ordered(value); }, leaf);
+    const double scale = std::pow(10.0, decimals);
+    const double scaled = std::round(value * scale);
+    return std::isfinite(scaled) ? scaled / scale : value;
+}
+
+Ordered json_of_number(double number, const JsonScale& scale)
+{
+    if (!std::isfinite(number)) return {};
+    return scale.decimals ? rounded(number, *scale.decimals) : number;
+}
+
+Ordered json_of_leaf(const ValueKind& kind, const void* value, const JsonScale& scale)
+{
+    const Leaf leaf = kind.get(value);
+    if (kind.shape == Shape::time) {
+        ensure(scale.ns_per_unit > 0.0); // a key names the unit
+        const auto ns = static_cast<double>(std::get<std::int64_t>(leaf));
+        return json_of_number(ns / scale.ns_per_unit, scale);
+    }
+    if (const auto* number = std::get_if<double>(&leaf)) return json_of_number(*number, scale);
+    return std::visit([](const auto& one) { return Ordered(one); }, leaf);
+}
+
+bool is_none(const ValueKind& kind, const void* value)
+{
+    return kind.size != nullptr && kind.size(value) == 0;
 }
 
 std::optional<Leaf> leaf_of(const Json& json)
@@ -61,28 +86,47 @@ bool read_record(const FieldTable& fields, const Json& json, void* value)
 
 } // namespace
 
-Ordered json_of(const ValueKind& kind, const void* value)
+void add_json(Ordered& object, const FieldTable& fields, const void* value, const JsonScale& scale)
+{
+    for (const FieldRow& row : fields.rows) {
+        JsonScale own = scale;
+        if (const auto unit = time_unit_of(row.key)) own.ns_per_unit = *unit;
+        if (row.telling.decimals) own.decimals = row.telling.decimals;
+        row.look(value, [&](const void* member) {
+            if (row.telling.is_left_out_if_none && is_none(*row.kind, member)) return;
+            object[std::string{row.key}] = json_of(*row.kind, member, own);
+        });
+    }
+}
+
+Ordered json_of(const ValueKind& kind, const void* value, const JsonScale& scale)
 {
     switch (kind.shape) {
     case Shape::opaque: break;
     case Shape::maybe:
         return kind.size(value) == 0 ? Ordered{}
-                                     : json_of(*kind.element, kind.element_at(value, 0));
+                                     : json_of(*kind.element, kind.element_at(value, 0), scale);
     case Shape::list: {
         auto list = Ordered::array();
         for (std::size_t i = 0; i < kind.size(value); ++i) {
-            list.push_back(json_of(*kind.element, kind.element_at(value, i)));
+            list.push_back(json_of(*kind.element, kind.element_at(value, i), scale));
         }
         return list;
     }
-    case Shape::record: {
+    case Shape::map: {
         auto object = Ordered::object();
-        for (const FieldRow& row : kind.table().rows) {
-            object[std::string{row.key}] = json_of(*row.kind, row.in(value));
+        for (std::size_t i = 0; i < kind.size(value); ++i) {
+            object[std::string{kind.name_at(value, i)}] =
+                json_of(*kind.element, kind.element_at(value, i), scale);
         }
         return object;
     }
-    default: return json_of_leaf(kind.get(value));
+    case Shape::record: {
+        auto object = Ordered::object();
+        add_json(object, kind.table(), value, scale);
+        return object;
+    }
+    default: return json_of_leaf(kind, value, scale);
     }
     ensure(false); // a value that only its own format knows has no JSON
     return {};
@@ -91,7 +135,9 @@ Ordered json_of(const ValueKind& kind, const void* value)
 bool read_json(const ValueKind& kind, const Json& json, void* value)
 {
     switch (kind.shape) {
-    case Shape::opaque: return false;
+    case Shape::opaque:
+    case Shape::time:
+    case Shape::map: return false; // these are told, and never read
     case Shape::maybe:
         kind.clear(value);
         return json.is_null() || read_json(*kind.element, json, kind.add(value));

@@ -6,6 +6,7 @@
 #include "proto/base/result.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace hapnet::base {
@@ -13,7 +14,18 @@ namespace hapnet::base {
 // Values as JSON, by the description of their fields (fields.hpp). Numbers are bare: the keys name
 // their units. A number that is not finite, and an optional without a value, is null.
 
-[[nodiscard]] nlohmann::ordered_json json_of(const ValueKind& kind, const void* value);
+/// How numbers are told below a key.
+struct JsonScale {
+    double ns_per_unit = 0.0; // of times; 0: no key has named a unit
+    std::optional<int> decimals{};
+};
+
+[[nodiscard]] nlohmann::ordered_json json_of(const ValueKind& kind, const void* value,
+                                             const JsonScale& scale = {});
+/// The keys of a struct, added to an object.
+void add_json(nlohmann::ordered_json& object, const FieldTable& fields, const void* value,
+              const JsonScale& scale = {});
+
 /// False when the JSON is something else; the value is then of no use.
 [[nodiscard]] bool read_json(const ValueKind& kind, const nlohmann::json& json, void* value);
 [[nodiscard]] Result<void> read_json(const FieldTable& fields, const nlohmann::json& json,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/names.hpp"
+#include "proto/base/time.hpp"
 
 #include <array>
 #include <concepts>
@@ -26,6 +27,24 @@ struct FieldTable;
 template <Described T>
 [[nodiscard]] const FieldTable& field_table();
 
+/// A T for each value of an enum.
+template <Named Enum, typename T>
+struct ByName {
+    std::array<T, names_of_enum<Enum>.size()> values{};
+
+    [[nodiscard]] T& operator[](Enum name) { return values[static_cast<std::size_t>(name)]; }
+    [[nodiscard]] const T& operator[](Enum name) const
+    {
+        return values[static_cast<std::size_t>(name)];
+    }
+
+    friend bool operator==(const ByName&, const ByName&) = default;
+};
+
+/// Values by names, in the order in which they are told.
+template <typename T>
+using Entries = std::vector<std::pair<std::string, T>>;
+
 /// A value without parts, as JSON and cells of CSV know it.
 using Leaf = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
 
@@ -37,23 +56,26 @@ struct ValueKind {
         flag,
         whole, // a whole number
         number,
+        time, // nanoseconds, told in the unit that the key ends with
         text,
         choice, // one of `names`
         maybe,  // a list of one element at most
         list,
+        map,   // elements by names
         record // a described struct
     };
 
     Shape shape = Shape::opaque;
     bool is_signed = false; // a whole number that may be negative
+    /// Of a choice, and of a map whose elements are the same ones always.
     std::span<const std::string_view> names{};
 
-    // flag, whole, number, text and choice
+    // flag, whole, number, time, text and choice
     Leaf (*get)(const void* value) = nullptr;
     /// False, and the value stays, where the leaf is of another kind or out of range.
     bool (*set)(void* value, const Leaf& leaf) = nullptr;
 
-    // maybe and list
+    // maybe, list and map
     const ValueKind* element = nullptr;
     std::size_t (*size)(const void* value) = nullptr;
     void* (*at)(void* value, std::size_t index) = nullptr;
@@ -62,6 +84,9 @@ struct ValueKind {
     /// A new element behind the others. One at a time, so that a text of many wrong elements takes
     /// no more memory than those that are read. A maybe has none before.
     void* (*add)(void* value) = nullptr;
+
+    // map
+    std::string_view (*name_at)(const void* value, std::size_t index) = nullptr;
 
     // record
     const FieldTable& (*table)() = nullptr;
@@ -126,6 +151,10 @@ template <typename T>
     const T& own = *static_cast<const T*>(value);
     if constexpr (Named<T>) {
         return std::string{name_of(own)};
+    } else if constexpr (std::is_same_v<T, Duration>) {
+        return std::int64_t{own.count()};
+    } else if constexpr (std::is_same_v<T, std::string_view>) {
+        return std::string{own};
     } else if constexpr (std::signed_integral<T>) {
         return std::int64_t{own};
     } else if constexpr (std::unsigned_integral<T> && !std::is_same_v<T, bool>) {
@@ -170,6 +199,17 @@ struct Kind<std::string> {
     static constexpr ValueKind kind = leaf_kind<std::string>(ValueKind::Shape::text);
 };
 
+/// These two are told, and never read.
+template <>
+struct Kind<Duration> {
+    static constexpr ValueKind kind{.shape = ValueKind::Shape::time, .get = get_leaf<Duration>};
+};
+template <>
+struct Kind<std::string_view> {
+    static constexpr ValueKind kind{.shape = ValueKind::Shape::text,
+                                    .get = get_leaf<std::string_view>};
+};
+
 template <Named Enum>
 struct Kind<Enum> {
     static constexpr ValueKind kind{.shape = ValueKind::Shape::choice,
@@ -198,6 +238,49 @@ struct Kind<std::optional<T>> {
         .add = [](void* value) -> void* { return &static_cast<Maybe*>(value)->emplace(); }};
 };
 
+/// What a pointer points to, if it does.
+template <typename T>
+struct Kind<const T*> {
+    static constexpr ValueKind kind{
+        .shape = ValueKind::Shape::maybe,
+        .element = &Kind<T>::kind,
+        .size =
+            [](const void* value) {
+                return std::size_t{*static_cast<const T* const*>(value) != nullptr ? 1U : 0U};
+            },
+        .at = [](void* value, std::size_t) -> void* {
+            return const_cast<T*>(*static_cast<const T**>(value)); // NOLINT(*-const-cast): as at()
+        }};
+};
+
+template <Named Enum, typename T>
+struct Kind<ByName<Enum, T>> {
+    using Map = ByName<Enum, T>;
+    static constexpr ValueKind kind{
+        .shape = ValueKind::Shape::map,
+        .names = names_of_enum<Enum>,
+        .element = &Kind<T>::kind,
+        .size = [](const void*) { return names_of_enum<Enum>.size(); },
+        .at = [](void* value, std::size_t index) -> void* {
+            return &static_cast<Map*>(value)->values[index];
+        },
+        .name_at = [](const void*, std::size_t index) { return names_of_enum<Enum>[index]; }};
+};
+
+template <typename T>
+struct Kind<Entries<T>> {
+    static constexpr ValueKind kind{
+        .shape = ValueKind::Shape::map,
+        .element = &Kind<T>::kind,
+        .size = [](const void* value) { return static_cast<const Entries<T>*>(value)->size(); },
+        .at = [](void* value, std::size_t index) -> void* {
+            return &(*static_cast<Entries<T>*>(value))[index].second;
+        },
+        .name_at = [](const void* value, std::size_t index) -> std::string_view {
+            return (*static_cast<const Entries<T>*>(value))[index].first;
+        }};
+};
+
 /// Of a container whose elements have addresses.
 template <typename List>
 [[nodiscard]] constexpr ValueKind list_kind()
@@ -211,8 +294,13 @@ template <typename List>
 }
 
 template <typename T>
-requires(!std::is_same_v<T, bool>) // vector<bool> has no elements with addresses
-    struct Kind<std::vector<T>> {
+inline constexpr bool is_entry = false;
+template <typename T>
+inline constexpr bool is_entry<std::pair<std::string, T>> = true;
+
+template <typename T>
+requires(!std::is_same_v<T, bool> && // vector<bool> has no elements with addresses
+         !is_entry<T>) struct Kind<std::vector<T>> {
     static constexpr ValueKind kind = [] {
         ValueKind list = list_kind<std::vector<T>>();
         list.clear = [](void* value) { static_cast<std::vector<T>*>(value)->clear(); };

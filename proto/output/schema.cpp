@@ -3,7 +3,9 @@
 #include "proto/output/schema.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/output/plain.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -23,10 +25,12 @@ public:
         Json properties = Json::object();
         Json required = Json::array();
         for (const base::FieldRow& row : fields.rows) {
-            Json property = value_of(*row.kind);
-            if (!row.about.empty()) property["description"] = std::string{row.about};
+            // What is left out where it has no value is never null.
+            const bool is_optional = row.telling.is_left_out_if_none;
+            Json property = value_of(is_optional ? row.kind->plain() : *row.kind);
+            if (!row.about.empty()) property["description"] = plain(row.about);
             properties[std::string{row.key}] = std::move(property);
-            required.push_back(std::string{row.key});
+            if (!is_optional) required.push_back(std::string{row.key});
         }
         return {{"type", "object"}, {"properties", properties}, {"required", required}};
     }
@@ -46,6 +50,7 @@ private:
         }
         // A number that is not finite is null.
         case Shape::number: return {{"type", Json::array({"number", "null"})}};
+        case Shape::time: return {{"type", "number"}};
         case Shape::text: return {{"type", "string"}};
         case Shape::choice: {
             Json names = Json::array();
@@ -54,9 +59,23 @@ private:
         }
         case Shape::maybe: return or_null(value_of(*kind.element));
         case Shape::list: return {{"type", "array"}, {"items", value_of(*kind.element)}};
+        case Shape::map: return map_of(kind);
         case Shape::record: return reference_to(kind.table());
         }
         return {};
+    }
+
+    Json map_of(const base::ValueKind& kind)
+    {
+        const Json element = value_of(*kind.element);
+        if (kind.names.empty()) return {{"type", "object"}, {"additionalProperties", element}};
+        Json properties = Json::object();
+        Json required = Json::array();
+        for (const std::string_view name : kind.names) {
+            properties[std::string{name}] = element;
+            required.push_back(std::string{name});
+        }
+        return {{"type", "object"}, {"properties", properties}, {"required", required}};
     }
 
     static Json or_null(Json schema)
@@ -71,7 +90,9 @@ private:
 
     Json reference_to(const base::FieldTable& fields)
     {
-        const std::string name{fields.name};
+        std::string name{fields.name};
+        std::ranges::replace(name, ' ', '_'); // it is part of an address
+        base::ensure(!name.empty());
         const auto [known, is_new] = owners_.emplace(name, &fields);
         base::ensure(known->second == &fields); // two structs of one name
         if (is_new) {

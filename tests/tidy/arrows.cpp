@@ -35,7 +35,7 @@ const std::vector<Folder>& map()
         {"scene", true, {"proto/base"}},
         {"emulator/core", true, {"proto/base"}},
         {"emulator/tools", true, {"emulator/core", "proto/page"}},
-        {"emulator/control", true, {"emulator/core", "proto/control/core"}},
+        {"emulator/control", true, {"emulator/core", "proto/control/core", "proto/output"}},
         {"emulator", false, {"emulator/tools", "emulator/control", "proto/control", "proto/cli"}},
         {"ctl", false, {"proto/net", "proto/cli"}},
         {"device/catalogue",

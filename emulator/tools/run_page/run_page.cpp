@@ -134,9 +134,10 @@ void add_tests(page::Section& section, const RunRecord& run)
     Rows rows;
     const auto add = [&](std::string_view where, const std::vector<TestResult>& results) {
         for (const TestResult& result : results) {
-            rows.push_back(
-                {fmt::format("{}: {}", where, result.name), std::string{to_text(result.outcome)},
-                 result.p_value ? fmt::format("{:.3g}", *result.p_value) : "", result.sentence});
+            rows.push_back({fmt::format("{}: {}", where, result.name),
+                            std::string{base::name_of(result.outcome)},
+                            result.p_value ? fmt::format("{:.3g}", *result.p_value) : "",
+                            result.sentence});
         }
     };
     add("up", run.verification->up);

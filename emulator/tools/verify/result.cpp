@@ -2,22 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/verify/result.hpp"
 
-#include "proto/base/ensure.hpp"
-
 #include <utility>
 
 namespace hapnet::emulator::tools {
-
-std::string_view to_text(Outcome outcome)
-{
-    switch (outcome) {
-    case Outcome::passed: return "passed";
-    case Outcome::failed: return "failed";
-    case Outcome::unable: return "unable";
-    }
-    base::ensure(false);
-    return {};
-}
 
 TestResult by_chance(std::string name, double statistic, double p_value, double alpha)
 {

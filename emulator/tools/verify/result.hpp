@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace hapnet::emulator::tools {
 
@@ -14,7 +15,7 @@ enum class Outcome : std::uint8_t {
     failed,
     unable, // the evidence is too little, or of the wrong kind, for this test
 };
-[[nodiscard]] std::string_view to_text(Outcome outcome);
+constexpr auto names_of(base::Tag<Outcome>) { return base::names("passed", "failed", "unable"); }
 
 /// What one test says of what was observed.
 struct TestResult {
@@ -24,6 +25,18 @@ struct TestResult {
     Outcome outcome = Outcome::unable;
     std::string sentence; // expected and observed, in words
 };
+constexpr auto fields_of(base::Tag<TestResult>)
+{
+    using R = TestResult;
+    return base::fields(
+        "test", base::member("test", &R::name, "Its name."),
+        base::member("outcome", &R::outcome,
+                     "`unable`: there is too little evidence for it, or of the wrong kind."),
+        base::member("statistic", &R::statistic, "What it is says `says`."),
+        base::member("p_value", &R::p_value,
+                     "Two-sided; null for an exact comparison, and for a test that is unable."),
+        base::member("says", &R::sentence, "What was expected and observed, in words."));
+}
 
 /// Fails when p < alpha: for a law that is right, this happens with the probability alpha.
 [[nodiscard]] TestResult by_chance(std::string name, double statistic, double p_value,

@@ -93,9 +93,9 @@ void append_lines(std::string& text, std::string_view part, const Results& resul
         const auto p = result.p_value ? fmt::format("p = {:.3g}", *result.p_value)
                        : is_unable    ? ""
                                       : "exact";
-        text +=
-            fmt::format("{:<8} {:<38} {:<11} {:<14} {}\n", part, result.name,
-                        is_unable ? "cannot tell" : to_text(result.outcome), p, result.sentence);
+        text += fmt::format("{:<8} {:<38} {:<11} {:<14} {}\n", part, result.name,
+                            is_unable ? "cannot tell" : base::name_of(result.outcome), p,
+                            result.sentence);
     }
 }
 

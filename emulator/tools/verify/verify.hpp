@@ -32,6 +32,17 @@ struct Verification {
 
     [[nodiscard]] bool failed() const;
 };
+constexpr auto fields_of(base::Tag<Verification>)
+{
+    using V = Verification;
+    return base::fields(
+        "verification",
+        base::computed<V>(
+            "passed", [](const V& of) { return !of.failed(); }, "No test failed."),
+        base::member("up", &V::up, "The tests of A to B."),
+        base::member("down", &V::down, "Those of B to A."),
+        base::member("between", &V::between, "Those of the two against each other."));
+}
 
 /// Runs every test that applies. Fate n is that of datagram n of its direction.
 [[nodiscard]] Verification verify(const Claim& claim, std::span<const Fate> up,

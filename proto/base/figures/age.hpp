@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/figures/moments.hpp"
 #include "proto/base/time.hpp"
 
@@ -19,6 +20,11 @@ struct Age {
 
     friend bool operator==(const Age&, const Age&) = default;
 };
+constexpr auto fields_of(Tag<Age>)
+{
+    return fields("age", member("mean", &Age::mean), member("peak_mean", &Age::peak_mean),
+                  member("peak_max", &Age::peak_max));
+}
 
 /// Measures the age of information as updates arrive.
 class AgeMeter {

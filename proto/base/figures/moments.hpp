@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstdint>
@@ -16,6 +17,10 @@ struct Moments {
 
     friend bool operator==(const Moments&, const Moments&) = default;
 };
+constexpr auto fields_of(Tag<Moments>)
+{
+    return fields("moments", member("mean", &Moments::mean), member("sd", &Moments::sd));
+}
 
 /// The duration nearest to a number of nanoseconds, half a nanosecond rounded up.
 [[nodiscard]] Duration nearest_duration(double nanoseconds);

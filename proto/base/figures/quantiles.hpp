@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
@@ -22,6 +23,12 @@ struct Quantiles {
 
     friend bool operator==(const Quantiles&, const Quantiles&) = default;
 };
+constexpr auto fields_of(Tag<Quantiles>)
+{
+    return fields("quantiles", member("p50", &Quantiles::p50), member("p90", &Quantiles::p90),
+                  member("p99", &Quantiles::p99), member("p999", &Quantiles::p999),
+                  member("max", &Quantiles::max));
+}
 
 /// Keeps all durations, for exact quantiles: memory grows with their number.
 class DurationSample {

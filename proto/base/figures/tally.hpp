@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -30,5 +32,11 @@ struct Tally {
 
     friend bool operator==(const Tally&, const Tally&) = default;
 };
+constexpr auto fields_of(Tag<Tally>)
+{
+    return fields("tally", member("count", &Tally::count),
+                  computed<Tally>("mean", [](const Tally& tally) { return tally.mean(); }),
+                  member("max", &Tally::max));
+}
 
 } // namespace hapnet::base

@@ -227,7 +227,7 @@ TEST(Play, LosesNoDatagramThatTheEmulatorWouldKeep)
     VirtualWorld small{setting};
     small.run_for(35s);
     const auto full = [](const VirtualWorld& world) {
-        return world.link(0, 1).statistics().dropped_by(emulator::DropCause::queue_full);
+        return world.link(0, 1).statistics().dropped[emulator::DropCause::queue_full];
     };
     EXPECT_GT(full(small), 0U) << "5 s of states are more than it holds";
     const auto trace = play(setting);

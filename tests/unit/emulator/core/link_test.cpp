@@ -142,9 +142,9 @@ TEST(Link, GivesEachFlowOfFramesItsTurn)
         link.on_sent(*departure, departure->due);
         expect_identity(link);
     }
-    EXPECT_EQ(link.statistics().dropped_by(DropCause::rate_queue_full) + numbers.size(), 21U);
+    EXPECT_EQ(link.statistics().dropped[DropCause::rate_queue_full] + numbers.size(), 21U);
     EXPECT_EQ(link.statistics().in_flight, 0U);
-    EXPECT_GT(link.statistics().dropped_by(DropCause::rate_queue_full), 8U);
+    EXPECT_GT(link.statistics().dropped[DropCause::rate_queue_full], 8U);
     ASSERT_GE(numbers.size(), 3U);
     EXPECT_EQ(numbers[0], 0U);
     EXPECT_EQ(numbers[2], 20U); // after what was being sent, and at most one turn of the fat flow
@@ -278,7 +278,7 @@ TEST(Link, CountsAFailedSendUnderItsCause)
     Link link = link_of({.delay = constant(1ms)});
     link.on_packet(payload, start);
     link.on_failed(*link.poll(start + 1ms), DropCause::no_route);
-    EXPECT_EQ(link.statistics().dropped_by(DropCause::no_route), 1U);
+    EXPECT_EQ(link.statistics().dropped[DropCause::no_route], 1U);
     EXPECT_EQ(link.statistics().delivered, 0U);
     EXPECT_EQ(link.statistics().in_flight, 0U);
     EXPECT_EQ(link.statistics().bytes_out, 0U);
@@ -290,7 +290,7 @@ TEST(Link, DropsAndCountsWhatExceedsItsBound)
     link.on_packet(payload, start);
     link.on_packet(payload, start);
     EXPECT_EQ(link.on_packet(payload, start).drop, DropCause::queue_full);
-    EXPECT_EQ(link.statistics().dropped_by(DropCause::queue_full), 1U);
+    EXPECT_EQ(link.statistics().dropped[DropCause::queue_full], 1U);
     EXPECT_EQ(link.statistics().in_flight, 2U);
 }
 
@@ -340,7 +340,7 @@ TEST(Link, DropsWhatHasNoDestinationAndSaysSoInItsFateUnlessALawDropsItFirst)
     EXPECT_FALSE(first.fate.is_lost());
     EXPECT_EQ(link.on_packet(payload, start, false).fate.drop, DropCause::listed_loss);
     EXPECT_FALSE(link.on_packet(payload, start, true).drop);
-    EXPECT_EQ(link.statistics().dropped_by(DropCause::no_destination), 1U);
+    EXPECT_EQ(link.statistics().dropped[DropCause::no_destination], 1U);
     EXPECT_EQ(link.statistics().in_flight, 1U);
 }
 
@@ -505,7 +505,7 @@ TEST(Link, SendsAtItsRateAndDropsWhatItsQueueDoesNotHold)
     // 100 bytes with their overhead of 4 at 800 kbit/s: 1 ms each, and a queue of three of them.
     Link link = link_of({.rate = {800'000, 4, 300}, .delay = constant(10ms)});
     for (int i = 0; i < 6; ++i) link.on_packet(payload, start);
-    EXPECT_EQ(link.statistics().dropped_by(DropCause::rate_queue_full), 2U);
+    EXPECT_EQ(link.statistics().dropped[DropCause::rate_queue_full], 2U);
     const auto departures = all_of(link);
     ASSERT_EQ(departures.size(), 4U);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(departures[i].due, start + 11ms + 1ms * i);

@@ -32,7 +32,7 @@ TEST(Statistics, OfSeveralPathsAddUpToTheSameIdentity)
     one.duplicated = 2;
     one.delivered = 7;
     one.in_flight = 1;
-    one.dropped_by(DropCause::random_loss) = 4;
+    one.dropped[DropCause::random_loss] = 4;
     one.lateness.add(10us);
     Statistics sum = one;
     sum.add(one);
@@ -45,7 +45,7 @@ TEST(Statistics, OfSeveralPathsAddUpToTheSameIdentity)
 TEST(Statistics, SumDropsOverAllCauses)
 {
     Statistics statistics;
-    for (const DropCause cause : drop_causes) statistics.dropped_by(cause) = 2;
+    for (const DropCause cause : drop_causes) statistics.dropped[cause] = 2;
     EXPECT_EQ(statistics.dropped_total(), 2 * drop_causes.size());
 }
 

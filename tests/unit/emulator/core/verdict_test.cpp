@@ -30,7 +30,7 @@ TEST(Verdict, NamesEachLossOfTheEmulatorsOwnAndNoneThatWasAskedForOrHasItsCauseE
 {
     for (const DropCause cause : drop_causes) {
         Statistics statistics;
-        statistics.dropped_by(cause) = 7;
+        statistics.dropped[cause] = 7;
         const bool is_own = std::ranges::find(own_losses, cause) != own_losses.end();
         const Reasons expected{fmt::format("the emulator lost 7 as {}", to_text(cause))};
         EXPECT_EQ(invalid_because(statistics, 0, 1ms), is_own ? expected : Reasons{});

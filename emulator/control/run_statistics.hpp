@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/change_log.hpp"
+#include "emulator/core/direction_report.hpp"
+#include "proto/base/describe.hpp"
+#include "proto/base/time.hpp"
+#include "proto/base/value_kind.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+// What --stats writes and `stats` answers: docs/formats/statistics.md. What a run of some kind does
+// not have is left out.
+
+/// The conditions of a path that are not the default, as a profile writes them.
+struct Configuration {
+    base::Entries<std::string> up;
+    base::Entries<std::string> down;
+};
+constexpr auto fields_of(base::Tag<Configuration>)
+{
+    return base::fields("configuration", base::member("up", &Configuration::up),
+                        base::member("down", &Configuration::down));
+}
+
+/// The numbers of the first datagrams for which something holds.
+struct FirstDatagrams {
+    std::uint64_t up = 0;
+    std::uint64_t down = 0;
+};
+constexpr auto fields_of(base::Tag<FirstDatagrams>)
+{
+    return base::fields("first datagrams", base::member("up", &FirstDatagrams::up),
+                        base::member("down", &FirstDatagrams::down));
+}
+
+/// A change of the conditions.
+struct ChangeReport {
+    std::optional<std::uint64_t> generation{};
+    base::Duration elapsed{};
+    FirstDatagrams effective_at{};
+    ChangeCause by{};
+    base::Entries<std::string> settings;
+};
+constexpr auto fields_of(base::Tag<ChangeReport>)
+{
+    using C = ChangeReport;
+    return base::fields(
+        "change",
+        base::member("generation", &C::generation,
+                     "The generation from this change on; only where the run has one path.")
+            .left_out_if_none(),
+        base::member("elapsed_s", &C::elapsed, "Its time since the start of the run."),
+        base::member("effective_at", &C::effective_at,
+                     "Number of the first datagram of each direction for which it holds, from 0."),
+        base::member("by", &C::by,
+                     "`hand`: a `set`, `apply` or `reset` of `hapnet-ctl`, or the end of a setting "
+                     "made for a time. `timeline`: the profile. `reload`: SIGHUP."),
+        base::member("settings", &C::settings,
+                     "The settings that changed and their new values, by the keys of a profile "
+                     "(`up.delay`); empty where another profile changed none."));
+}
+
+/// What held on a path, and how it changed.
+struct CourseReport {
+    Configuration at_start;
+    std::optional<Configuration> at_end;
+    std::optional<std::vector<ChangeReport>> changes;
+    std::optional<std::uint64_t> changes_omitted;
+};
+constexpr auto fields_of(base::Tag<CourseReport>)
+{
+    using C = CourseReport;
+    return base::fields(
+        "course",
+        base::member("configuration_at_start", &C::at_start,
+                     "The conditions at the start that are not the default, each as a profile "
+                     "writes it."),
+        base::member("configuration_at_end", &C::at_end,
+                     "Those at the end, or at this moment of a run that goes on.")
+            .left_out_if_none(),
+        base::member("changes", &C::changes,
+                     "The [changes of the conditions](#changes-of-the-conditions), in their order.")
+            .left_out_if_none(),
+        base::member("changes_omitted", &C::changes_omitted,
+                     "Changes that are not in the list: beyond the thousandth, and while the run "
+                     "lasts all but the newest 20.")
+            .left_out_if_none());
+}
+
+/// A client of a server.
+struct ClientReport {
+    std::uint64_t number = 0;
+    std::string name;
+    std::string address;
+    CourseReport course;
+    DirectionReport up;
+    DirectionReport down;
+};
+constexpr auto fields_of(base::Tag<ClientReport>)
+{
+    using C = ClientReport;
+    return base::fields("client",
+                        base::member("client", &C::number, "The number n of its streams."),
+                        base::member("name", &C::name, "The name of its path."),
+                        base::member("address", &C::address), base::part(&C::course),
+                        base::member("up", &C::up), base::member("down", &C::down));
+}
+
+/// One of several links.
+struct LinkReport {
+    std::string listen_1;
+    std::string listen_2;
+    std::optional<std::string> end_1;
+    std::optional<std::string> end_2;
+    CourseReport course;
+    DirectionReport up;
+    DirectionReport down;
+};
+constexpr auto fields_of(base::Tag<LinkReport>)
+{
+    using L = LinkReport;
+    return base::fields(
+        "link",
+        base::member("listen_1", &L::listen_1, "The emulator's address towards the first end."),
+        base::member("listen_2", &L::listen_2, "That towards the second."),
+        base::member("end_1", &L::end_1, "The first end; null while it is not known."),
+        base::member("end_2", &L::end_2, "The second end; null while it is not known."),
+        base::part(&L::course),
+        base::member("up", &L::up, "From its first end to its second.").label("direction"),
+        base::member("down", &L::down, "From its second end to its first.").label("direction"));
+}
+
+/// What a network interface passed on, apart from what its path did.
+struct InterfaceReport {
+    std::string interface;
+    std::uint64_t undisturbed = 0;
+    std::uint64_t not_ip = 0;
+    std::uint64_t oversized = 0;
+    std::uint64_t lost_undisturbed = 0;
+    std::uint64_t told_too_big = 0;
+};
+constexpr auto fields_of(base::Tag<InterfaceReport>)
+{
+    using I = InterfaceReport;
+    return base::fields(
+        "interface", base::member("interface", &I::interface, "Its name."),
+        base::member("undisturbed", &I::undisturbed,
+                     "Frames that passed without conditions, such as those of ARP."),
+        base::member("not_ip", &I::not_ip, "Of these, those that carry no IP."),
+        base::member("oversized", &I::oversized, "Frames longer than the MTU of the way out."),
+        base::member("lost_undisturbed", &I::lost_undisturbed,
+                     "Of the undisturbed ones, those that the system did not take."),
+        base::member("told_too_big", &I::told_too_big,
+                     "Senders that were told that their packets are too big."));
+}
+
+/// Both interfaces of a run between two.
+struct InterfaceReports {
+    InterfaceReport a;
+    InterfaceReport b;
+};
+constexpr auto fields_of(base::Tag<InterfaceReports>)
+{
+    return base::fields("interfaces", base::member("a", &InterfaceReports::a),
+                        base::member("b", &InterfaceReports::b));
+}
+
+/// What the system granted of what punctuality wants.
+struct RealTimeReport {
+    bool fifo = false;
+    bool locked_memory = false;
+};
+constexpr auto fields_of(base::Tag<RealTimeReport>)
+{
+    return base::fields(
+        "real time",
+        base::member("fifo", &RealTimeReport::fifo, "Whether the system granted SCHED_FIFO."),
+        base::member("locked_memory", &RealTimeReport::locked_memory,
+                     "Whether it granted locked memory."));
+}
+
+/// What became of a check.
+struct CheckReport {
+    std::string require;
+    std::optional<double> value;
+    bool is_met = false;
+};
+constexpr auto fields_of(base::Tag<CheckReport>)
+{
+    return base::fields(
+        "check", base::member("require", &CheckReport::require, "The condition."),
+        base::member("value", &CheckReport::value, "The value of its key; null where it has none."),
+        base::member("met", &CheckReport::is_met, "Whether it holds."));
+}
+
+struct RunStatistics {
+    std::string_view program = "hapnet-emulator";
+    std::string_view version;
+    std::string_view commit;
+    std::string_view compiler;
+    std::uint64_t seed = 0;
+    std::string_view timing;
+    base::Duration budget{};
+    base::Duration duration{};
+    RealTimeReport real_time{};
+    std::optional<std::string> command{};
+    std::optional<std::string> through{};
+    std::optional<InterfaceReports> frames{};
+    std::optional<std::string> listen_a{};
+    std::optional<std::string> listen_b{};
+    std::optional<std::optional<std::string>> a{}; // the inner: not known yet
+    std::optional<std::optional<std::string>> b{};
+    std::optional<std::uint64_t> strangers{};
+    std::optional<std::uint64_t> overflowed{};
+    std::optional<std::string> listen{};
+    std::optional<std::string> upstream{};
+    std::optional<std::uint64_t> clients_seen{};
+    std::optional<std::uint64_t> clients_forgotten{};
+    std::optional<std::uint64_t> refused{};
+    std::uint64_t generation = 1;
+    CourseReport course;
+    std::string profile;
+    std::optional<std::string> fates;
+    std::optional<std::string> replay;
+    std::optional<std::string> capture;
+    std::uint64_t fates_lost = 0;
+    std::uint64_t capture_lost = 0;
+    bool is_valid = false;
+    std::vector<std::string> invalid_because;
+    DirectionReport up;
+    DirectionReport down;
+    std::optional<base::Entries<LinkReport>> links{};
+    std::optional<std::vector<ClientReport>> clients{};
+    std::optional<base::Duration> elapsed{};
+    std::vector<CheckReport> checks;
+};
+constexpr auto fields_of(base::Tag<RunStatistics>)
+{
+    using S = RunStatistics;
+    return base::fields(
+        "run", base::member("program", &S::program, "The program that ran."),
+        base::member("version", &S::version, "Its version."),
+        base::member("commit", &S::commit, "The commit that it was built from."),
+        base::member("compiler", &S::compiler, "What it was built with."),
+        base::member("seed", &S::seed, "The seed of the run."),
+        base::member("timing", &S::timing, "`eco`, `precise` or `spin`."),
+        base::member("budget_us", &S::budget, "The `--budget`."),
+        base::member("duration_s", &S::duration, "Length of the run so far."),
+        base::member("real_time", &S::real_time),
+        base::member("command", &S::command,
+                     "Only with [`between`, `exec` and "
+                     "`bridge`](../use/between.md#what-the-conditions-hold-for): which of them.")
+            .left_out_if_none(),
+        base::member("through", &S::through,
+                     "Only with [`exec`](../use/exec.md#what-stands-behind-it): `pasta` or "
+                     "`slirp4netns`.")
+            .left_out_if_none(),
+        base::member("frames", &S::frames,
+                     "Only with [`between`, `exec` and "
+                     "`bridge`](../use/between.md#what-the-conditions-hold-for): what each "
+                     "interface passed on besides.")
+            .left_out_if_none(),
+        base::member("listen_a", &S::listen_a,
+                     "The emulator's own address towards A, with the port that port 0 became.")
+            .left_out_if_none(),
+        base::member("listen_b", &S::listen_b, "That towards B.").left_out_if_none(),
+        base::member("a", &S::a, "The address of A; null until the first sender was adopted.")
+            .left_out_if_none(),
+        base::member("b", &S::b, "That of B.").left_out_if_none(),
+        base::member("strangers", &S::strangers, "Of both directions, see below.")
+            .left_out_if_none(),
+        base::member("overflowed", &S::overflowed, "Of both directions, see below.")
+            .left_out_if_none(),
+        base::member("listen", &S::listen,
+                     "With `--upstream`: the emulator's own address towards the clients.")
+            .left_out_if_none(),
+        base::member("upstream", &S::upstream, "With `--upstream`: the server.").left_out_if_none(),
+        base::member("clients_seen", &S::clients_seen, "Clients since the start.")
+            .left_out_if_none(),
+        base::member("clients_forgotten", &S::clients_forgotten,
+                     "Those of them that were silent for `--idle`.")
+            .left_out_if_none(),
+        base::member("refused", &S::refused, "Datagrams for whose sender there was no place.")
+            .left_out_if_none(),
+        base::member("generation", &S::generation,
+                     "1, and one more for each change of the conditions.")
+            .gauge("hapnet_emulator_generation"),
+        base::part(&S::course),
+        base::member("profile", &S::profile,
+                     "The whole profile of the start with its timeline, as TOML."),
+        base::member("fates", &S::fates, "The file of `--fates`; null without the option."),
+        base::member("replay", &S::replay, "That of `--replay`, likewise."),
+        base::member("capture", &S::capture, "That of `--pcap`, likewise."),
+        base::member("fates_lost", &S::fates_lost,
+                     "Datagrams missing in the file of `--fates`, because the disk was too slow or "
+                     "full."),
+        base::member("capture_lost", &S::capture_lost,
+                     "Packets missing in that of `--pcap`, likewise."),
+        base::member("valid", &S::is_valid, "Whether the run is [valid](#what-valid-means)."),
+        base::member("invalid_because", &S::invalid_because,
+                     "The reasons as a list of texts, those of a direction or of files with `up:`, "
+                     "`down:` or `files:` before them; empty when valid."),
+        base::member("up", &S::up, "A to B, with the keys of the next tables.").label("direction"),
+        base::member("down", &S::down, "B to A, likewise.").label("direction"),
+        base::member("links", &S::links,
+                     "With `--link`: each link by its name. `up` and `down` of the run are then "
+                     "their sums, without `lens`.")
+            .label("path")
+            .left_out_if_none(),
+        base::member("clients", &S::clients,
+                     "With `--upstream`: the clients at present. `up` and `down` of the run are "
+                     "then sums over all, also over those that were forgotten, without `lens`.")
+            .left_out_if_none(),
+        base::member("elapsed_s", &S::elapsed, "While the run lasts: the time since its start.")
+            .gauge("hapnet_emulator_elapsed")
+            .left_out_if_none(),
+        base::member("checks", &S::checks,
+                     "Only in a run with `--require` or [`[[check]]`](profile.md#checks): what "
+                     "became of each, as it is at this moment.")
+            .left_out_if_none());
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/direction_report.hpp"
+
+#include "emulator/core/verdict.hpp"
+
+namespace hapnet::emulator {
+
+Distribution distribution_of(const base::DurationHistogram& histogram, double ns_per_unit)
+{
+    Distribution list;
+    for (const auto& [low, high, count] : histogram.filled_bins()) {
+        list.push_back({base::to_nanoseconds(low) / ns_per_unit,
+                        base::to_nanoseconds(high) / ns_per_unit, static_cast<double>(count)});
+    }
+    return list;
+}
+
+std::optional<DelayReport> LensReport::delay() const
+{
+    if (!measured.delay || !measured.delay_quantiles) return std::nullopt;
+    return DelayReport{*measured.delay, *measured.delay_quantiles, distribution};
+}
+
+std::vector<std::string> DirectionReport::reasons() const
+{
+    return invalid_because(*statistics, overflowed, budget);
+}
+
+TimesReport DirectionReport::times(const base::DurationHistogram& histogram) const
+{
+    constexpr double ns_per_us = 1e3;
+    TimesReport report{.of = &histogram, .distribution = {}};
+    if (has_distributions) report.distribution = distribution_of(histogram, ns_per_us);
+    return report;
+}
+
+std::optional<LensReport> DirectionReport::lens() const
+{
+    constexpr double ns_per_ms = 1e6;
+    if (stream == nullptr) return std::nullopt;
+    LensReport lens{.measured = stream->report(), .distribution = {}};
+    if (has_distributions) {
+        lens.distribution = distribution_of(stream->delays.delays(), ns_per_ms);
+    }
+    return lens;
+}
+
+} // namespace hapnet::emulator

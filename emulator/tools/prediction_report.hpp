@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/tools/predict.hpp"
+#include "proto/base/describe.hpp"
+#include "proto/base/value_kind.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// Runs of losses.
+struct LossReport {
+    double share = 0.0;
+    base::Tally runs;
+};
+constexpr auto fields_of(base::Tag<LossReport>)
+{
+    using L = LossReport;
+    return base::fields(
+        "loss", base::member("share", &L::share, "The share of all that was lost."),
+        base::computed<L>(
+            "runs", [](const L& loss) { return loss.runs.count; }, "Runs of losses."),
+        base::computed<L>(
+            "run_mean", [](const L& loss) { return loss.runs.mean(); }, "Their mean length."),
+        base::computed<L>(
+            "run_max", [](const L& loss) { return loss.runs.max; }, "That of the longest."));
+}
+
+/// One direction of a prediction, and what was asked for it. All that it refers to outlives it.
+struct DirectionForecast {
+    const DirectionPrediction* of = nullptr;
+    const Conditions* conditions = nullptr;
+    const Stream* stream = nullptr;
+    bool has_timeline = false;
+
+    [[nodiscard]] std::vector<std::string> theory() const;
+    [[nodiscard]] std::vector<std::string> warnings() const;
+    [[nodiscard]] std::string why_unsettled() const;
+    /// nullopt: nothing settles.
+    [[nodiscard]] std::optional<Precision> precision() const;
+    /// By cause: those that occurred.
+    [[nodiscard]] base::Entries<std::uint64_t> dropped() const;
+    /// The share of departures that were out of order.
+    [[nodiscard]] double reordered_share() const;
+};
+constexpr auto fields_of(base::Tag<DirectionForecast>)
+{
+    using D = DirectionForecast;
+    return base::fields(
+        "direction",
+        base::computed<D>(
+            "theory", [](const D& one) { return one.theory(); },
+            "What theory says of each stage, a sentence each."),
+        base::computed<D>(
+            "warnings", [](const D& one) { return one.warnings(); },
+            "What is probably not meant so, a sentence each."),
+        base::computed<D>("received", [](const D& one) { return one.of->statistics.received; }),
+        base::computed<D>("delivered", [](const D& one) { return one.of->statistics.delivered; }),
+        base::computed<D>("duplicated", [](const D& one) { return one.of->statistics.duplicated; }),
+        base::computed<D>("corrupted", [](const D& one) { return one.of->statistics.corrupted; }),
+        base::computed<D>(
+            "dropped", [](const D& one) { return one.dropped(); },
+            "By cause: only the causes that occurred."),
+        base::computed<D>(
+            "loss",
+            [](const D& one) {
+                return LossReport{one.of->loss_share(), one.of->loss_runs};
+            },
+            "What does not come; with `--sealed`, damaged datagrams, too."),
+        base::computed<D>(
+            "requested_delay_ms",
+            [](const D& one) -> const auto& { return one.of->measured.requested_delay; },
+            "The delays as drawn, before queues and order."),
+        base::computed<D>(
+            "delay_ms", [](const D& one) -> const auto& { return one.of->measured.delay; },
+            "The delays as they came out."),
+        base::computed<D>(
+            "delay_quantiles_ms",
+            [](const D& one) -> const auto& { return one.of->measured.delay_quantiles; },
+            "Their quantiles."),
+        base::computed<D>(
+            "settled", [](const D& one) { return one.why_unsettled().empty(); },
+            "Whether mean and deviation of the delay are known to 1 %."),
+        base::computed<D>(
+            "unsettled_because",
+            [](const D& one) {
+                auto why = one.why_unsettled();
+                return why.empty() ? std::nullopt : std::optional{std::move(why)};
+            },
+            "Why they are not."),
+        base::computed<D>(
+            "precision", [](const D& one) { return one.precision(); },
+            "Half the width of a 95 % interval, as a share of the value. null: nothing settles."),
+        base::computed<D>(
+            "added_by_queues_ms", [](const D& one) { return one.of->added_by_queues; },
+            "Mean delay beyond the drawn one: rate and order."),
+        base::computed<D>(
+            "jitter_ms",
+            [](const D& one) -> const auto& { return one.of->measured.delay_variation; },
+            "|IPDV| (RFC 3393)."),
+        base::computed<D>(
+            "gap_ms", [](const D& one) -> const auto& { return one.of->measured.gap; },
+            "The time between two departures."),
+        base::computed<D>(
+            "clumped_share", [](const D& one) { return one.of->measured.clumped_share; },
+            "Share of these gaps that are below 50 µs."),
+        base::computed<D>(
+            "reordered_share", [](const D& one) { return one.reordered_share(); },
+            "Share of the departures that were out of order (RFC 4737)."),
+        base::computed<D>(
+            "reorder_extent",
+            [](const D& one) -> const auto& { return one.of->measured.reordered; },
+            "By how many departures they came too late."),
+        base::computed<D>(
+            "age_ms", [](const D& one) -> const auto& { return one.of->measured.age; },
+            "The age of information at the output."));
+}
+
+/// What `predict --json` prints.
+struct PredictionReport {
+    std::string_view program = "hapnet-emulator predict";
+    std::string_view version;
+    std::string profile;
+    std::optional<std::string> link;
+    std::uint64_t seed = 0;
+    double rate_hz = 0.0;
+    std::uint64_t packets = 0;
+    std::uint64_t bytes = 0;
+    bool is_sealed = false;
+    DirectionForecast up;
+    DirectionForecast down;
+};
+constexpr auto fields_of(base::Tag<PredictionReport>)
+{
+    using P = PredictionReport;
+    return base::fields(
+        "prediction", base::member("program", &P::program), base::member("version", &P::version),
+        base::member("profile", &P::profile, "The file, or the name of the profile."),
+        base::member("link", &P::link, "Which of several paths; null: the only one."),
+        base::member("seed", &P::seed), base::member("rate_hz", &P::rate_hz, "Datagrams a second."),
+        base::member("packets", &P::packets, "How many were played each way."),
+        base::member("bytes", &P::bytes, "Payload of each."),
+        base::member("sealed", &P::is_sealed, "Whether damaged ones count as lost."),
+        base::member("up", &P::up), base::member("down", &P::down));
+}
+
+} // namespace hapnet::emulator::tools

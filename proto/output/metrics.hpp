@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/fields.hpp"
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::output {
+
+/// A value of a metric, and what it is of.
+struct Sample {
+    std::map<std::string, std::string> labels;
+    double value = 0.0;
+};
+
+/// A metric of Prometheus.
+struct Metric {
+    std::string name;
+    std::string help;
+    bool is_counter = false;
+    std::vector<Sample> samples;
+};
+
+/// Metrics in the order in which they were first told.
+class Metrics {
+public:
+    /// Those that the JSON of a struct has, by the description of its fields. Names of times end
+    /// with `_seconds`, which they are told in, and those of counters with `_total`. Each number
+    /// below a field that is a metric is one, too: its name has the keys behind it.
+    void add(const base::FieldTable& fields, const nlohmann::ordered_json& json,
+             const std::map<std::string, std::string>& labels = {});
+    /// Those of another program, as its json() has them. What is none is passed over.
+    void add(const nlohmann::ordered_json& told);
+
+    /// A list, which add() takes.
+    [[nodiscard]] nlohmann::ordered_json json() const;
+    /// In the format of Prometheus (text, version 0.0.4).
+    [[nodiscard]] std::string text() const;
+
+private:
+    Metric& metric_of(const std::string& name, std::string_view help, bool is_counter);
+    void add_row(const base::FieldRow& row, const nlohmann::ordered_json& json,
+                 const std::map<std::string, std::string>& labels);
+
+    std::vector<Metric> all_;
+};
+
+} // namespace hapnet::output
