@@ -126,7 +126,9 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
     }
     program.command("reset", "Undoes every set and apply of an emulator: back to the profile "
                              "that it was started with, at the present position of its timeline");
-    program.command("stats", "Prints the statistics, as --stats of the program writes them");
+    program.command("stats", "Prints the statistics, as --stats of the program writes them")
+        .flag("--csv", "Print a line for each figure: its key and its value", options.as_csv);
+    program.command("metrics", "Prints the main figures of the statistics as text for Prometheus");
     cli::Command& watch = program.command("watch", "Prints the main figures until Ctrl-C: in place "
                                                    "on a terminal, otherwise a line each time");
     watch.option("--every", "TIME",

@@ -27,6 +27,7 @@ struct Options {
     std::optional<base::Duration> every;
     bool of_frames = false; // watch --frames
     bool as_json = false;
+    bool as_csv = false; // of stats
 };
 
 /// `default_socket` is that of $HAPNET_SOCKET; nullptr where it is not set.

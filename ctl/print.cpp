@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "ctl/print.hpp"
 
+#include "proto/base/csv.hpp"
 #include "proto/base/text.hpp"
+#include "proto/output/metrics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +35,22 @@ std::string text_of(const Json& value)
 std::string text_at(const Json& json, const std::string& pointer)
 {
     return text_of(at(json, pointer));
+}
+
+/// A line for each value: "up.received,100".
+std::string csv_lines(const Json& json, const std::string& key)
+{
+    if (!json.is_structured()) {
+        const std::string text = json.is_string() ? json.get<std::string>()
+                                 : json.is_null() ? std::string{}
+                                                  : json.dump();
+        return fmt::format("{},{}\n", base::csv_quoted(key), base::csv_quoted(text));
+    }
+    std::string lines;
+    for (const auto& [name, value] : json.items()) { // a list has its places, from 0 on, as names
+        lines += csv_lines(value, key.empty() ? name : key + '.' + name);
+    }
+    return lines;
 }
 
 double number_at(const Json& json, const std::string& pointer)
@@ -144,7 +162,13 @@ std::string in_words(const Options& options, const Json& reply)
     if (command == "stats") {
         Json statistics = reply;
         statistics.erase("ok");
+        if (options.as_csv) return "key,value\n" + csv_lines(statistics, "");
         return statistics.dump(2) + "\n";
+    }
+    if (command == "metrics") {
+        output::Metrics metrics;
+        metrics.add(at(reply, "/metrics"));
+        return metrics.text();
     }
     if (command == "stop") {
         return text_at(reply, "/program") == "hapnet-emulator"

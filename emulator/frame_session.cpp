@@ -110,9 +110,9 @@ nlohmann::ordered_json FrameSession::statistics(const control::DoWork& work)
 {
     look_at(run_, frames_, work, state_);
     RunStatistics statistics = statistics_of_any(run_, state_);
-    statistics.command = setup_.command;
-    statistics.through = setup_.through;
-    statistics.frames = state_.interfaces;
+    statistics.ends.command = setup_.command;
+    statistics.ends.through = setup_.through;
+    statistics.ends.frames = state_.interfaces;
     tell_of_path(statistics, run_, state_);
     return json_of(statistics, run_);
 }

@@ -159,11 +159,11 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& sta
 {
     const Sums sums = sums_of(state);
     RunStatistics statistics = statistics_of_any(run, state);
-    statistics.listen = run.port.local().to_text();
-    statistics.upstream = run.port.server().to_text();
-    statistics.clients_seen = state.server.clients_seen;
-    statistics.clients_forgotten = state.server.departed.count;
-    statistics.refused = state.server.refused;
+    statistics.ends.listen = run.port.local().to_text();
+    statistics.ends.upstream = run.port.server().to_text();
+    statistics.ends.clients_seen = state.server.clients_seen;
+    statistics.ends.clients_forgotten = state.server.departed.count;
+    statistics.ends.refused = state.server.refused;
     statistics.course.at_start = configuration_of(run.scenario.profile.path);
     // Of whoever comes now.
     statistics.course.at_end = configuration_of(*state.server.newcomers);

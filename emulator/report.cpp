@@ -74,21 +74,21 @@ Configuration configuration_of(const Path& path)
 RunStatistics statistics_of_any(const AnyRun& run, const RunState& state)
 {
     RunStatistics statistics;
-    statistics.version = base::version();
-    statistics.commit = base::commit();
-    statistics.compiler = base::compiler();
-    statistics.seed = run.scenario.seed.value();
-    statistics.timing = base::name_of(run.options.timing);
-    statistics.budget = run.options.budget;
-    statistics.duration = state.elapsed;
-    statistics.real_time = {run.real_time.fifo, run.real_time.locked_memory};
+    statistics.program = {.version = base::version(),
+                          .commit = base::commit(),
+                          .compiler = base::compiler(),
+                          .seed = run.scenario.seed.value(),
+                          .timing = base::name_of(run.options.timing),
+                          .budget = run.options.budget,
+                          .duration = state.elapsed,
+                          .real_time = {run.real_time.fifo, run.real_time.locked_memory}};
     statistics.generation = state.generation;
-    statistics.profile = to_text(run.scenario.profile);
-    statistics.fates = run.options.fates;
-    statistics.replay = run.options.replay;
-    statistics.capture = run.options.capture;
-    statistics.fates_lost = run.recorder.fates_lost();
-    statistics.capture_lost = run.recorder.capture_lost();
+    statistics.files = {.profile = to_text(run.scenario.profile),
+                        .fates = run.options.fates,
+                        .replay = run.options.replay,
+                        .capture = run.options.capture,
+                        .fates_lost = run.recorder.fates_lost(),
+                        .capture_lost = run.recorder.capture_lost()};
     if (!state.is_over) statistics.elapsed = state.elapsed;
     return statistics;
 }
@@ -180,12 +180,13 @@ nlohmann::ordered_json statistics_of(const Run& run, const RunState& state)
         return address ? std::optional{address->to_text()} : std::nullopt;
     };
     RunStatistics statistics = statistics_of_any(run, state);
-    statistics.listen_a = relay_of(run).a().local.to_text();
-    statistics.listen_b = relay_of(run).b().local.to_text();
-    statistics.a = text_of(path.end_a);
-    statistics.b = text_of(path.end_b);
-    statistics.strangers = path.up.strangers + path.down.strangers;
-    statistics.overflowed = path.up.overflowed + path.down.overflowed;
+    EndsReport& ends = statistics.ends;
+    ends.listen_a = relay_of(run).a().local.to_text();
+    ends.listen_b = relay_of(run).b().local.to_text();
+    ends.a = text_of(path.end_a);
+    ends.b = text_of(path.end_b);
+    ends.strangers = path.up.strangers + path.down.strangers;
+    ends.overflowed = path.up.overflowed + path.down.overflowed;
     tell_of_path(statistics, run, state);
     return json_of(statistics, run);
 }

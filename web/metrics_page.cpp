@@ -3,7 +3,7 @@
 #include "web/metrics_page.hpp"
 
 #include "proto/net/clock.hpp"
-#include "web/core/metrics.hpp"
+#include "proto/output/metrics.hpp"
 
 #include <memory>
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 
 using Json = Daemon::Json;
 
-const std::string stats_request = R"({"command":"stats"})";
+const std::string metrics_request = R"({"command":"metrics"})";
 
 void reply_with(const std::string& text, const OnReply& on_reply)
 {
@@ -30,27 +30,21 @@ void MetricsPage::answer(Daemon* emulator, const std::vector<Daemon*>& peers,
     if (until_ && !base::is_due(until_, now)) return reply_with(text_, on_reply);
     until_ = now + kept_for;
     struct Gathered {
-        Json emulator = nullptr;
-        std::vector<Json> peers;
+        output::Metrics metrics;
         std::size_t awaited = 1;
     };
     auto gathered = std::make_shared<Gathered>();
     const auto one_more = [this, gathered, on_reply] {
         if (--gathered->awaited > 0) return;
-        text_ = prometheus_text(gathered->emulator, gathered->peers);
+        text_ = gathered->metrics.text();
         reply_with(text_, on_reply);
     };
-    if (emulator != nullptr) {
+    std::vector<Daemon*> daemons = peers;
+    if (emulator != nullptr) daemons.insert(daemons.begin(), emulator);
+    for (Daemon* daemon : daemons) {
         ++gathered->awaited;
-        emulator->ask(stats_request, [gathered, one_more](const base::Result<Json>& reply) {
-            if (reply) gathered->emulator = *reply;
-            one_more();
-        });
-    }
-    for (Daemon* peer : peers) {
-        ++gathered->awaited;
-        peer->ask(stats_request, [gathered, one_more](const base::Result<Json>& reply) {
-            if (reply) gathered->peers.push_back(*reply);
+        daemon->ask(metrics_request, [gathered, one_more](const base::Result<Json>& reply) {
+            if (reply && reply->contains("metrics")) gathered->metrics.add(reply->at("metrics"));
             one_more();
         });
     }

@@ -12,7 +12,7 @@
 
 namespace hapnet::web {
 
-/// GET /metrics: the statistics of all daemons as text for Prometheus, asked for once a second at
+/// GET /metrics: the metrics of all daemons as text for Prometheus, asked for once a second at
 /// most, whoever scrapes.
 class MetricsPage {
 public:

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/fate.hpp"
 #include "emulator/core/pulse.hpp"
+#include "emulator/core/statistics.hpp"
 #include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
-#include "proto/base/value_kind.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -41,13 +40,9 @@ constexpr auto fields_of(base::Tag<LateSpread>)
                         base::member("max", &LateSpread::max));
 }
 
-/// One direction of a path since the frame before.
+/// One direction of a path since the frame before; what waits to leave is that of now.
 struct WayFrame {
-    std::uint64_t received = 0;
-    std::uint64_t delivered = 0;
-    std::uint64_t duplicated = 0;
-    base::Entries<std::uint64_t> dropped; // causes that occurred
-    std::uint64_t in_flight = 0;
+    Counters counters;
     Pulse pulse;
 
     [[nodiscard]] std::optional<DelaySpread> delay() const
@@ -64,19 +59,15 @@ struct WayFrame {
 constexpr auto fields_of(base::Tag<WayFrame>)
 {
     using W = WayFrame;
-    return base::fields(
-        "way", base::member("received", &W::received, "Datagrams since the frame before."),
-        base::member("delivered", &W::delivered), base::member("duplicated", &W::duplicated),
-        base::member("dropped", &W::dropped, "Likewise, by cause: only causes that occurred."),
-        base::member("in_flight", &W::in_flight, "Datagrams that wait to leave now."),
-        base::computed<W>(
-            "delay_ms", [](const W& way) { return way.delay(); },
-            "From arrival to departure of what was delivered. null: nothing was.")
-            .rounded(4),
-        base::computed<W>(
-            "late_us", [](const W& way) { return way.late(); },
-            "Time sent minus time due, likewise.")
-            .rounded(1));
+    return base::fields("way", base::part(&W::counters).without_zeros(),
+                        base::computed<W>(
+                            "delay_ms", [](const W& way) { return way.delay(); },
+                            "From arrival to departure of what was delivered. null: nothing was.")
+                            .rounded(4),
+                        base::computed<W>(
+                            "late_us", [](const W& way) { return way.late(); },
+                            "Time sent minus time due, likewise.")
+                            .rounded(1));
 }
 
 struct PathFrame {

@@ -3,6 +3,7 @@
 #include "emulator/control/frames.hpp"
 
 #include "proto/base/fields_json.hpp"
+#include "proto/base/figures/counters.hpp"
 #include "proto/control/core/reply.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ control::FrameSource Frames::watch(AllPaths& paths, const control::DoWork& work)
     auto watch = std::make_shared<Watch>();
     for (const SeenPath& one : first.paths) {
         Ways& ways = watch->paths[one.name];
-        for (std::size_t i = 0; i < ways.size(); ++i) ways[i].counts = one.ways[i].counts;
+        for (std::size_t i = 0; i < ways.size(); ++i) ways[i].counters = one.ways[i].counters;
     }
     watches_.push_back(watch);
     return [self = shared_from_this(), watch, &paths, work](std::string& text,
@@ -37,10 +38,8 @@ Frames::Look Frames::look(AllPaths& paths)
     for (std::size_t i = 0; i < std::min(all.size(), paths_max); ++i) {
         SeenPath& one = look.paths.emplace_back(SeenPath{all[i]->name, {}});
         for (std::size_t way = 0; way < directions.size(); ++way) {
-            const Statistics& now = all[i]->path->link(directions[way]).statistics();
             one.ways[way] = {all[i]->path->take_pulse(directions[way]),
-                             {now.received, now.delivered, now.duplicated, now.dropped},
-                             now.in_flight};
+                             all[i]->path->link(directions[way]).statistics()};
         }
     }
     return look;
@@ -69,21 +68,10 @@ Frames::Look Frames::share_out(AllPaths& paths, const control::DoWork& work)
 
 WayFrame Frames::frame_of(Way& way, const Seen& seen)
 {
-    const Counts& now = seen.counts;
     // A path that has gone and come again begins at 0.
-    if (now.received < way.counts.received) way = {};
-    const Counts& before = way.counts;
-    WayFrame frame{.received = now.received - before.received,
-                   .delivered = now.delivered - before.delivered,
-                   .duplicated = now.duplicated - before.duplicated,
-                   .dropped = {},
-                   .in_flight = seen.in_flight,
-                   .pulse = way.pulse};
-    for (const DropCause cause : drop_causes) {
-        const auto count = now.dropped[cause] - before.dropped[cause];
-        if (count > 0) frame.dropped.emplace_back(to_text(cause), count);
-    }
-    way = {{}, now};
+    if (seen.counters.received < way.counters.received) way = {};
+    const WayFrame frame{base::counted_since(seen.counters, way.counters), way.pulse};
+    way = {{}, seen.counters};
     return frame;
 }
 

@@ -32,17 +32,10 @@ public:
     [[nodiscard]] control::FrameSource watch(AllPaths& paths, const control::DoWork& work);
 
 private:
-    struct Counts {
-        std::uint64_t received = 0;
-        std::uint64_t delivered = 0;
-        std::uint64_t duplicated = 0;
-        base::ByName<DropCause, std::uint64_t> dropped{};
-    };
-    /// The counters of one direction of a path at a look.
+    /// One direction of a path at a look.
     struct Seen {
         Pulse pulse; // since the look before
-        Counts counts;
-        std::uint64_t in_flight = 0;
+        Counters counters;
     };
     struct SeenPath {
         std::string name;
@@ -58,8 +51,8 @@ private:
 
     /// One direction of a path, as a watch sees it.
     struct Way {
-        Pulse pulse;   // since its last frame
-        Counts counts; // as they were at its last frame
+        Pulse pulse;       // since its last frame
+        Counters counters; // as they were at its last frame
     };
     using Ways = std::array<Way, 2>;
     struct Watch {

@@ -201,7 +201,8 @@ constexpr auto fields_of(base::Tag<CheckReport>)
         base::member("met", &CheckReport::is_met, "Whether it holds."));
 }
 
-struct RunStatistics {
+/// The program, and how it ran.
+struct ProgramReport {
     std::string_view program = "hapnet-emulator";
     std::string_view version;
     std::string_view commit;
@@ -211,6 +212,23 @@ struct RunStatistics {
     base::Duration budget{};
     base::Duration duration{};
     RealTimeReport real_time{};
+};
+constexpr auto fields_of(base::Tag<ProgramReport>)
+{
+    using P = ProgramReport;
+    return base::fields("program", base::member("program", &P::program, "The program that ran."),
+                        base::member("version", &P::version, "Its version."),
+                        base::member("commit", &P::commit, "The commit that it was built from."),
+                        base::member("compiler", &P::compiler, "What it was built with."),
+                        base::member("seed", &P::seed, "The seed of the run."),
+                        base::member("timing", &P::timing, "`eco`, `precise` or `spin`."),
+                        base::member("budget_us", &P::budget, "The `--budget`."),
+                        base::member("duration_s", &P::duration, "Length of the run so far."),
+                        base::member("real_time", &P::real_time));
+}
+
+/// What a run stands between.
+struct EndsReport {
     std::optional<std::string> command{};
     std::optional<std::string> through{};
     std::optional<InterfaceReports> frames{};
@@ -225,14 +243,81 @@ struct RunStatistics {
     std::optional<std::uint64_t> clients_seen{};
     std::optional<std::uint64_t> clients_forgotten{};
     std::optional<std::uint64_t> refused{};
-    std::uint64_t generation = 1;
-    CourseReport course;
+};
+constexpr auto fields_of(base::Tag<EndsReport>)
+{
+    using E = EndsReport;
+    return base::fields(
+        "ends",
+        base::member("command", &E::command,
+                     "Only with [`between`, `exec` and "
+                     "`bridge`](../use/between.md#what-the-conditions-hold-for): which of them.")
+            .left_out_if_none(),
+        base::member("through", &E::through,
+                     "Only with [`exec`](../use/exec.md#what-stands-behind-it): `pasta` or "
+                     "`slirp4netns`.")
+            .left_out_if_none(),
+        base::member("frames", &E::frames,
+                     "Only with [`between`, `exec` and "
+                     "`bridge`](../use/between.md#what-the-conditions-hold-for): what each "
+                     "interface passed on besides.")
+            .left_out_if_none(),
+        base::member("listen_a", &E::listen_a,
+                     "The emulator's own address towards A, with the port that port 0 became.")
+            .left_out_if_none(),
+        base::member("listen_b", &E::listen_b, "That towards B.").left_out_if_none(),
+        base::member("a", &E::a, "The address of A; null until the first sender was adopted.")
+            .left_out_if_none(),
+        base::member("b", &E::b, "That of B.").left_out_if_none(),
+        base::member("strangers", &E::strangers, "Of both directions, see below.")
+            .left_out_if_none(),
+        base::member("overflowed", &E::overflowed, "Of both directions, see below.")
+            .left_out_if_none(),
+        base::member("listen", &E::listen,
+                     "With `--upstream`: the emulator's own address towards the clients.")
+            .left_out_if_none(),
+        base::member("upstream", &E::upstream, "With `--upstream`: the server.").left_out_if_none(),
+        base::member("clients_seen", &E::clients_seen, "Clients since the start.")
+            .left_out_if_none(),
+        base::member("clients_forgotten", &E::clients_forgotten,
+                     "Those of them that were silent for `--idle`.")
+            .left_out_if_none(),
+        base::member("refused", &E::refused, "Datagrams for whose sender there was no place.")
+            .left_out_if_none());
+}
+
+/// The profile and the files of a run.
+struct FilesReport {
     std::string profile;
     std::optional<std::string> fates;
     std::optional<std::string> replay;
     std::optional<std::string> capture;
     std::uint64_t fates_lost = 0;
     std::uint64_t capture_lost = 0;
+};
+constexpr auto fields_of(base::Tag<FilesReport>)
+{
+    using F = FilesReport;
+    return base::fields(
+        "files",
+        base::member("profile", &F::profile,
+                     "The whole profile of the start with its timeline, as TOML."),
+        base::member("fates", &F::fates, "The file of `--fates`; null without the option."),
+        base::member("replay", &F::replay, "That of `--replay`, likewise."),
+        base::member("capture", &F::capture, "That of `--pcap`, likewise."),
+        base::member("fates_lost", &F::fates_lost,
+                     "Datagrams missing in the file of `--fates`, because the disk was too slow or "
+                     "full."),
+        base::member("capture_lost", &F::capture_lost,
+                     "Packets missing in that of `--pcap`, likewise."));
+}
+
+struct RunStatistics {
+    ProgramReport program{};
+    EndsReport ends{};
+    std::uint64_t generation = 1;
+    CourseReport course;
+    FilesReport files{};
     bool is_valid = false;
     std::vector<std::string> invalid_because;
     DirectionReport up;
@@ -246,64 +331,11 @@ constexpr auto fields_of(base::Tag<RunStatistics>)
 {
     using S = RunStatistics;
     return base::fields(
-        "run", base::member("program", &S::program, "The program that ran."),
-        base::member("version", &S::version, "Its version."),
-        base::member("commit", &S::commit, "The commit that it was built from."),
-        base::member("compiler", &S::compiler, "What it was built with."),
-        base::member("seed", &S::seed, "The seed of the run."),
-        base::member("timing", &S::timing, "`eco`, `precise` or `spin`."),
-        base::member("budget_us", &S::budget, "The `--budget`."),
-        base::member("duration_s", &S::duration, "Length of the run so far."),
-        base::member("real_time", &S::real_time),
-        base::member("command", &S::command,
-                     "Only with [`between`, `exec` and "
-                     "`bridge`](../use/between.md#what-the-conditions-hold-for): which of them.")
-            .left_out_if_none(),
-        base::member("through", &S::through,
-                     "Only with [`exec`](../use/exec.md#what-stands-behind-it): `pasta` or "
-                     "`slirp4netns`.")
-            .left_out_if_none(),
-        base::member("frames", &S::frames,
-                     "Only with [`between`, `exec` and "
-                     "`bridge`](../use/between.md#what-the-conditions-hold-for): what each "
-                     "interface passed on besides.")
-            .left_out_if_none(),
-        base::member("listen_a", &S::listen_a,
-                     "The emulator's own address towards A, with the port that port 0 became.")
-            .left_out_if_none(),
-        base::member("listen_b", &S::listen_b, "That towards B.").left_out_if_none(),
-        base::member("a", &S::a, "The address of A; null until the first sender was adopted.")
-            .left_out_if_none(),
-        base::member("b", &S::b, "That of B.").left_out_if_none(),
-        base::member("strangers", &S::strangers, "Of both directions, see below.")
-            .left_out_if_none(),
-        base::member("overflowed", &S::overflowed, "Of both directions, see below.")
-            .left_out_if_none(),
-        base::member("listen", &S::listen,
-                     "With `--upstream`: the emulator's own address towards the clients.")
-            .left_out_if_none(),
-        base::member("upstream", &S::upstream, "With `--upstream`: the server.").left_out_if_none(),
-        base::member("clients_seen", &S::clients_seen, "Clients since the start.")
-            .left_out_if_none(),
-        base::member("clients_forgotten", &S::clients_forgotten,
-                     "Those of them that were silent for `--idle`.")
-            .left_out_if_none(),
-        base::member("refused", &S::refused, "Datagrams for whose sender there was no place.")
-            .left_out_if_none(),
+        "run", base::part(&S::program), base::part(&S::ends),
         base::member("generation", &S::generation,
                      "1, and one more for each change of the conditions.")
             .gauge("hapnet_emulator_generation"),
-        base::part(&S::course),
-        base::member("profile", &S::profile,
-                     "The whole profile of the start with its timeline, as TOML."),
-        base::member("fates", &S::fates, "The file of `--fates`; null without the option."),
-        base::member("replay", &S::replay, "That of `--replay`, likewise."),
-        base::member("capture", &S::capture, "That of `--pcap`, likewise."),
-        base::member("fates_lost", &S::fates_lost,
-                     "Datagrams missing in the file of `--fates`, because the disk was too slow or "
-                     "full."),
-        base::member("capture_lost", &S::capture_lost,
-                     "Packets missing in that of `--pcap`, likewise."),
+        base::part(&S::course), base::part(&S::files),
         base::member("valid", &S::is_valid, "Whether the run is [valid](#what-valid-means)."),
         base::member("invalid_because", &S::invalid_because,
                      "The reasons as a list of texts, those of a direction or of files with `up:`, "

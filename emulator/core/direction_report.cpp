@@ -16,7 +16,7 @@ Distribution distribution_of(const base::DurationHistogram& histogram, double ns
     return list;
 }
 
-std::optional<DelayReport> LensReport::delay() const
+std::optional<DelayReport> StreamShape::delay() const
 {
     if (!measured.delay || !measured.delay_quantiles) return std::nullopt;
     return DelayReport{*measured.delay, *measured.delay_quantiles, distribution};
@@ -35,11 +35,11 @@ TimesReport DirectionReport::times(const base::DurationHistogram& histogram) con
     return report;
 }
 
-std::optional<LensReport> DirectionReport::lens() const
+std::optional<StreamShape> DirectionReport::lens() const
 {
     constexpr double ns_per_ms = 1e6;
     if (stream == nullptr) return std::nullopt;
-    LensReport lens{.measured = stream->report(), .distribution = {}};
+    StreamShape lens{.measured = stream->report(), .distribution = {}};
     if (has_distributions) {
         lens.distribution = distribution_of(stream->delays.delays(), ns_per_ms);
     }

@@ -72,15 +72,15 @@ constexpr auto fields_of(base::Tag<ReorderReport>)
 }
 
 /// The shape of a stream, as statistics tell it.
-struct LensReport {
+struct StreamShape {
     StreamReport measured;
     std::optional<Distribution> distribution; // of the delays
 
     [[nodiscard]] std::optional<DelayReport> delay() const;
 };
-constexpr auto fields_of(base::Tag<LensReport>)
+constexpr auto fields_of(base::Tag<StreamShape>)
 {
-    using L = LensReport;
+    using L = StreamShape;
     return base::fields(
         "lens",
         base::computed<L>(
@@ -88,11 +88,13 @@ constexpr auto fields_of(base::Tag<LensReport>)
             [](const L& lens) -> const auto& { return lens.measured.requested_delay; },
             "The delays as drawn, before queues and order, of all datagrams that no law dropped. "
             "`mean` and `sd` (of the sample) are of all values; `sd` is null for a single one. "
-            "null: nothing was to be delivered."),
+            "null: nothing was to be delivered.")
+            .told("delay as drawn"),
         base::computed<L>(
             "delay_ms", [](const L& lens) { return lens.delay(); },
             "The delays as they came out, from receive stamp to sending (RFC 7679). null: nothing "
-            "left."),
+            "left.")
+            .told("delay as it came out"),
         base::computed<L>(
             "delay_variation_ms",
             [](const L& lens) -> const auto& { return lens.measured.delay_variation; },
@@ -118,8 +120,9 @@ constexpr auto fields_of(base::Tag<LensReport>)
             "higher number."),
         base::computed<L>(
             "age_ms", [](const L& lens) -> const auto& { return lens.measured.age; },
-            "The age of information at the output, over time: how old the newest datagram there "
-            "is, and the mean and the largest of its peaks, just before a newer one leaves."));
+            "Age of information (Kaul, Yates, Gruteser, 2012): how old the newest datagram at the "
+            "output is, averaged over time, and just before each newer one leaves, on average and "
+            "at most. null: fewer than two left in order."));
 }
 
 /// What a run knows of one direction.
@@ -135,17 +138,18 @@ struct DirectionReport {
     [[nodiscard]] std::vector<std::string> reasons() const;
 
     [[nodiscard]] TimesReport times(const base::DurationHistogram& histogram) const;
-    [[nodiscard]] std::optional<LensReport> lens() const;
+    [[nodiscard]] std::optional<StreamShape> lens() const;
 };
 constexpr auto fields_of(base::Tag<DirectionReport>)
 {
     using D = DirectionReport;
     return base::fields(
         "direction",
-        base::computed_part<D>([](const D& one) -> const Statistics& { return *one.statistics; }),
+        base::computed_part<D>([](const D& one) -> const Counters& { return *one.statistics; }),
         base::computed<D>(
             "lateness_us", [](const D& one) { return one.times(one.statistics->lateness); },
             "Time sent minus time due; each is null while nothing has left.")
+            .told("lateness of the emulator")
             .gauge("hapnet_emulator_lateness"),
         base::computed<D>(
             "sojourn_us",

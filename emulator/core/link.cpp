@@ -175,8 +175,10 @@ void Link::schedule(Datagram& datagram, const Fate& fate)
     last_due_ = std::max(last_due_, datagram.due);
     const auto [places, time] = fate.displacement;
     if (places > 0 && displaced_.size() < displaced_max) {
+        ++statistics_.displaced;
         displaced_.push_back({datagram, fate});
     } else if (time > base::Duration{0}) {
+        ++statistics_.displaced;
         Datagram later = datagram;
         later.due += time;
         line_.push(later);

@@ -2,29 +2,20 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/statistics.hpp"
 
+#include "proto/base/figures/counters.hpp"
+
 #include <numeric>
 
 namespace hapnet::emulator {
 
-std::uint64_t Statistics::dropped_total() const
+std::uint64_t Counters::dropped_total() const
 {
     return std::accumulate(dropped.values.begin(), dropped.values.end(), std::uint64_t{0});
 }
 
 void Statistics::add(const Statistics& other)
 {
-    received += other.received;
-    delivered += other.delivered;
-    duplicated += other.duplicated;
-    corrupted += other.corrupted;
-    reordered += other.reordered;
-    in_flight += other.in_flight;
-    ce_in += other.ce_in;
-    ce_marked += other.ce_marked;
-    ce_out += other.ce_out;
-    bytes_in += other.bytes_in;
-    bytes_out += other.bytes_out;
-    for (const DropCause cause : drop_causes) dropped[cause] += other.dropped[cause];
+    base::add_counts<Counters>(*this, other);
     lateness.add(other.lateness);
     sojourn.add(other.sojourn);
 }

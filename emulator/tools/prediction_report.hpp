@@ -33,6 +33,33 @@ constexpr auto fields_of(base::Tag<LossReport>)
             "run_max", [](const L& loss) { return loss.runs.max; }, "That of the longest."));
 }
 
+} // namespace hapnet::emulator::tools
+
+namespace hapnet::emulator {
+
+/// As `predict` tells it.
+constexpr auto fields_of(base::Tag<StreamReport>)
+{
+    using S = StreamReport;
+    return base::fields(
+        "stream",
+        base::member("requested_delay_ms", &S::requested_delay,
+                     "The delays as drawn, before queues and order."),
+        base::member("delay_ms", &S::delay, "The delays as they came out."),
+        base::member("delay_quantiles_ms", &S::delay_quantiles, "Their quantiles."),
+        base::member("jitter_ms", &S::delay_variation, "|IPDV| (RFC 3393)."),
+        base::member("gap_ms", &S::gap, "The time between two departures."),
+        base::member("clumped_share", &S::clumped_share,
+                     "Share of these gaps that are below 50 µs."),
+        base::member("reorder_extent", &S::reordered,
+                     "By how many departures those came too late that were out of order."),
+        base::member("age_ms", &S::age, "The age of information at the output."));
+}
+
+} // namespace hapnet::emulator
+
+namespace hapnet::emulator::tools {
+
 /// One direction of a prediction, and what was asked for it. All that it refers to outlives it.
 struct DirectionForecast {
     const DirectionPrediction* of = nullptr;
@@ -75,17 +102,6 @@ constexpr auto fields_of(base::Tag<DirectionForecast>)
             },
             "What does not come; with `--sealed`, damaged datagrams, too."),
         base::computed<D>(
-            "requested_delay_ms",
-            [](const D& one) -> const auto& { return one.of->measured.requested_delay; },
-            "The delays as drawn, before queues and order."),
-        base::computed<D>(
-            "delay_ms", [](const D& one) -> const auto& { return one.of->measured.delay; },
-            "The delays as they came out."),
-        base::computed<D>(
-            "delay_quantiles_ms",
-            [](const D& one) -> const auto& { return one.of->measured.delay_quantiles; },
-            "Their quantiles."),
-        base::computed<D>(
             "settled", [](const D& one) { return one.why_unsettled().empty(); },
             "Whether mean and deviation of the delay are known to 1 %."),
         base::computed<D>(
@@ -102,25 +118,10 @@ constexpr auto fields_of(base::Tag<DirectionForecast>)
             "added_by_queues_ms", [](const D& one) { return one.of->added_by_queues; },
             "Mean delay beyond the drawn one: rate and order."),
         base::computed<D>(
-            "jitter_ms",
-            [](const D& one) -> const auto& { return one.of->measured.delay_variation; },
-            "|IPDV| (RFC 3393)."),
-        base::computed<D>(
-            "gap_ms", [](const D& one) -> const auto& { return one.of->measured.gap; },
-            "The time between two departures."),
-        base::computed<D>(
-            "clumped_share", [](const D& one) { return one.of->measured.clumped_share; },
-            "Share of these gaps that are below 50 µs."),
-        base::computed<D>(
             "reordered_share", [](const D& one) { return one.reordered_share(); },
             "Share of the departures that were out of order (RFC 4737)."),
-        base::computed<D>(
-            "reorder_extent",
-            [](const D& one) -> const auto& { return one.of->measured.reordered; },
-            "By how many departures they came too late."),
-        base::computed<D>(
-            "age_ms", [](const D& one) -> const auto& { return one.of->measured.age; },
-            "The age of information at the output."));
+        base::computed_part<D>(
+            [](const D& one) -> const StreamReport& { return one.of->measured; }));
 }
 
 /// What `predict --json` prints.

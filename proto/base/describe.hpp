@@ -47,6 +47,7 @@ struct Telling {
     Metric metric;
     std::optional<int> decimals;      // of a number in JSON; nullopt: as many as it takes
     bool is_left_out_if_none = false; // the key itself, where there is no value: else it is null
+    bool is_without_zeros = false;    // a map in JSON, of its counts that are 0
 };
 
 /// The ways to say how a field is told, for a description that is a `Self`.
@@ -156,6 +157,10 @@ struct Field : Told<Field<Struct, Value, Format>> {
 template <typename Struct, typename Value>
 struct Part {
     Value Struct::*member;
+    bool is_without_zeros = false;
+
+    /// In JSON, maps among its fields have no counts of 0.
+    [[nodiscard]] constexpr Part without_zeros() const { return {member, true}; }
 };
 
 /// A figure that `Compute`, a lambda without captures, makes of the struct. It is told, and never

@@ -163,7 +163,11 @@ template <typename Struct, typename Value, std::derived_from<Struct> Owner>
 void add_row(std::vector<FieldRow>& rows, const void* root, const Part<Struct, Value>& part,
              const Owner& owner)
 {
+    const auto first = rows.size();
     add_rows(rows, root, owner.*part.member);
+    for (auto i = first; i < rows.size(); ++i) {
+        rows[i].telling.is_without_zeros |= part.is_without_zeros;
+    }
 }
 
 template <typename Struct>

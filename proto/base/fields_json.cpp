@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 #include <variant>
 
 namespace hapnet::base {
@@ -92,6 +93,7 @@ void add_json(Ordered& object, const FieldTable& fields, const void* value, cons
         JsonScale own = scale;
         if (const auto unit = time_unit_of(row.key)) own.ns_per_unit = *unit;
         if (row.telling.decimals) own.decimals = row.telling.decimals;
+        own.leaves_out_zeros = row.telling.is_without_zeros;
         row.look(value, [&](const void* member) {
             if (row.telling.is_left_out_if_none && is_none(*row.kind, member)) return;
             object[std::string{row.key}] = json_of(*row.kind, member, own);
@@ -116,8 +118,9 @@ Ordered json_of(const ValueKind& kind, const void* value, const JsonScale& scale
     case Shape::map: {
         auto object = Ordered::object();
         for (std::size_t i = 0; i < kind.size(value); ++i) {
-            object[std::string{kind.name_at(value, i)}] =
-                json_of(*kind.element, kind.element_at(value, i), scale);
+            Ordered element = json_of(*kind.element, kind.element_at(value, i), scale);
+            if (scale.leaves_out_zeros && element == 0) continue;
+            object[std::string{kind.name_at(value, i)}] = std::move(element);
         }
         return object;
     }

@@ -18,6 +18,7 @@ namespace hapnet::base {
 struct JsonScale {
     double ns_per_unit = 0.0; // of times; 0: no key has named a unit
     std::optional<int> decimals{};
+    bool leaves_out_zeros = false; // of maps
 };
 
 [[nodiscard]] nlohmann::ordered_json json_of(const ValueKind& kind, const void* value,

@@ -79,7 +79,8 @@ struct ValueKind {
     const ValueKind* element = nullptr;
     std::size_t (*size)(const void* value) = nullptr;
     void* (*at)(void* value, std::size_t index) = nullptr;
-    // nullptr: a list of fixed length
+    std::size_t length = 0; // of a list that cannot grow
+    // nullptr: it is such a list
     void (*clear)(void* value) = nullptr;
     /// A new element behind the others. One at a time, so that a text of many wrong elements takes
     /// no more memory than those that are read. A maybe has none before.
@@ -313,7 +314,11 @@ requires(!std::is_same_v<T, bool> && // vector<bool> has no elements with addres
 
 template <typename T, std::size_t size>
 struct Kind<std::array<T, size>> {
-    static constexpr ValueKind kind = list_kind<std::array<T, size>>();
+    static constexpr ValueKind kind = [] {
+        ValueKind list = list_kind<std::array<T, size>>();
+        list.length = size;
+        return list;
+    }();
 };
 
 } // namespace detail

@@ -93,10 +93,9 @@ void Metrics::add_row(const base::FieldRow& row, const Json& json, const Labels&
         });
     };
     const base::ValueKind& kind = row.kind->plain();
-    if (!told.name.empty() && (told.label.empty() || !json.is_object())) {
-        return add_numbers(json, labels);
-    }
-    if (kind.shape == Shape::map && json.is_object()) {
+    if (told.label.empty()) return add_numbers(json, labels);
+    if (!json.is_object()) return;
+    if (kind.shape == Shape::map) {
         for (const auto& [name, value] : json.items()) {
             const auto own = with(labels, told.label, name);
             if (!told.name.empty()) {

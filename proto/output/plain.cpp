@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "proto/output/plain.hpp"
 
-#include <algorithm>
-
 namespace hapnet::output {
 
 std::string plain(std::string_view words)
@@ -13,7 +11,8 @@ std::string plain(std::string_view words)
         const char c = words.front();
         words.remove_prefix(1);
         if (c == ']' && words.starts_with('(')) {
-            words.remove_prefix(std::min(words.find(')') + 1, words.size()));
+            const auto end = words.find(')');
+            words.remove_prefix(end == std::string_view::npos ? words.size() : end + 1);
         } else if (c != '`' && c != '[' && c != ']') {
             text += c;
         }

@@ -29,6 +29,7 @@ public:
             const bool is_optional = row.telling.is_left_out_if_none;
             Json property = value_of(is_optional ? row.kind->plain() : *row.kind);
             if (!row.about.empty()) property["description"] = plain(row.about);
+            if (row.telling.is_without_zeros) property.erase("required");
             properties[std::string{row.key}] = std::move(property);
             if (!is_optional) required.push_back(std::string{row.key});
         }
@@ -58,7 +59,12 @@ private:
             return {{"enum", names}};
         }
         case Shape::maybe: return or_null(value_of(*kind.element));
-        case Shape::list: return {{"type", "array"}, {"items", value_of(*kind.element)}};
+        case Shape::list: {
+            Json list{{"type", "array"}, {"items", value_of(*kind.element)}};
+            if (kind.length > 0)
+                list.update({{"minItems", kind.length}, {"maxItems", kind.length}});
+            return list;
+        }
         case Shape::map: return map_of(kind);
         case Shape::record: return reference_to(kind.table());
         }

@@ -4,6 +4,7 @@
 
 #include "proto/base/ensure.hpp"
 
+#include <cstdint>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <variant>
@@ -13,6 +14,13 @@ namespace hapnet::output {
 namespace {
 
 using Shape = base::ValueKind::Shape;
+
+std::string_view unit_of(std::string_view key)
+{
+    if (key.ends_with("_us")) return " (µs)";
+    if (key.ends_with("_ms")) return " (ms)";
+    return key.ends_with("_s") ? " (s)" : "";
+}
 
 /// Adds "3 lost" behind what is there.
 void add(std::string& text, std::uint64_t count, std::string_view words)
@@ -43,11 +51,41 @@ std::string told(const base::FieldTable& fields, const void* value)
                 }
                 return;
             }
+            if (kind.shape != Shape::whole) return; // it stands in tables alone
             const auto count = count_in(kind, member);
             if (count > 0 || telling.is_told_always) add(text, count, *telling.words);
         });
     }
     return text;
+}
+
+std::vector<ToldFigure> told_figures(const base::FieldTable& fields,
+                                     const nlohmann::ordered_json& json)
+{
+    std::vector<ToldFigure> figures;
+    for (const base::FieldRow& row : fields.rows) {
+        const auto found = json.find(row.key);
+        if (found == json.end() || found->is_null()) continue;
+        const base::ValueKind& kind = row.kind->plain();
+        if (!row.telling.words) {
+            if (kind.shape != Shape::record) continue;
+            const auto inner = told_figures(kind.table(), *found);
+            figures.insert(figures.end(), inner.begin(), inner.end());
+        } else if (kind.shape == Shape::map) {
+            for (const auto& [name, count] : found->items()) {
+                if (count != 0) figures.push_back({fmt::format("{}: {}", row.key, name), count});
+            }
+        } else if (found->is_object()) {
+            for (const auto& [key, value] : found->items()) {
+                if (!value.is_number()) continue;
+                figures.push_back(
+                    {fmt::format("{}, {}{}", *row.telling.words, key, unit_of(row.key)), value});
+            }
+        } else {
+            figures.push_back({fmt::format("{}{}", *row.telling.words, unit_of(row.key)), *found});
+        }
+    }
+    return figures;
 }
 
 } // namespace hapnet::output

@@ -4,12 +4,15 @@
 
 #include "proto/base/fields.hpp"
 
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace hapnet::output {
 
-/// The counts of a struct that people are told, in a row: "100 received, 99 delivered, 1 lost". See
-/// base::Told.
+// What people are told of a struct: the fields with words for them, see base::Told.
+
+/// The counts in a row: "100 received, 99 delivered, 1 lost".
 [[nodiscard]] std::string told(const base::FieldTable& fields, const void* value);
 
 template <base::Described T>
@@ -17,5 +20,15 @@ template <base::Described T>
 {
     return told(base::field_table<T>(), &value);
 }
+
+/// A row of a table for people.
+struct ToldFigure {
+    std::string words; // "delay as drawn, mean (ms)"
+    nlohmann::ordered_json value;
+};
+
+/// Each figure in the JSON of a struct. Those of an object have its words and their keys.
+[[nodiscard]] std::vector<ToldFigure> told_figures(const base::FieldTable& fields,
+                                                   const nlohmann::ordered_json& json);
 
 } // namespace hapnet::output

@@ -5,11 +5,17 @@
 #include "device/governor/limits_text.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task_options.hpp"
+#include "emulator/control/frame_report.hpp"
+#include "emulator/control/run_statistics.hpp"
 #include "emulator/core/conditions.hpp"
+#include "emulator/tools/prediction_report.hpp"
+#include "emulator/tools/probe_statistics.hpp"
+#include "emulator/tools/verify/verify.hpp"
 #include "lab/experiment/fields.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/fields.hpp"
+#include "proto/output/key_table.hpp"
 #include "proto/record/field_types.hpp"
 #include "proto/record/fields.hpp"
 #include "scene/text/fields.hpp"
@@ -125,9 +131,31 @@ std::string rows_of()
     return base::markdown((base::key_rows<Structs>() + ...));
 }
 
-const std::vector<KeyTable>& tables()
+/// Of what programs print.
+std::vector<KeyTable> tables_of_outputs()
 {
-    static const std::vector<KeyTable> all{
+    return {
+        {"emulator-run", output::key_table<emulator::RunStatistics>()},
+        {"emulator-direction", output::key_table<emulator::DirectionReport>()},
+        {"emulator-change", output::key_table<emulator::ChangeReport>()},
+        {"emulator-lens", output::key_table<emulator::StreamShape>()},
+        {"emulator-client", output::key_table<emulator::ClientReport>()},
+        {"emulator-link", output::key_table<emulator::LinkReport>()},
+        {"emulator-interface", output::key_table<emulator::InterfaceReport>()},
+        {"emulator-check", output::key_table<emulator::CheckReport>()},
+        {"predict", output::key_table<emulator::tools::PredictionReport>()},
+        {"predict-direction", output::key_table<emulator::tools::DirectionForecast>()},
+        {"verify", output::key_table<emulator::tools::Verification>()},
+        {"verify-test", output::key_table<emulator::tools::TestResult>()},
+        {"probe", output::key_table<emulator::tools::ProbeReport>()},
+        {"emulator-frame", output::key_table<emulator::EmulatorFrame>()},
+        {"emulator-frame-way", output::key_table<emulator::WayFrame>()},
+    };
+}
+
+std::vector<KeyTable> tables_of_inputs()
+{
+    return {
         {"base", rows_of<peer::BaseOptions>()},
         {"dead-reckoning", base::markdown(own_rows<peer::DeadReckoningOptions>())},
         {"sep", base::markdown(own_rows<peer::EstimatorPredictorOptions>())},
@@ -169,6 +197,16 @@ const std::vector<KeyTable>& tables()
         {"session-row", byte_table<record::SessionRow>()},
         {"body-row", byte_table<record::BodyRow>()},
     };
+}
+
+const std::vector<KeyTable>& tables()
+{
+    static const std::vector<KeyTable> all = [] {
+        auto both = tables_of_inputs();
+        const auto outputs = tables_of_outputs();
+        both.insert(both.end(), outputs.begin(), outputs.end());
+        return both;
+    }();
     return all;
 }
 
@@ -180,6 +218,11 @@ const std::set<std::string>& without_table()
         "GoodCriteria", "HandImpedance", "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent",
         "Search", "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques",
         "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube",
+        // parts of the outputs above
+        "Counters", "ProgramReport", "EndsReport", "FilesReport", "StreamReport", "TimesReport",
+        "DelayReport", "ReorderReport", "Configuration", "FirstDatagrams", "CourseReport",
+        "InterfaceReports", "RealTimeReport", "DelaySpread", "LateSpread", "PathFrame", "Precision",
+        "LossReport", "ProbeDelays", "ProbeWay", "ProbeSummary",
         // JSON, CSV and the settings in a record's header
         "Examination", "Finding", "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics",
         "Table1Row", "TaskRow", "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow",
@@ -192,52 +235,20 @@ const std::set<std::string>& without_table()
 /// Structs of the tables above, as their sources call them.
 const std::set<std::string>& with_table()
 {
-    static const std::set<std::string> names{"BaseOptions",
-                                             "DeadReckoningOptions",
-                                             "EstimatorPredictorOptions",
-                                             "RemoteProxyOptions",
-                                             "BaseTdpaOptions",
-                                             "WaveOptions",
-                                             "CoupleOptions",
-                                             "LagOptions",
-                                             "RollbackOptions",
-                                             "SharedObjectOptions",
-                                             "WrittenLimits",
-                                             "Operator",
-                                             "TaskOptions",
-                                             "Axis",
-                                             "Mtu",
-                                             "Rate",
-                                             "Corruption",
-                                             "Duplication",
-                                             "Reordering",
-                                             "RateTraceLaw",
-                                             "QueueControl",
-                                             "Description",
-                                             "HandDescription",
-                                             "Feel",
-                                             "FieldDescription",
-                                             "Hinge",
-                                             "Slider",
-                                             "Ball",
-                                             "Spring",
-                                             "PlaneDescription",
-                                             "BodyDescription",
-                                             "PartDescription",
-                                             "Density",
-                                             "Array",
-                                             "Criteria",
-                                             "Experiment",
-                                             "Table1",
-                                             "Limits",
-                                             "Trajectories",
-                                             "ImpairmentGrid",
-                                             "Calibration",
-                                             "Claims",
-                                             "TickRow",
-                                             "BodyRow",
-                                             "MessageRow",
-                                             "SessionRow"};
+    static const std::set<std::string> names{
+        // that people write
+        "BaseOptions", "DeadReckoningOptions", "EstimatorPredictorOptions", "RemoteProxyOptions",
+        "BaseTdpaOptions", "WaveOptions", "CoupleOptions", "LagOptions", "RollbackOptions",
+        "SharedObjectOptions", "WrittenLimits", "Operator", "TaskOptions", "Axis", "Mtu", "Rate",
+        "Corruption", "Duplication", "Reordering", "RateTraceLaw", "QueueControl", "Description",
+        "HandDescription", "Feel", "FieldDescription", "Hinge", "Slider", "Ball", "Spring",
+        "PlaneDescription", "BodyDescription", "PartDescription", "Density", "Array", "Criteria",
+        "Experiment", "Table1", "Limits", "Trajectories", "ImpairmentGrid", "Calibration", "Claims",
+        "TickRow", "BodyRow", "MessageRow", "SessionRow",
+        // that programs print
+        "RunStatistics", "DirectionReport", "ChangeReport", "StreamShape", "ClientReport",
+        "LinkReport", "InterfaceReport", "CheckReport", "PredictionReport", "DirectionForecast",
+        "Verification", "TestResult", "ProbeReport", "EmulatorFrame", "WayFrame"};
     return names;
 }
 

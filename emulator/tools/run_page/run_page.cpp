@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/run_page/run_page.hpp"
 
+#include "emulator/core/direction_report.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/tools/run_page/figures.hpp"
+#include "proto/output/told.hpp"
 #include "proto/page/page.hpp"
 
-#include <array>
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <vector>
@@ -19,15 +21,20 @@ namespace {
 using page::Json;
 using Rows = std::vector<std::vector<std::string>>; // texts
 
-/// A value of the statistics as text; "–" where there is none.
-std::string shown(const nlohmann::ordered_json& statistics, const char* pointer)
+/// "–" of what is not there.
+std::string text_of(const nlohmann::ordered_json& value)
 {
-    const nlohmann::ordered_json::json_pointer at{pointer};
-    if (!statistics.contains(at) || statistics[at].is_null()) return "–";
-    const auto& value = statistics[at];
+    if (value.is_null()) return "–";
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
     return value.dump();
+}
+
+/// A value of the statistics as text.
+std::string shown(const nlohmann::ordered_json& statistics, const char* pointer)
+{
+    const nlohmann::ordered_json::json_pointer at{pointer};
+    return text_of(statistics.contains(at) ? statistics[at] : nlohmann::ordered_json{});
 }
 
 Json table(std::string caption, const std::vector<std::string>& heads, const Rows& rows)
@@ -65,43 +72,23 @@ Json banner(const RunRecord& run)
 
 Json figures_table(const nlohmann::ordered_json& statistics)
 {
-    struct Row {
-        const char* name;
-        const char* key;
+    const auto of = [&](const char* way) {
+        return output::told_figures(base::field_table<DirectionReport>(),
+                                    statistics.value(way, nlohmann::ordered_json::object()));
     };
-    constexpr std::array rows{Row{"received", "received"},
-                              Row{"delivered", "delivered"},
-                              Row{"duplicated", "duplicated"},
-                              Row{"corrupted", "corrupted"},
-                              Row{"reordered", "reordered"},
-                              Row{"in flight at the end", "in_flight"},
-                              Row{"delay as drawn, mean (ms)", "lens/requested_delay_ms/mean"},
-                              Row{"delay as drawn, deviation (ms)", "lens/requested_delay_ms/sd"},
-                              Row{"delay as it came out, mean (ms)", "lens/delay_ms/mean"},
-                              Row{"delay as it came out, deviation (ms)", "lens/delay_ms/sd"},
-                              Row{"delay as it came out, p99 (ms)", "lens/delay_ms/p99"},
-                              Row{"lateness of the emulator, p50 (µs)", "lateness_us/p50"},
-                              Row{"lateness of the emulator, p99 (µs)", "lateness_us/p99"},
-                              Row{"lateness of the emulator, most (µs)", "lateness_us/max"},
-                              Row{"from strangers", "strangers"},
-                              Row{"overflowed", "overflowed"}};
-    Rows out;
-    for (const auto& [name, key] : rows) {
-        out.push_back({name, shown(statistics, fmt::format("/up/{}", key).c_str()),
-                       shown(statistics, fmt::format("/down/{}", key).c_str())});
-    }
-    for (const DropCause cause : drop_causes) {
-        const auto of = [&](const char* way) {
-            return shown(statistics, fmt::format("/{}/dropped/{}", way, to_text(cause)).c_str());
-        };
-        const auto up = of("up");
-        const auto down = of("down");
-        const auto is_nothing = [](const std::string& text) { return text == "0" || text == "–"; };
-        if (is_nothing(up) && is_nothing(down)) continue;
-        out.push_back({fmt::format("dropped: {}", to_text(cause)), up, down});
-    }
+    Rows rows;
+    const auto add = [&](const std::vector<output::ToldFigure>& figures, std::size_t column) {
+        for (const output::ToldFigure& figure : figures) {
+            auto row =
+                std::ranges::find(rows, figure.words, [](const auto& one) { return one[0]; });
+            if (row == rows.end()) row = rows.insert(rows.end(), {figure.words, "–", "–"});
+            (*row)[column] = text_of(figure.value);
+        }
+    };
+    add(of("up"), 1);
+    add(of("down"), 2);
     return table("Counters and times of both directions", {"", "up (A to B)", "down (B to A)"},
-                 out);
+                 rows);
 }
 
 Json changes_table(const nlohmann::ordered_json& statistics)

@@ -466,6 +466,7 @@ TEST(Link, LetsADisplacedDatagramBeOvertakenByAsManyAsItIsTold)
     for (int i = 1; i < 5; ++i) link.on_packet(payload, start + i * 1ms);
     EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{1, 2, 0, 3, 4}));
     EXPECT_EQ(link.statistics().reordered, 1U);
+    EXPECT_EQ(link.statistics().displaced, 1U);
 }
 
 TEST(Link, LetsADisplacedDatagramBeOvertakenByThoseThatNothingDelays)
@@ -498,6 +499,7 @@ TEST(Link, HoldsADisplacedDatagramBackForItsTimeEvenWhereOrderIsKept)
     link.change({.delay = constant(1ms)}, start);
     for (int i = 1; i < 6; ++i) link.on_packet(payload, start + i * 1ms);
     EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{1, 2, 0, 3, 4, 5}));
+    EXPECT_EQ(link.statistics().displaced, 1U);
 }
 
 TEST(Link, SendsAtItsRateAndDropsWhatItsQueueDoesNotHold)

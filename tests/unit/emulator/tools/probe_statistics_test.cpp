@@ -65,11 +65,11 @@ TEST(ProbeStatistics, TellEachWayByItselfWhereTheClocksAreOne)
     EXPECT_TRUE(summary.clocks_are_one);
     ASSERT_TRUE(summary.there.delay && summary.back.delay && summary.there.ipdv);
     EXPECT_EQ(summary.there.delay->min, 80ms);
-    EXPECT_EQ(summary.there.delay->quantiles.p50, 81ms);
-    EXPECT_EQ(summary.there.delay->quantiles.p99, 83ms);
+    EXPECT_EQ(summary.there.delay->p50, 81ms);
+    EXPECT_EQ(summary.there.delay->p99, 83ms);
     EXPECT_EQ(summary.there.delay->mean, 81ms + 500us);
-    EXPECT_EQ(summary.there.ipdv->quantiles.max, 1ms);
-    EXPECT_EQ(summary.back.ipdv->quantiles.max, 0ms);
+    EXPECT_EQ(summary.there.ipdv->max, 1ms);
+    EXPECT_EQ(summary.back.ipdv->max, 0ms);
     EXPECT_TRUE(asking.statistics.all_answered());
 }
 
@@ -82,9 +82,9 @@ TEST(ProbeStatistics, KnowOnlyRoundTripsAndVariationsOfTwoClocks)
     const auto summary = asking.statistics.summary();
     EXPECT_FALSE(summary.clocks_are_one);
     EXPECT_FALSE(summary.there.delay);
-    EXPECT_EQ(summary.round_trip.delay->quantiles.max, 105ms);
-    EXPECT_EQ(summary.there.ipdv->quantiles.p50, 5ms);
-    EXPECT_EQ(summary.back.ipdv->quantiles.p50, 0ms);
+    EXPECT_EQ(summary.round_trip.delay->max, 105ms);
+    EXPECT_EQ(summary.there.ipdv->p50, 5ms);
+    EXPECT_EQ(summary.back.ipdv->p50, 0ms);
     EXPECT_EQ(asking.statistics.csv(),
               "sequence,sent_s,round_trip_ms,there_ms,back_ms,answers\n"
               "0,0.000000000,100.000000,,,1\n1,1.000000000,105.000000,,,1\n");
@@ -125,7 +125,7 @@ TEST(ProbeStatistics, CountCopiesAndWhatCameOutOfOrder)
     EXPECT_EQ(summary.reordered, 1U);
     EXPECT_EQ(summary.copies, 1U);
     EXPECT_EQ(summary.answered, 2U);
-    EXPECT_EQ(summary.round_trip.delay->quantiles.max, 20ms); // a copy does not count
+    EXPECT_EQ(summary.round_trip.delay->max, 20ms); // a copy does not count
 }
 
 TEST(ProbeStatistics, LeaveOutWhatAnswersNoneOfTheirQuestions)

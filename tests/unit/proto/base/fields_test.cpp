@@ -197,6 +197,49 @@ TEST(Fields, AreTheObjectOfJson)
     EXPECT_EQ(json_of(std::numeric_limits<double>::quiet_NaN()).dump(), "null");
 }
 
+/// What a struct tells: times in the unit of the key above them, and what it computes.
+struct Times {
+    Duration best{};
+    std::optional<Duration> worst;
+};
+constexpr auto fields_of(Tag<Times>)
+{
+    return fields("times", member("best", &Times::best), member("worst", &Times::worst));
+}
+struct Told {
+    Times times;
+    Entries<std::uint64_t> falls;
+    const Times* of_others = nullptr;
+    double mean_speed = 0.0;
+};
+constexpr auto fields_of(Tag<Told>)
+{
+    return fields("told", member("times_ms", &Told::times),
+                  computed<Told>("best_us", [](const Told& told) { return told.times.best; }),
+                  member("falls", &Told::falls), member("others_s", &Told::of_others),
+                  computed<Told>("others", [](const Told& told) { return told.of_others; })
+                      .left_out_if_none(),
+                  member("mean_speed", &Told::mean_speed).rounded(2),
+                  computed_part<Told>([](const Told& told) -> const Times& { return told.times; }));
+}
+
+TEST(Fields, TellTimesInTheUnitOfTheKey)
+{
+    using namespace std::chrono_literals;
+    Told told{.times = {1500us, {}}, .falls = {{"b", 2}, {"a", 0}}, .mean_speed = 1.23456};
+    auto object = nlohmann::ordered_json::object();
+    add_json(object, field_table<Told>(), &told, {.ns_per_unit = 1e9});
+    EXPECT_EQ(object.dump(), R"({"times_ms":{"best":1.5,"worst":null},"best_us":1500.0,)"
+                             R"("falls":{"b":2,"a":0},"others_s":null,"mean_speed":1.23,)"
+                             R"("best":0.0015,"worst":null})");
+    const Times others{2s, 3s};
+    told.of_others = &others;
+    object = nlohmann::ordered_json::object();
+    add_json(object, field_table<Told>(), &told, {.ns_per_unit = 1e9});
+    EXPECT_EQ(object["others_s"].dump(), R"({"best":2.0,"worst":3.0})");
+    EXPECT_EQ(object["others"].dump(), R"({"best":2.0,"worst":3.0})");
+}
+
 TEST(Fields, AreReadFromJsonOnlyWhereTheirTypesHaveTheValue)
 {
     const auto read = [](const std::string& laps, const std::string& strides) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/output/schema.hpp"
 
+#include <array>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <optional>
@@ -62,6 +63,40 @@ TEST(Schema, HasEveryKeyWithItsKindAndItsWords)
     EXPECT_EQ(schema.at("$defs").dump(),
               R"({"saddle":{"properties":{"offset_mm":{"type":"integer"}},)"
               R"("required":["offset_mm"],"type":"object"}})");
+}
+
+struct Race {
+    base::Duration length{};
+    std::vector<base::Duration> laps{};
+    base::ByName<Gait, std::uint64_t> steps{};
+    base::Entries<std::string> prizes{};
+    std::optional<Saddle> lost{};
+    std::array<double, 2> place{};
+};
+constexpr auto fields_of(base::Tag<Race>)
+{
+    return base::fields(
+        "race", base::member("length_s", &Race::length, "From `start` to [end](end.md)."),
+        base::computed<Race>("laps", [](const Race& race) { return race.laps.size(); }),
+        base::member("steps", &Race::steps), base::member("prizes", &Race::prizes),
+        base::member("lost", &Race::lost).left_out_if_none(), base::member("place", &Race::place));
+}
+
+TEST(Schema, KnowsTimesMapsAndWhatIsLeftOut)
+{
+    const auto schema = nlohmann::json::parse(schema_text<Race>("A race"));
+    EXPECT_EQ(schema.at("required").dump(), R"(["length_s","laps","steps","prizes","place"])");
+    const auto& keys = schema.at("properties");
+    EXPECT_EQ(keys.at("length_s").dump(),
+              R"({"description":"From start to end.","type":"number"})");
+    EXPECT_EQ(keys.at("laps").dump(), R"({"minimum":0,"type":"integer"})");
+    EXPECT_EQ(keys.at("steps").at("required").dump(), R"(["walk","trot"])");
+    EXPECT_EQ(keys.at("prizes").dump(),
+              R"({"additionalProperties":{"type":"string"},"type":"object"})");
+    // It is never null: it is there, or not.
+    EXPECT_EQ(keys.at("lost").dump(), R"({"$ref":"#/$defs/saddle"})");
+    EXPECT_EQ(keys.at("place").at("minItems"), 2);
+    EXPECT_EQ(keys.at("place").at("maxItems"), 2);
 }
 
 } // namespace
