@@ -25,7 +25,7 @@ def printed(*command):
 # The code of the page stands in the three files that it names.
 files = re.findall(r"^## \d\. .*`(.*)`$", page, re.MULTILINE)
 assert len(files) == 3, files
-sections = re.split(r"^## ", page, flags=re.MULTILINE)[2:5]
+sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:4]
 for file, section in zip(files, sections):
     blocks = re.findall(r"```cpp\n(.*?)```", section, re.DOTALL)
     assert blocks, file
@@ -37,7 +37,8 @@ with tempfile.TemporaryDirectory() as place:
     stats, fates, control = (str(Path(place) / name) for name in ("s.json", "f.csv", "e.sock"))
     run = subprocess.Popen(
         [emulator, "--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--stats", stats,
-         "--fates", fates, "--control", control, "--set", "up.reorder=100%", "--delay", "1ms"],
+         "--fates", fates, "--control", control, "--set",
+         'up.reorder={ share = "100%", displacement = 3 }'],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         ready = dict(re.findall(r"(\S+)=(\S+)", run.stdout.readline()))
