@@ -22,6 +22,24 @@ using Shape = base::ValueKind::Shape;
 
 constexpr double ns_per_s = 1e9;
 
+/// Whether Prometheus takes it as the name of a metric or a label.
+bool is_name(std::string_view text)
+{
+    const auto may_stand = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_';
+    };
+    return !text.empty() && !(text.front() >= '0' && text.front() <= '9') &&
+           std::ranges::all_of(text, may_stand);
+}
+
+std::string one_line(std::string text)
+{
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\\'; }, ' ');
+    return text;
+}
+
 /// A text in quotes, as Prometheus reads it.
 std::string quoted_label(std::string_view text)
 {
@@ -66,7 +84,7 @@ std::optional<Sample> sample_in(const Json& json)
     Sample sample{.labels = {}, .value = value->get<double>()};
     if (labels == json.end() || !labels->is_object()) return sample;
     for (const auto& [name, label] : labels->items()) {
-        if (label.is_string()) sample.labels[name] = label.get<std::string>();
+        if (label.is_string() && is_name(name)) sample.labels[name] = label.get<std::string>();
     }
     return sample;
 }
@@ -128,9 +146,9 @@ void Metrics::add(const Json& told)
         return found != json.end() && found->is_string() ? found->get<std::string>() : "";
     };
     for (const Json& one : told) {
-        if (!one.is_object() || text(one, "name").empty()) continue;
-        Metric& metric =
-            metric_of(text(one, "name"), text(one, "help"), text(one, "type") == "counter");
+        if (!one.is_object() || !is_name(text(one, "name"))) continue;
+        Metric& metric = metric_of(text(one, "name"), one_line(text(one, "help")),
+                                   text(one, "type") == "counter");
         const auto samples = one.find("samples");
         if (samples == one.end() || !samples->is_array()) continue;
         for (const Json& sample : *samples) {

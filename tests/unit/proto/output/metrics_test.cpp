@@ -107,8 +107,10 @@ TEST(Metrics, PassOverWhatIsNone)
     Metrics metrics;
     metrics.add(Json(7));
     metrics.add(Json::parse(R"([7, {"name": 3}, {"name": "a", "samples": [1, {"value": "x"},
-                               {"value": 2, "labels": {"b": 5}}, {"value": null}]}])"));
-    EXPECT_EQ(metrics.text(), "# HELP a \n# TYPE a gauge\na 2\n");
+                               {"value": 2, "labels": {"b": 5, "c d": "e"}}, {"value": null}]},
+                               {"name": "b 1\nc", "samples": [{"value": 1}]},
+                               {"name": "d", "help": "e\nf", "samples": []}])"));
+    EXPECT_EQ(metrics.text(), "# HELP a \n# TYPE a gauge\na 2\n# HELP d e f\n# TYPE d gauge\n");
     metrics.add(base::field_table<Day>(), Json{{"cars", "many"}, {"cancelled", 4}});
     EXPECT_EQ(metrics.text().find("ferry"), std::string::npos);
 }
