@@ -427,7 +427,8 @@ void add_compare(cli::Command& command, CompareCommand& compare)
         "same algorithm, in the same task, scene, network and with the same seed. Of what each is "
         "measured by: the median of B - A with its 95 % interval, and the p of a sign test.");
     command.add_exit_codes(exit_codes_without_run);
-    command.positional("DIR_A", "A folder with sessions.csv", cli::into(compare.folder_a))
+    command
+        .positional("DIR_A", "A folder of results, with sessions.json", cli::into(compare.folder_a))
         .required("results/before results/after");
     command.positional("DIR_B", "Another", cli::into(compare.folder_b))
         .required("results/before results/after");

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/results/file.hpp"
 #include "lab/results/rows.hpp"
+#include "lab/results/table.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -44,9 +44,16 @@ constexpr auto fields_of(base::Tag<ComparedRow>)
         base::field("sign_test_p", &Row::sign_test_p));
 }
 
-/// Pairs the sessions of two files of sessions (sessions.csv, sessions_by_axis.csv) that are alike
-/// in every column but those that a session is measured by. Conditions together have a row "all"
-/// where there are several. The error: a file is none, or they have no session in common.
-[[nodiscard]] base::Result<std::vector<ComparedRow>> compare_sessions(const File& a, const File& b);
+/// The sessions of a folder.
+struct SessionsTable {
+    const Table& table; // sessions, or sessions_by_axis
+    std::string path;   // of its file, for errors
+};
+
+/// Pairs the sessions of two tables that are alike in every column but those that a session is
+/// measured by. Conditions together have a row "all" where there are several. The error: a table
+/// has no sessions, or they have no session in common.
+[[nodiscard]] base::Result<std::vector<ComparedRow>> compare_sessions(const SessionsTable& a,
+                                                                      const SessionsTable& b);
 
 } // namespace hapnet::lab::results

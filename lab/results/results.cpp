@@ -5,6 +5,7 @@
 #include "lab/records/recorded_trace.hpp"
 #include "lab/results/party_columns.hpp"
 #include "lab/results/several.hpp"
+#include "lab/results/table_text.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
@@ -52,100 +53,140 @@ Outcome add_run(const File& file, Results& results)
     return {};
 }
 
-template <typename Value>
-Outcome append(std::vector<Value>& all, base::Result<std::vector<Value>> rows)
+/// A leaf of a cell; nullopt: it is empty.
+std::optional<base::Leaf> leaf_of(const Cell& cell)
 {
-    if (!rows) return tl::unexpected{rows.error()};
-    all.insert(all.end(), std::make_move_iterator(rows->begin()),
-               std::make_move_iterator(rows->end()));
+    return std::visit(
+        [](const auto& value) -> std::optional<base::Leaf> {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
+                return std::nullopt;
+            } else {
+                return base::Leaf{value};
+            }
+        },
+        cell);
+}
+
+/// False: the field is of another type, or has to have a value.
+bool set_field(const base::FieldRow& field, const Cell& cell, void* owner)
+{
+    const auto leaf = leaf_of(cell);
+    void* value = field.in(owner);
+    if (field.kind->shape != base::ValueKind::Shape::maybe)
+        return field.kind->set(value, leaf.value_or(base::Leaf{std::string{}}));
+    if (!leaf) return true;
+    return field.kind->element->set(field.kind->add(value), *leaf);
+}
+
+/// The rows of a table as structs whose fields are described.
+template <typename Value>
+Outcome append(std::vector<Value>& all, const Table& table)
+{
+    for (const TableRow& row : rows_of(table)) {
+        Value& value = all.emplace_back();
+        for (const base::FieldRow& field : base::field_table<Value>().rows) {
+            if (field.is_spare && !table.place_of(field.key)) continue;
+            if (set_field(field, row[field.key], &value)) continue;
+            return base::fail(
+                fmt::format("{}: {}: found '{}'", table.name, field.key, row.text(field.key)));
+        }
+        if constexpr (requires {
+                          value.peers;
+                          value.scene->size();
+                      })
+            value.algorithm = algorithm_and_party(value); // a page compares parties as algorithms
+    }
     return {};
 }
 
-Outcome add_replay(const File& file, Results& results)
+template <auto rows>
+Outcome add_rows(const Table& table, Results& results)
 {
-    auto replay = read_replay(file);
+    return append(results.*rows, table);
+}
+
+/// Those of Table 1, which plays P1 and all else on one network, and those of claims, which have
+/// columns of their own; others are not shown one by one.
+Outcome add_sessions(const Table& table, Results& results)
+{
+    if (table.place_of("condition")) return append(results.claim_sessions, table);
+    std::vector<SessionRow> rows;
+    if (auto fine = append(rows, table); !fine) return fine;
+    const auto is_other = [&](const SessionRow& row) {
+        return row.network != rows.front().network;
+    };
+    const bool has_p1 = std::ranges::find(rows, "P1", &SessionRow::task) != rows.end();
+    if (has_p1 && !std::ranges::any_of(rows, is_other))
+        std::ranges::move(rows, std::back_inserter(results.rows_of_sessions));
+    return {};
+}
+
+Outcome add_points(const Table& table, Results& results)
+{
+    const auto before = results.qos_by_point.size();
+    auto fine = append(results.qos_by_point, table);
+    for (std::size_t i = before; i < results.qos_by_point.size(); ++i) {
+        QosRow& cell = results.qos_by_point[i].cell;
+        cell.algorithm = algorithm_and_party(cell);
+    }
+    return fine;
+}
+
+Outcome add_replay(const Table& table, Results& results)
+{
+    std::vector<ReplayRow> rows;
+    if (auto fine = append(rows, table); !fine) return fine;
+    auto replay = replay_of(table.name, rows);
     if (!replay) return tl::unexpected{replay.error()};
     results.replays.push_back(*std::move(replay));
     return {};
 }
 
-struct FileKind {
+Outcome add_trajectories(const Table& table, Results& results)
+{
+    if (auto fine = append(results.trajectories, table); !fine) return fine;
+    return require_increasing(results.trajectories);
+}
+
+struct TableKind {
     std::string_view name;
-    Outcome (*add)(const File&, Results&);
+    Outcome (*add)(const Table&, Results&);
 };
 
-/// A file whose rows are kept as they are read.
-template <auto rows>
-Outcome add_rows(const File& file, Results& results)
+constexpr std::array kinds{TableKind{"sessions", add_sessions},
+                           TableKind{"paired", add_rows<&Results::paired>},
+                           TableKind{"precision", add_rows<&Results::precision>},
+                           TableKind{"limits_by_axis", add_rows<&Results::limits_by_axis>},
+                           TableKind{"table1", add_rows<&Results::table1>},
+                           TableKind{"tasks", add_rows<&Results::tasks>},
+                           TableKind{"limits", add_rows<&Results::limits>},
+                           TableKind{"limits_by_convention", add_rows<&Results::sensitivity>},
+                           TableKind{"curves", add_rows<&Results::curves>},
+                           TableKind{"trajectories", add_trajectories},
+                           TableKind{"qos", add_rows<&Results::qos>},
+                           TableKind{"qos_by_point", add_points},
+                           TableKind{"claims", add_rows<&Results::claims>},
+                           TableKind{"claims_quantiles", add_rows<&Results::claims_quantiles>},
+                           TableKind{"real_time", add_rows<&Results::real_time>}};
+
+Outcome add_tables(const File& file, Results& results)
 {
-    using Row = typename std::remove_reference_t<decltype(results.*rows)>::value_type;
-    auto read = base::read_csv<Row>(file.text, file.path);
-    if constexpr (requires(Row row) { row.peers; }) {
-        // A page compares parties as it compares algorithms.
-        for (std::size_t i = 0; read && i < read->size(); ++i)
-            (*read)[i].algorithm = algorithm_and_party((*read)[i]);
+    const auto tables = read_tables(file.text, file.path);
+    if (!tables) return tl::unexpected{tables.error()};
+    for (const Table& table : *tables) {
+        const auto kind = std::ranges::find(kinds, table.name, &TableKind::name);
+        Outcome fine;
+        if (table.name.starts_with("replay/")) {
+            fine = add_replay(table, results);
+        } else if (kind != kinds.end()) {
+            fine = kind->add(table, results);
+        }
+        if (!fine) return base::fail(fmt::format("{}: {}", file.path, fine.error().message));
+        const auto folder = folder_of(file.path);
+        results.files.push_back(
+            fmt::format("{}{}{}.csv", folder, folder.empty() ? "" : "/", table.name));
     }
-    return append(results.*rows, std::move(read));
-}
-
-/// Those of Table 1, which plays P1 and all else on one network, and those of claims, which have
-/// columns of their own; others are not shown one by one.
-Outcome add_sessions(const File& file, Results& results)
-{
-    const std::string_view header = std::string_view{file.text}.substr(0, file.text.find('\n'));
-    if (header.find("condition") != std::string_view::npos) {
-        return append(results.claim_sessions,
-                      base::read_csv<ClaimSessionRow>(file.text, file.path));
-    }
-    if (header.find("network") == std::string_view::npos) return {};
-    auto rows = base::read_csv<SessionRow>(file.text, file.path);
-    if (!rows) return tl::unexpected{rows.error()};
-    const auto is_other = [&](const SessionRow& row) {
-        return row.network != rows->front().network;
-    };
-    const bool has_p1 = std::ranges::find(*rows, "P1", &SessionRow::task) != rows->end();
-    if (!has_p1 || std::ranges::any_of(*rows, is_other)) return {};
-    return append(results.rows_of_sessions, std::move(rows));
-}
-
-Outcome add_points(const File& file, Results& results)
-{
-    auto rows = base::read_csv<PointQosRow>(file.text, file.path);
-    if (rows)
-        for (PointQosRow& row : *rows) row.cell.algorithm = algorithm_and_party(row.cell);
-    return append(results.qos_by_point, std::move(rows));
-}
-
-constexpr std::array kinds{FileKind{"manifest.json", add_run},
-                           FileKind{"sessions.csv", add_sessions},
-                           FileKind{"paired.csv", add_rows<&Results::paired>},
-                           FileKind{"precision.csv", add_rows<&Results::precision>},
-                           FileKind{"limits_by_axis.csv", add_rows<&Results::limits_by_axis>},
-                           FileKind{"table1.csv", add_rows<&Results::table1>},
-                           FileKind{"tasks.csv", add_rows<&Results::tasks>},
-                           FileKind{"limits.csv", add_rows<&Results::limits>},
-                           FileKind{"limits_by_convention.csv", add_rows<&Results::sensitivity>},
-                           FileKind{"curves.csv", add_rows<&Results::curves>},
-                           FileKind{"trajectories.csv",
-                                    [](const File& f, Results& r) {
-                                        return append(r.trajectories, read_trajectories(f));
-                                    }},
-                           FileKind{"qos.csv", add_rows<&Results::qos>},
-                           FileKind{"qos_by_point.csv", add_points},
-                           FileKind{"claims.csv", add_rows<&Results::claims>},
-                           FileKind{"claims_quantiles.csv", add_rows<&Results::claims_quantiles>},
-                           FileKind{"real_time.csv", add_rows<&Results::real_time>}};
-
-constexpr FileKind replay_kind{"*.csv", add_replay};
-
-const FileKind* kind_of(std::string_view path)
-{
-    const auto folder = folder_of(path);
-    if (file_name_of(folder) == "replay" && path.ends_with(".csv")) return &replay_kind;
-    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const FileKind& kind) {
-        return kind.name == file_name_of(path);
-    });
-    return found == kinds.end() ? nullptr : &*found;
+    return {};
 }
 
 /// Says which rows give one thing twice.
@@ -307,8 +348,6 @@ base::Result<void> add_session(Results& results, const std::string& name,
     return {};
 }
 
-bool is_result_file(std::string_view path) { return kind_of(path) != nullptr; }
-
 base::Result<Results> read_results(std::span<const File> files)
 {
     std::vector<const File*> ordered;
@@ -317,9 +356,8 @@ base::Result<Results> read_results(std::span<const File> files)
               [](const File* a, const File* b) { return a->path < b->path; });
     Results results;
     for (const File* file : ordered) {
-        const FileKind* kind = kind_of(file->path);
-        if (kind == nullptr) continue;
-        const auto added = kind->add(*file, results);
+        const bool is_manifest = file_name_of(file->path) == "manifest.json";
+        const auto added = is_manifest ? add_run(*file, results) : add_tables(*file, results);
         if (!added) return tl::unexpected{added.error()};
     }
     const auto once = require_each_once(results);

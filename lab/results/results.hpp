@@ -62,7 +62,7 @@ struct Results {
     std::vector<Replay> replays;
     std::vector<RecordedSession> sessions;
     std::optional<DemoRun> demo;
-    std::vector<std::string> files; // that were read, as paths in the folder of the page
+    std::vector<std::string> files; // the tables as CSV, as paths in the folder of the page
 
     /// By which all runs judged; nullopt when they do not say, or differ.
     [[nodiscard]] std::optional<metrics::Criteria> criteria() const;
@@ -78,13 +78,9 @@ struct Results {
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              std::span<const record::Record* const> records);
 
-/// Whether a file of this name is one that read_results() reads; all others it leaves alone.
-/// Replays are those of a folder replay/.
-[[nodiscard]] bool is_result_file(std::string_view path);
-
-/// Reads the files of a result folder and of its subfolders; their order does not matter. Errors
-/// begin with "FILE:LINE: ". Of two results that exclude each other, such as two rows of Table 1
-/// for one algorithm, it is an error that both are there.
+/// Reads the manifests and tables of a result folder and of its subfolders; their order does not
+/// matter. Errors begin with "FILE:". Of two results that exclude each other, such as two rows of
+/// Table 1 for one algorithm, it is an error that both are there.
 [[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
 
 } // namespace hapnet::lab::results

@@ -10,12 +10,6 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// The error of a row, whose line is no longer known: `index` counts from the header.
-tl::unexpected<base::Error> fail_at_row(const File& file, std::size_t index, std::string_view what)
-{
-    return base::fail(fmt::format("{}:{}: {}", file.path, index + 2, what));
-}
-
 /// L and R, and the body that they share.
 std::vector<ReplaySide> sides_of(const std::vector<ReplayRow>& rows)
 {
@@ -106,42 +100,36 @@ TrajectoryRow to_trajectory(const std::string& algorithm, const ReplayRow& row)
     return {algorithm, row.time_s, row.lx, row.rx, row.lhx, row.rhx, row.lfx, row.rfx};
 }
 
-base::Result<std::vector<TrajectoryRow>> read_trajectories(const File& file)
+base::Result<void> require_increasing(const std::vector<TrajectoryRow>& rows)
 {
-    auto rows = base::read_csv<TrajectoryRow>(file.text, file.path);
-    for (std::size_t i = 1; rows && i < rows->size(); ++i) {
-        const TrajectoryRow &before = (*rows)[i - 1], &row = (*rows)[i];
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const TrajectoryRow &before = rows[i - 1], &row = rows[i];
         if (row.algorithm != before.algorithm || row.time_s > before.time_s) continue;
-        return fail_at_row(
-            file, i,
-            fmt::format("time_s: expected more than {}, found {}", before.time_s, row.time_s));
+        return base::fail(fmt::format("trajectories: time_s: expected more than {}, found {}",
+                                      before.time_s, row.time_s));
     }
-    return rows;
+    return {};
 }
 
-base::Result<Replay> read_replay(const File& file)
+base::Result<Replay> replay_of(std::string_view name, const std::vector<ReplayRow>& rows)
 {
-    auto rows = base::read_csv<ReplayRow>(file.text, file.path);
-    if (!rows) return tl::unexpected{rows.error()};
-    if (rows->size() < 2) return fail_at_row(file, rows->size(), "expected two rows at least");
-    std::string_view name = file.path;
-    name.remove_prefix(name.rfind('/') + 1);
-    name.remove_suffix(std::min(name.size(), std::string_view{".csv"}.size()));
-    const auto dash = std::min(name.rfind('-'), name.size());
-    Replay replay{.algorithm = std::string{name.substr(0, dash)},
-                  .task = std::string{name.substr(std::min(dash + 1, name.size()))},
-                  .start_s = rows->front().time_s};
-    const auto steps = static_cast<double>(rows->size() - 1);
-    replay.step_s = (rows->back().time_s - replay.start_s) / steps;
-    for (std::size_t i = 0; i < rows->size(); ++i) {
-        const double time_s = (*rows)[i].time_s;
+    if (rows.size() < 2) return base::fail(fmt::format("{}: expected two rows at least", name));
+    std::string_view words = name.substr(name.rfind('/') + 1);
+    const auto dash = std::min(words.rfind('-'), words.size());
+    Replay replay{.algorithm = std::string{words.substr(0, dash)},
+                  .task = std::string{words.substr(std::min(dash + 1, words.size()))},
+                  .start_s = rows.front().time_s};
+    const auto steps = static_cast<double>(rows.size() - 1);
+    replay.step_s = (rows.back().time_s - replay.start_s) / steps;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double time_s = rows[i].time_s;
         const double expected = replay.start_s + static_cast<double>(i) * replay.step_s;
         if (replay.step_s > 0.0 && std::abs(time_s - expected) <= 0.5 * replay.step_s) continue;
-        return fail_at_row(file, i,
-                           fmt::format("time_s: expected equal steps and so {:.4f}, found {:.4f}",
-                                       expected, time_s));
+        return base::fail(
+            fmt::format("{}: time_s: expected equal steps and so {:.4f}, found {:.4f}", name,
+                        expected, time_s));
     }
-    replay.sides = sides_of(*rows);
+    replay.sides = sides_of(rows);
     replay.shared = {first_movable(replay.scene)};
     return replay;
 }

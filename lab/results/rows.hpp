@@ -448,9 +448,10 @@ struct Replay {
                                                    std::span<const std::string> names,
                                                    std::size_t every);
 
-/// The times of each algorithm must increase.
-[[nodiscard]] base::Result<std::vector<TrajectoryRow>> read_trajectories(const File& file);
-/// Algorithm and task stand in the file's name.
-[[nodiscard]] base::Result<Replay> read_replay(const File& file);
+/// The error: the times of an algorithm do not increase.
+[[nodiscard]] base::Result<void> require_increasing(const std::vector<TrajectoryRow>& rows);
+/// Of the table replay/ALGORITHM-TASK.
+[[nodiscard]] base::Result<Replay> replay_of(std::string_view name,
+                                             const std::vector<ReplayRow>& rows);
 
 } // namespace hapnet::lab::results

@@ -6,6 +6,7 @@
 #include "lab/metrics/criteria.hpp"
 #include "lab/results/rows.hpp"
 #include "lab/results/session_rows.hpp"
+#include "lab/results/table.hpp"
 #include "proto/base/result.hpp"
 
 #include <cstdint>
@@ -34,7 +35,7 @@ struct PlayedCell {
 /// Reads an object. The error names the key that is missing or has another type.
 [[nodiscard]] base::Result<PlayedCell> played_cell_from(const nlohmann::json& json);
 
-/// Of real_time_sessions.csv: a session as it was played once.
+/// Of the table real_time_sessions: a session as it was played once.
 struct SweepRow {
     std::string point; // of the axes: "hands.stiffness=100N/m"
     SessionRow real{};
@@ -55,9 +56,10 @@ struct SweepCell {
 [[nodiscard]] SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,
                                       const metrics::Criteria& criteria);
 
-[[nodiscard]] std::string sweep_csv(std::span<const SweepRow> rows);
+/// The table real_time_sessions.
+[[nodiscard]] Table sweep_table(std::span<const SweepRow> rows);
 
-/// Of real_time_conditions.csv: a measure of all valid sessions of one condition.
+/// Of the table real_time_conditions: a measure of all valid sessions of one condition.
 struct ConditionRow {
     std::string point;
     std::string algorithm;
@@ -93,7 +95,6 @@ constexpr auto fields_of(base::Tag<ConditionRow>)
         base::field("ci_high_percent", &Row::ci_high_percent, two));
 }
 [[nodiscard]] std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows);
-[[nodiscard]] std::string conditions_csv(std::span<const ConditionRow> rows);
 /// The same for a person.
 [[nodiscard]] std::string conditions_table(std::span<const ConditionRow> rows);
 

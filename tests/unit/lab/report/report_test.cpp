@@ -191,7 +191,7 @@ TEST(Report, CountsThePointsThatEachAlgorithmBears)
 
 TEST(Report, SortsWhatStandsAgainstThePaperByTheFilesAlone)
 {
-    const auto results = read_results(whole_sample());
+    const auto results = read_results(as_written(whole_sample()));
     ASSERT_TRUE(results);
     const Claims main = main_claims(*results);
     EXPECT_EQ(main.calibrated.size(), 2U); // Table 1 and the delay of base
@@ -324,7 +324,7 @@ TEST(Report, CarriesThePlayerOnlyWhereThereIsAReplay)
 TEST(Report, LinksEachFigureToTheRowsBehindIt)
 {
     const std::vector<results::File> rows{sample_limits(), sample_curves(), sample_trajectories()};
-    auto results = read_results(rows);
+    auto results = read_results(as_written(rows));
     ASSERT_TRUE(results);
     results->files = {"fig 6a/limits.csv", "curves.csv", "fig7/trajectories.csv"};
     const auto files = report_of(*results, "r");

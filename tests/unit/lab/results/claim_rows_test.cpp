@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/claim_rows.hpp"
 
-#include "proto/base/csv.hpp"
+#include "lab/results/table_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -76,7 +76,7 @@ TEST(ClaimRows, AreAllMetByPerfectSessions)
         EXPECT_EQ(of_all[i].claim, rows[i].claim);
         EXPECT_EQ(of_all[i].seeds, 4U);
     }
-    const std::string csv = base::csv_text(rows);
+    const std::string csv = csv_text(table_of("claims", rows));
     EXPECT_EQ(csv.substr(0, csv.find('\n')), "claim,value,accept,verdict")
         << "others read these columns";
 }

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The files of an experiment whose sessions follow a known law.
+// The tables of an experiment whose sessions follow a known law.
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/text.hpp"
-#include "lab/results/result_files.hpp"
-#include "lab/results/results.hpp"
+#include "lab/results/found.hpp"
 #include "lab/results/rows.hpp"
 #include "lab/results/shipped.hpp"
+#include "lab/results/table_text.hpp"
 #include "peer/core/sync/text.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
@@ -39,25 +39,20 @@ experiment::Experiment experiment_of(std::string_view text)
 }
 
 /// All jobs one after another, by the known law.
-std::map<std::string, std::string> results(const experiment::Experiment& experiment,
-                                           const experiment::PlaySession& play)
+std::map<std::string, Table> results(const experiment::Experiment& experiment,
+                                     const experiment::PlaySession& play)
 {
     std::vector<experiment::JobResult> findings;
     for (const experiment::Job& part : make_jobs(experiment)) {
         findings.push_back(*run_job(part, experiment, experiment::known_criteria(), play));
     }
-    std::map<std::string, std::string> files;
-    auto written = make_result_files(experiment, experiment::known_criteria(), findings);
-    for (auto& file : *written) files[file.path] = file.text;
-    return files;
+    std::map<std::string, Table> tables;
+    const auto found = find_results(experiment, experiment::known_criteria(), findings);
+    for (const Table& table : found->tables) tables[table.name] = filled(table);
+    return tables;
 }
 
-std::vector<LimitRow> limit_rows_of(const std::string& text)
-{
-    auto rows = base::read_csv<LimitRow>(text, "limits.csv");
-    EXPECT_TRUE(rows) << rows.error().message;
-    return rows ? *std::move(rows) : std::vector<LimitRow>{};
-}
+std::string header_of(const Table& table) { return csv_header(table.columns); }
 
 base::Result<experiment::PlayedSession> play_known(const experiment::SessionSpec& spec)
 {
@@ -74,35 +69,33 @@ TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
             if (spec.setting.task == device::Task::t3) played.metrics.body_vibration_m[0].reset();
             return base::Result<experiment::PlayedSession>{played};
         });
-    const std::string& text = files.at("limits.csv");
-    EXPECT_EQ(text.substr(0, text.find('\n')),
+    EXPECT_EQ(header_of(files.at("limits")),
               "algorithm,impairment,task,limit,bound,unit,paper_limit,status,class,p50,p10,ci_low,"
               "ci_high,seeds");
-    const auto rows = limit_rows_of(text);
+    const auto rows = rows_of(files.at("limits"));
     ASSERT_EQ(rows.size(), 6U);
     // The seeds fail from 96, 95 and 94 ms on: two of three at 95, one at 94.
-    EXPECT_NEAR(rows[0].limit, 94.5, 0.5);
-    EXPECT_EQ(rows[0].bound, Bound::found);
-    EXPECT_EQ(rows[0].p50, rows[0].limit);
-    EXPECT_LE(*rows[0].ci_low, 94.0);
-    EXPECT_GE(*rows[0].ci_high, 95.0);
-    EXPECT_EQ(rows[0].seeds, 3U);
-    EXPECT_EQ(rows[1].task, "T3");
-    EXPECT_EQ(rows[1].bound, Bound::open);
-    EXPECT_EQ(rows[1].limit, 200.0);
-    EXPECT_EQ(rows[1].ci_high, std::nullopt);
-    EXPECT_EQ(rows[2].task, "worst");
-    EXPECT_EQ(rows[2].limit, rows[0].limit);
-    for (const LimitRow& row : rows) {
+    EXPECT_NEAR(*rows[0].number("limit"), 94.5, 0.5);
+    EXPECT_EQ(rows[0].text("bound"), "=");
+    EXPECT_EQ(rows[0].number("p50"), rows[0].number("limit"));
+    EXPECT_LE(*rows[0].number("ci_low"), 94.0);
+    EXPECT_GE(*rows[0].number("ci_high"), 95.0);
+    EXPECT_EQ(rows[0].number("seeds"), 3.0);
+    EXPECT_EQ(rows[1].text("task"), "T3");
+    EXPECT_EQ(rows[1].text("bound"), ">");
+    EXPECT_EQ(rows[1].number("limit"), 200.0);
+    EXPECT_EQ(rows[1].number("ci_high"), std::nullopt);
+    EXPECT_EQ(rows[2].text("task"), "worst");
+    EXPECT_EQ(rows[2].number("limit"), rows[0].number("limit"));
+    for (const TableRow& row : rows) {
         // These are neither the tasks nor the criteria that stand against the paper.
-        EXPECT_EQ(row.status, LimitStatus::none);
-        EXPECT_EQ(row.provenance, Provenance::none);
-        EXPECT_EQ(row.paper_limit, std::nullopt);
+        EXPECT_EQ(row.text("status"), "");
+        EXPECT_EQ(row.text("class"), "");
+        EXPECT_EQ(row.number("paper_limit"), std::nullopt);
     }
-    EXPECT_FALSE(files.contains("limits_by_convention.csv"));
-    const auto paired = base::read_csv<PairedRow>(files.at("paired.csv"), "paired.csv");
-    ASSERT_TRUE(paired);
-    EXPECT_EQ(paired->front().difference, 0.0) << "the same law for both";
+    EXPECT_FALSE(files.contains("limits_by_convention"));
+    const TableRow paired{files.at("paired"), 0};
+    EXPECT_EQ(paired.number("difference"), 0.0) << "the same law for both";
 }
 
 TEST(Results, StandAgainstThePaperOnlyWhenPlayedAsShipped)
@@ -151,23 +144,16 @@ resolution = "1ms"
             played.metrics.body_vibration_m[0]->first = 1.0;
         return base::Result<experiment::PlayedSession>{played};
     });
-    const std::string& limits = files.at("limits.csv");
-    EXPECT_TRUE(limits.substr(0, limits.find('\n')).ends_with(",seeds,peers"));
-    const auto rows = limit_rows_of(limits);
+    EXPECT_TRUE(header_of(files.at("limits")).ends_with(",seeds,peers"));
+    const auto rows = rows_of(files.at("limits"));
     ASSERT_EQ(rows.size(), 4U);
-    EXPECT_EQ(rows[0].bound, Bound::open);
-    EXPECT_EQ(rows[0].peers, 2U);
-    EXPECT_NEAR(rows[3].limit, 20.5, 0.01);
-    EXPECT_EQ(rows[3].peers, 3U);
-    const std::string& curves = files.at("curves.csv");
-    EXPECT_EQ(curves.substr(0, curves.find('\n')),
+    EXPECT_EQ(rows[0].text("bound"), ">");
+    EXPECT_EQ(rows[0].number("peers"), 2.0);
+    EXPECT_NEAR(*rows[3].number("limit"), 20.5, 0.01);
+    EXPECT_EQ(rows[3].number("peers"), 3.0);
+    EXPECT_EQ(header_of(files.at("curves")),
               "algorithm,impairment,task,level,unit,seed,counts,mean_mm,vibration_mm,"
               "stiffness_ratio,force_vibration_n,tier,peers");
-    const std::vector<File> folder{{"limits.csv", limits}, {"curves.csv", curves}};
-    const auto read = read_results(folder);
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->limits.front().algorithm, "base, 2 peers");
-    EXPECT_EQ(read->limits.back().algorithm, "base, 3 peers");
 }
 
 TEST(Results, AllSeedsPlayAtTheLevelsThatCountAndEachSessionHasARow)
@@ -184,22 +170,19 @@ TEST(Results, AllSeedsPlayAtTheLevelsThatCountAndEachSessionHasARow)
     std::size_t counted = 0;
     for (const auto& [level, seeds] : sessions) counted += seeds.size() == 3 ? 1U : 0U;
     EXPECT_GE(counted, 8U);
-    const auto rows = base::read_csv<SessionRow>(files.at("sessions.csv"), "sessions.csv");
-    ASSERT_TRUE(rows) << rows.error().message;
     std::size_t of_base = 0;
-    for (const SessionRow& row : *rows) {
-        EXPECT_EQ(row.loss_percent, 1.0);
-        EXPECT_EQ(row.hands, "nominal");
-        EXPECT_EQ(row.scene, "paper");
-        EXPECT_NE(row.network.find("1%"), std::string::npos) << row.network;
-        of_base += row.algorithm == "base" && row.task == "T1" ? 1U : 0U;
+    const auto rows = rows_of(files.at("sessions"));
+    for (const TableRow& row : rows) {
+        EXPECT_EQ(row.number("loss_percent"), 1.0);
+        EXPECT_EQ(row.text("hands"), "nominal");
+        EXPECT_EQ(row.text("scene"), "paper");
+        EXPECT_NE(row.text("network").find("1%"), std::string::npos) << row.text("network");
+        of_base += row.text("algorithm") == "base" && row.text("task") == "T1" ? 1U : 0U;
     }
     std::size_t played = 0;
     for (const auto& [level, seeds] : sessions) played += seeds.size();
     EXPECT_EQ(of_base, played);
-    const auto curves = base::read_csv<CurveRow>(files.at("curves.csv"), "curves.csv");
-    ASSERT_TRUE(curves);
-    EXPECT_EQ(curves->size(), rows->size());
+    EXPECT_EQ(files.at("curves").rows.size(), rows.size());
 }
 
 namespace {
@@ -231,14 +214,13 @@ seeds = 1
         ++sessions[key_of(spec, "test")];
         return base::Result<experiment::PlayedSession>{known_session(spec)};
     });
-    const auto rows = base::read_csv<SensitivityRow>(files.at("limits_by_convention.csv"), "it");
-    ASSERT_TRUE(rows) << rows.error().message;
-    ASSERT_EQ(rows->size(), 12U);
+    const auto rows = rows_of(files.at("limits_by_convention"));
+    ASSERT_EQ(rows.size(), 12U);
     const std::array expected{95.5, 190.5, 200.0};
     for (std::size_t i = 0; i < 12; ++i) {
-        EXPECT_NEAR((*rows)[i].limit, expected[i % 3], 0.01) << i;
-        EXPECT_EQ((*rows)[i].is_open(), i % 3 == 2) << i;
-        EXPECT_EQ((*rows)[i].hand, i % 6 < 3 ? "nominal" : "relaxed/firm");
+        EXPECT_NEAR(*rows[i].number("limit"), expected[i % 3], 0.01) << i;
+        EXPECT_EQ(rows[i].text("bound") == ">", i % 3 == 2) << i;
+        EXPECT_EQ(rows[i].text("hand"), i % 6 < 3 ? "nominal" : "relaxed/firm");
     }
     const auto played = [&](std::string_view orders, std::string_view hands, int seeds = 1) {
         return keys_played(fmt::format("{}\n[convention]\nfilter_orders = {}\nhands = {}\n"
@@ -253,7 +235,7 @@ seeds = 1
     EXPECT_LT(sessions.size(), alone) << "orders share sessions";
     auto none = experiment;
     std::get<experiment::Limits>(none.kind).sensitivity->seeds = 0;
-    EXPECT_FALSE(results(none, play_known).contains("limits_by_convention.csv"));
+    EXPECT_FALSE(results(none, play_known).contains("limits_by_convention"));
 }
 
 TEST(Results, Table1HasARowForEachAlgorithmAndTheTasksBesideIt)
@@ -265,25 +247,26 @@ tasks = ["T1"]
 both.delay = "80ms"
 )"),
                                play_known);
-    EXPECT_EQ(files.at("table1.csv"),
+    EXPECT_EQ(csv_text(files.at("table1")),
               "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,"
               "verdict,class,max_class\n"
               "base,8.000,0.000,24.000,0.100,,,,,,\n"
               "sep,8.000,0.000,24.000,0.100,,,,,,\n"
               "dead-reckoning,8.000,0.000,24.000,0.100,,,,,,\n")
         << "80 ms are not the paper's 160";
-    const std::string& tasks = files.at("tasks.csv");
+    const std::string tasks = csv_text(files.at("tasks"));
     EXPECT_NE(tasks.find("\nbase,T1,2,8.000,0.100,24.000,0.807,,,,,,,,good,\n"), std::string::npos)
         << tasks;
     EXPECT_EQ(tasks.find(",P1,"), std::string::npos);
-    const std::string& sessions = files.at("sessions.csv");
+    const std::string sessions = csv_text(files.at("sessions"));
     EXPECT_NE(sessions.find("\nbase,P1,nominal,2,paper,30,80,0,0,0,"), std::string::npos)
         << sessions;
     std::size_t of_p1 = 0;
     for (std::size_t at = 0; (at = sessions.find(",P1,", at)) != std::string::npos; ++at) ++of_p1;
     EXPECT_EQ(of_p1, 3U) << "without lots one seed of P1 is as good as ten";
-    EXPECT_EQ(files.at("replay/sep-P1.csv"),
-              base::csv_header<ReplayRow>() + "\n0.0000,1,2,3,4,5,6,7,8,9,10,11,12,13,14\n");
+    EXPECT_EQ(csv_text(files.at("replay/sep-P1")),
+              base::csv_header<ReplayRow>() + "\n0.0000,1.000,2.000,3.000,4.000,5.000,6.000,7.0000,"
+                                              "8.000,9.000,10.000,11.000,12.000,13.000,14.0000\n");
 }
 
 TEST(Results, TheOtherKindsWriteTheirColumns)
@@ -291,7 +274,7 @@ TEST(Results, TheOtherKindsWriteTheirColumns)
     const auto trajectories =
         results(experiment_of("kind = \"trajectories\"\nalgorithms = \"base\"\ntasks = \"T1\"\n"),
                 play_known);
-    EXPECT_EQ(trajectories.at("trajectories.csv"),
+    EXPECT_EQ(csv_text(trajectories.at("trajectories")),
               "algorithm,time_s,cube_l_mm,cube_r_mm,hand_l_mm,hand_r_mm,force_l_n,force_r_n\n"
               "base,0.0000,1.000,8.000,4.000,11.000,7.0000,14.0000\n");
     const auto plane = results(experiment_of(R"(
@@ -305,7 +288,7 @@ jitter = ["0ms", "15ms"]
 loss = ["50%"]
 )"),
                                play_known);
-    EXPECT_EQ(plane.at("qos.csv"),
+    EXPECT_EQ(csv_text(plane.at("qos")),
               "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,vibration_mm,"
               "stiffness_ratio,force_vibration_n,tier\n"
               "base,T1,0,0,50,0.000,0.000,,,good\n"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/results/result_files.hpp"
+#include "lab/results/found.hpp"
 
 #include "lab/experiment/grid.hpp"
 #include "lab/metrics/calibration.hpp"
@@ -149,13 +149,13 @@ struct ResultsOf {
     const metrics::Criteria& criteria;
     std::span<const experiment::JobResult> results;
 
-    base::Result<std::vector<File>> operator()(const experiment::Table1&) const
+    base::Result<Found> operator()(const experiment::Table1&) const
     {
         const auto groups = groups_of(experiment, results);
         const auto base_mm = base_in_mm(groups, criteria);
         std::vector<Table1Row> table;
         std::vector<TaskRow> tasks;
-        std::vector<File> files;
+        Found found;
         for (const Group& group : groups) {
             const Summary summary = summarize(group.scores, criteria);
             if (group.task == device::Task::p1) {
@@ -166,36 +166,34 @@ struct ResultsOf {
                 if (group.party.scene)
                     tasks.back().scene = experiment.scenes[*group.party.scene].name;
             }
-            files.push_back({fmt::format("replay/{}-{}.csv", group.algorithm, name_of(group.task)),
-                             fmt::format("{}\n{}", base::csv_header<ReplayRow>(), group.rows)});
+            found.tables.push_back(
+                table_of(fmt::format("replay/{}-{}", group.algorithm, name_of(group.task)),
+                         parse_rows(group.rows)));
         }
-        files.push_back({"table1.csv", base::csv_text(table)});
-        files.push_back({"tasks.csv", base::csv_text(tasks)});
+        found.tables.push_back(table_of("table1", table));
+        found.tables.push_back(table_of("tasks", tasks));
         const auto sessions = make_session_rows(experiment, criteria, results);
-        files.push_back({"sessions.csv", base::csv_text(sessions)});
-        files.push_back({"paired.csv", base::csv_text(make_paired_rows(sessions))});
-        return files;
+        found.tables.push_back(table_of("sessions", sessions));
+        found.tables.push_back(table_of("paired", make_paired_rows(sessions)));
+        return found;
     }
 
-    base::Result<std::vector<File>> operator()(const experiment::Limits& limits) const
+    base::Result<Found> operator()(const experiment::Limits& limits) const
     {
-        std::vector<File> files;
-        files.push_back(
-            {"limits.csv", base::csv_text(make_limit_rows(experiment, criteria, results))});
-        files.push_back(
-            {"paired.csv", base::csv_text(make_paired_limit_rows(experiment, results))});
-        files.push_back(
-            {"curves.csv", base::csv_text(make_curve_rows(experiment, criteria, results))});
-        files.push_back(sessions());
+        Found found;
+        found.tables = {table_of("limits", make_limit_rows(experiment, criteria, results)),
+                        table_of("paired", make_paired_limit_rows(experiment, results)),
+                        table_of("curves", make_curve_rows(experiment, criteria, results)),
+                        sessions()};
         if (limits.sensitivity && limits.sensitivity->seeds > 0) {
-            files.push_back(
-                {"limits_by_convention.csv",
-                 base::csv_text(make_sensitivity_rows(experiment, *limits.sensitivity, results))});
+            found.tables.push_back(
+                table_of("limits_by_convention",
+                         make_sensitivity_rows(experiment, *limits.sensitivity, results)));
         }
-        return files;
+        return found;
     }
 
-    base::Result<std::vector<File>> operator()(const experiment::Trajectories&) const
+    base::Result<Found> operator()(const experiment::Trajectories&) const
     {
         std::vector<TrajectoryRow> rows;
         for (const Group& group : groups_of(experiment, results)) {
@@ -203,10 +201,10 @@ struct ResultsOf {
                 rows.push_back(to_trajectory(std::string{group.algorithm}, row));
             }
         }
-        return std::vector<File>{{"trajectories.csv", base::csv_text(rows)}, sessions()};
+        return Found{{table_of("trajectories", rows), sessions()}, {}};
     }
 
-    base::Result<std::vector<File>> operator()(const experiment::ImpairmentGrid& grid) const
+    base::Result<Found> operator()(const experiment::ImpairmentGrid& grid) const
     {
         const auto groups = groups_of(experiment, results);
         const auto points = grid_points(grid);
@@ -223,20 +221,20 @@ struct ResultsOf {
                        .judged = make_judged(summarize(groups[i].scores, criteria), criteria)});
             note_party(experiment, groups[i].party, row);
         }
-        return std::vector<File>{{"qos.csv", base::csv_text(rows)}, sessions()};
+        return Found{{table_of("qos", rows), sessions()}, {}};
     }
 
-    base::Result<std::vector<File>> operator()(const experiment::Claims&) const
+    base::Result<Found> operator()(const experiment::Claims&) const
     {
         const auto sessions = claim_sessions_of(experiment, results);
         const ClaimTables tables = make_claim_tables(experiment, criteria, sessions);
-        return std::vector<File>{
-            {"claims.csv", base::csv_text(tables.claims)},
-            {"claims_quantiles.csv", base::csv_text(tables.quantiles)},
-            {"sessions.csv", base::csv_text(make_claim_session_rows(criteria, sessions))}};
+        return Found{{table_of("claims", tables.claims),
+                      table_of("claims_quantiles", tables.quantiles),
+                      table_of("sessions", make_claim_session_rows(criteria, sessions))},
+                     {}};
     }
 
-    base::Result<std::vector<File>> operator()(const experiment::Calibration&) const
+    base::Result<Found> operator()(const experiment::Calibration&) const
     {
         std::vector<metrics::Scores> scores;
         for (const experiment::JobResult& result : results) {
@@ -246,23 +244,23 @@ struct ResultsOf {
         const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
         const auto rest = std::span{scores}.subspan(half.size());
         return calibrated({half, rest}, criteria).map([this](const metrics::Criteria& found) {
-            return std::vector<File>{
-                {"criteria.toml", origin_of(experiment) + print_criteria(found)}, sessions()};
+            return Found{{sessions()},
+                         {{"criteria.toml", origin_of(experiment) + print_criteria(found)}}};
         });
     }
 
 private:
-    [[nodiscard]] File sessions() const
+    [[nodiscard]] Table sessions() const
     {
-        return {"sessions.csv", base::csv_text(make_session_rows(experiment, criteria, results))};
+        return table_of("sessions", make_session_rows(experiment, criteria, results));
     }
 };
 
 } // namespace
 
-base::Result<std::vector<File>> make_result_files(const experiment::Experiment& experiment,
-                                                  const metrics::Criteria& criteria,
-                                                  std::span<const experiment::JobResult> results)
+base::Result<Found> find_results(const experiment::Experiment& experiment,
+                                 const metrics::Criteria& criteria,
+                                 std::span<const experiment::JobResult> results)
 {
     return std::visit(ResultsOf{experiment, criteria, results}, experiment.kind);
 }
