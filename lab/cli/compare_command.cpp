@@ -7,7 +7,6 @@
 #include "lab/results/compared_rows.hpp"
 #include "lab/results/table_text.hpp"
 #include "lab/runner/checksums.hpp"
-#include "proto/base/fields_json.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <filesystem>
@@ -43,31 +42,26 @@ base::Result<FolderSessions> sessions_of(const std::string& folder)
     return FolderSessions{std::move(tables->front()), path};
 }
 
-std::string to_table(const std::vector<results::ComparedRow>& rows)
+std::string to_table(const results::Table& compared)
 {
     records::TextTable table{.caption = "",
                              .unit = "medians",
                              .heads = {"sessions", "A", "B", "B - A", "from", "to", "p"}};
-    for (const results::ComparedRow& row : rows) {
-        if (!row.conditions.empty() && row.conditions != results::all_conditions) continue;
-        const auto number = [](double value) { return records::number_text(value, 4); };
-        const auto name = fmt::format("{} {} {}", row.algorithm, row.task, row.measure);
-        table.rows.push_back({name,
-                              {fmt::format("{}", row.sessions), number(row.median_a),
-                               number(row.median_b), number(row.difference), number(row.ci_low),
-                               number(row.ci_high), fmt::format("{:.2g}", row.sign_test_p)}});
+    for (const results::TableRow& row : rows_of(compared)) {
+        const auto conditions = row.text("conditions");
+        if (!conditions.empty() && conditions != results::all_conditions) continue;
+        auto& line = table.rows.emplace_back();
+        line.name =
+            fmt::format("{} {} {}", row.text("algorithm"), row.text("task"), row.text("measure"));
+        line.cells.push_back(row.text("sessions"));
+        for (const char* key : {"median_a", "median_b", "difference", "ci_low", "ci_high"})
+            line.cells.push_back(records::number_text(row.number(key), 4));
+        line.cells.push_back(fmt::format("{:.2g}", row.number("sign_test_p").value_or(1.0)));
     }
     table.remarks = {"B - A: the median of the differences, with its 95 % interval; p of a sign "
                      "test, not corrected for the number of rows. --csv and --json also have each "
                      "condition."};
     return records::to_text(table);
-}
-
-std::string to_json(const std::vector<results::ComparedRow>& rows)
-{
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const results::ComparedRow& row : rows) list.push_back(base::json_of(row));
-    return nlohmann::ordered_json{{"compared", list}}.dump(2) + '\n';
 }
 
 } // namespace
@@ -78,10 +72,13 @@ base::Result<std::string> compare_folders(const CompareCommand& command)
     if (!a) return tl::unexpected{a.error()};
     const auto b = sessions_of(command.folder_b);
     if (!b) return tl::unexpected{b.error()};
-    const auto rows = results::compare_sessions({a->table, a->path}, {b->table, b->path});
-    if (!rows) return tl::unexpected{rows.error()};
-    if (command.csv) return csv_text(results::table_of("compared", *rows));
-    return command.json ? to_json(*rows) : to_table(*rows);
+    const auto compared = results::compare_sessions({a->table, a->path}, {b->table, b->path});
+    if (!compared) return tl::unexpected{compared.error()};
+    if (command.csv) return csv_text(*compared);
+    if (command.json)
+        return nlohmann::ordered_json{{"compared", results::json_objects(*compared)}}.dump(2) +
+               '\n';
+    return to_table(*compared);
 }
 
 } // namespace hapnet::lab

@@ -7,7 +7,7 @@
 #include "lab/records/kept_play.hpp"
 #include "lab/results/found.hpp"
 #include "lab/results/manifest.hpp"
-#include "lab/results/precision_rows.hpp"
+#include "lab/results/precision_table.hpp"
 #include "lab/results/table_text.hpp"
 #include "lab/runner/checksums.hpp"
 #include "lab/runner/progress.hpp"
@@ -216,8 +216,7 @@ public:
         forget_old_checksums();
         if (has_reference()) {
             const auto& axis = experiment_.whole.axes.front();
-            tables_.add(results::table_of(
-                "precision", results::make_precision_rows(axis, findings_, experiment_.criteria)));
+            tables_.add(results::precision_table(axis, findings_, experiment_.criteria));
         }
         for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
         const auto checksums = runner::checksums_of(out_, names_);

@@ -156,7 +156,8 @@ void add_report(cli::Command& command, ReportCommand& report)
         "Writes report.html, one self-contained page. Of a folder: "
         "the results of its experiments beside the paper, of the demo, or of a "
         "recorded session; of a folder of such folders, without a manifest.json of its own, it "
-        "writes one. Of two records or more: their session; the page is written "
+        "writes one. The tables are read from results.json: run again what an older version "
+        "wrote. Of two records or more: their session; the page is written "
         "beside the first.");
     command.add_exit_codes(exit_codes_without_run);
     command

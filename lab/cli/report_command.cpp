@@ -143,8 +143,8 @@ base::Result<results::Results> results_in(const fs::path& root)
     if (!files) return tl::unexpected{files.error()};
     auto results = read_results(*files);
     if (!results) return results;
-    for (std::string& file : results->files)
-        file = fs::path{file}.lexically_relative(root).generic_string();
+    for (results::TableFile& file : results->files)
+        file.path = fs::path{file.path}.lexically_relative(root).generic_string();
     for (const fs::path& place : places) {
         const auto records = records_in(place);
         if (records.size() < 2) continue;

@@ -111,12 +111,20 @@ private:
 /// The sessions of both tables that a row is of.
 using CommonSessions = std::vector<std::pair<TableRow, TableRow>>;
 
+/// Sessions that are compared together.
+struct SessionGroup {
+    std::string algorithm;
+    std::string task;
+    std::string conditions;
+    CommonSessions pairs{};
+};
+
 /// Nothing where neither table has numbers.
-void add_rows(const ComparedRow& named, const CommonSessions& pairs, std::vector<ComparedRow>& rows)
+void add_rows(const SessionGroup& group, Table& table)
 {
     for (const std::string_view measure : measures) {
         std::vector<double> of_a, of_b;
-        for (const auto& [a, b] : pairs) {
+        for (const auto& [a, b] : group.pairs) {
             const auto x = a.number(measure), y = b.number(measure);
             if (!x || !y) continue;
             of_a.push_back(*x);
@@ -124,22 +132,15 @@ void add_rows(const ComparedRow& named, const CommonSessions& pairs, std::vector
         }
         if (of_a.empty()) continue;
         const auto test = metrics::paired_test(of_b, of_a);
-        ComparedRow& row = rows.emplace_back(named);
-        row.measure = measure;
-        row.sessions = test.seeds;
-        row.median_a = metrics::median_of(of_a);
-        row.median_b = metrics::median_of(of_b);
-        row.difference = test.median;
-        row.ci_low = test.interval.low;
-        row.ci_high = test.interval.high;
-        row.sign_test_p = test.p;
+        table.add(group.algorithm, group.task, group.conditions, measure, test.seeds,
+                  metrics::median_of(of_a), metrics::median_of(of_b), test.median,
+                  test.interval.low, test.interval.high, test.p);
     }
 }
 
 } // namespace
 
-base::Result<std::vector<ComparedRow>> compare_sessions(const SessionsTable& a,
-                                                        const SessionsTable& b)
+base::Result<Table> compare_sessions(const SessionsTable& a, const SessionsTable& b)
 {
     const auto of_a = sessions_in(a);
     if (!of_a) return tl::unexpected{of_a.error()};
@@ -153,35 +154,29 @@ base::Result<std::vector<ComparedRow>> compare_sessions(const SessionsTable& a,
     const auto algorithm = place_of(of_a->conditions, "algorithm");
     const auto task = place_of(of_a->conditions, "task");
     const ConditionNames names{*of_a};
-    std::vector<std::pair<ComparedRow, CommonSessions>> groups; // as they come
-    const auto group_of = [&](const ComparedRow& named) -> CommonSessions& {
-        for (auto& [row, pairs] : groups) {
-            if (row.algorithm == named.algorithm && row.task == named.task &&
-                row.conditions == named.conditions) {
-                return pairs;
-            }
-        }
-        return groups.emplace_back(named, CommonSessions{}).second;
+    std::vector<SessionGroup> groups; // as they come
+    const auto group_of = [&](const std::vector<std::string>& key, const std::string& conditions) {
+        const auto found = std::ranges::find_if(groups, [&](const SessionGroup& group) {
+            return group.algorithm == key[algorithm] && group.task == key[task] &&
+                   group.conditions == conditions;
+        });
+        if (found != groups.end()) return &found->pairs;
+        return &groups.emplace_back(SessionGroup{key[algorithm], key[task], conditions}).pairs;
     };
     for (const auto& key : of_a->order) {
         const auto other = of_b->rows.find(key);
         if (other == of_b->rows.end()) continue;
         const std::pair pair{of_a->rows.at(key), other->second};
-        ComparedRow named;
-        named.algorithm = key[algorithm];
-        named.task = key[task];
-        if (!names.is_one()) {
-            named.conditions = all_conditions;
-            group_of(named).push_back(pair);
-            named.conditions = names.name(key);
-        }
-        group_of(named).push_back(pair);
+        if (!names.is_one()) group_of(key, all_conditions)->push_back(pair);
+        group_of(key, names.name(key))->push_back(pair);
     }
     if (groups.empty())
         return base::fail(fmt::format("{} and {} have no session in common", a.path, b.path));
-    std::vector<ComparedRow> rows;
-    for (const auto& [named, pairs] : groups) add_rows(named, pairs, rows);
-    return rows;
+    Table table{"compared",
+                columns_in("algorithm,task,conditions,measure,sessions,median_a:4,median_b:4,"
+                           "difference:4,ci_low:4,ci_high:4,sign_test_p")};
+    for (const SessionGroup& group : groups) add_rows(group, table);
+    return table;
 }
 
 } // namespace hapnet::lab::results

@@ -4,17 +4,21 @@
 
 #include "lab/experiment/grid.hpp"
 #include "lab/metrics/calibration.hpp"
-#include "lab/results/claim_rows.hpp"
-#include "lab/results/limit_rows.hpp"
+#include "lab/results/claim_tables.hpp"
+#include "lab/results/limit_tables.hpp"
 #include "lab/results/paper.hpp"
 #include "lab/results/party_columns.hpp"
+#include "lab/results/replay.hpp"
 #include "lab/results/session_rows.hpp"
 #include "lab/results/shipped.hpp"
 #include "lab/results/summary.hpp"
 #include "proto/base/math.hpp"
 
 #include <algorithm>
+#include <array>
 #include <spdlog/fmt/fmt.h>
+#include <string_view>
+#include <utility>
 
 namespace hapnet::lab::results {
 
@@ -69,25 +73,24 @@ std::optional<double> in_thousandths(std::optional<double> value)
 }
 
 /// `is_papers`: it was played as the paper's table is.
-Table1Row table1_row(const Group& group, const Summary& summary,
-                     const std::optional<metrics::Spread>& base_mm, bool is_papers)
+void add_table1_row(const Group& group, const Summary& summary,
+                    const std::optional<metrics::Spread>& base_mm, bool is_papers, Table& table)
 {
     const metrics::Spread mm = in_mm(summary.typical_m.value_or(metrics::Spread{}));
-    Table1Row row{.algorithm = std::string{group.algorithm},
-                  .mean_mm = mm.mean,
-                  .min_mm = mm.min,
-                  .max_mm = mm.max,
-                  .std_mm = mm.std};
-    const auto paper = paper_table1(group.algorithm);
-    if (!paper || !is_papers) return row;
-    row.paper_mean_mm = paper->mean_mm;
-    row.paper_max_mm = paper->max_mm;
-    row.paper_std_mm = paper->std_mm;
-    row.verdict = summary.typical_m ? table1_verdict(group.algorithm, mm, base_mm) : Claim::missed;
-    const Table1Provenance provenance = table1_provenance(group.algorithm);
-    row.provenance = provenance.typical;
-    row.max_provenance = provenance.max;
-    return row;
+    const auto paper = is_papers ? paper_table1(group.algorithm) : std::nullopt;
+    const auto papers = [&](double PaperRow::*value) {
+        return paper ? std::optional{(*paper).*value} : std::nullopt;
+    };
+    const Table1Provenance provenance =
+        paper ? table1_provenance(group.algorithm) : Table1Provenance{};
+    Claim verdict{};
+    if (paper)
+        verdict = summary.typical_m ? table1_verdict(group.algorithm, mm, base_mm) : Claim::missed;
+    const Table1Bands bands = table1_bands(group.algorithm, base_mm).value_or(Table1Bands{});
+    table.add(group.algorithm, mm.mean, mm.min, mm.max, mm.std, papers(&PaperRow::mean_mm),
+              papers(&PaperRow::max_mm), papers(&PaperRow::std_mm), verdict, provenance.typical,
+              provenance.max, bands.mean_mm.low, bands.mean_mm.high, bands.std_mm.low,
+              bands.std_mm.high, bands.max_mm.low, bands.max_mm.high);
 }
 
 /// As in the paper's table: the built-in algorithm of that name, under the built-in conditions.
@@ -100,38 +103,23 @@ bool is_papers_row(const experiment::Experiment& experiment, const metrics::Crit
            plays_as_shipped(experiment, criteria, "table1");
 }
 
-TaskRow task_row(const Group& group, const Summary& summary, const metrics::Criteria& criteria)
+/// The worst of the seeds, mean and std as their mean.
+void add_task_row(const Group& group, const Summary& summary, const metrics::Criteria& criteria,
+                  const PartyCells& party, Table& table)
 {
     const Judged judged = make_judged(summary, criteria);
-    TaskRow row{.algorithm = std::string{group.algorithm},
-                .task = std::string{name_of(group.task)},
-                .seeds = static_cast<std::uint32_t>(group.scores.size()),
-                .mean_mm = judged.mean_mm,
-                .max_mm = in_thousandths(summary.discrepancy_max_m),
-                .vibration_mm = judged.vibration_mm,
-                .stiffness_ratio = judged.stiffness_ratio,
-                .force_vibration_n = judged.force_vibration_n,
-                .force_discrepancy = summary.worst.force_discrepancy,
-                .contact_lost = summary.worst.contact_lost,
-                .force_step_n = summary.force_step_n,
-                .drag_n = summary.worst.drag_n,
-                .energy_mj = in_thousandths(summary.worst.energy_taken_j),
-                .tier = judged.tier,
-                .limited_by = summary.limited_by};
+    std::optional<double> std_mm, turned_deg, swings_n;
+    if (summary.typical_m) std_mm = 1e3 * summary.typical_m->std;
+    if (const auto& turned = summary.turned_apart_max_rad)
+        turned_deg = *turned * (360.0 / base::two_pi);
     if (const auto& swings = summary.worst.force_above_2hz_added_n)
-        row.force_above_2hz_n = at_order(*swings, criteria.filter_order);
-    if (summary.typical_m) row.std_mm = 1e3 * summary.typical_m->std;
-    if (summary.turned_apart_max_rad)
-        row.turned_apart_deg = *summary.turned_apart_max_rad * (360.0 / base::two_pi);
-    return row;
-}
-
-/// The rows that a session kept: CSV without a header.
-std::vector<ReplayRow> parse_rows(std::string_view rows)
-{
-    auto parsed = base::read_csv<ReplayRow>(
-        fmt::format("{}\n{}", base::csv_header<ReplayRow>(), rows), "rows of a session");
-    return parsed ? *std::move(parsed) : std::vector<ReplayRow>{};
+        swings_n = at_order(*swings, criteria.filter_order);
+    table.add(group.algorithm, name_of(group.task), group.scores.size(), judged.mean_mm, std_mm,
+              in_thousandths(summary.discrepancy_max_m), judged.vibration_mm,
+              judged.stiffness_ratio, judged.force_vibration_n, summary.worst.force_discrepancy,
+              summary.worst.contact_lost, summary.force_step_n, summary.worst.drag_n,
+              in_thousandths(summary.worst.energy_taken_j), judged.tier, summary.limited_by,
+              turned_deg, party.scene, swings_n);
 }
 
 /// Which command wrote the criteria.
@@ -153,55 +141,74 @@ struct ResultsOf {
     {
         const auto groups = groups_of(experiment, results);
         const auto base_mm = base_in_mm(groups, criteria);
-        std::vector<Table1Row> table;
-        std::vector<TaskRow> tasks;
+        Table table1{"table1",
+                     columns_in("algorithm,mean_mm:3,min_mm:3,max_mm:3,std_mm:3,paper_mean_mm:3,"
+                                "paper_max_mm:3,paper_std_mm:3,verdict,class,max_class,"
+                                "mean_low_mm+,mean_high_mm+,std_low_mm+,std_high_mm+,max_low_mm+,"
+                                "max_high_mm+")};
+        Table tasks{"tasks",
+                    columns_in("algorithm,task,seeds,mean_mm:3,std_mm:3,max_mm:3,vibration_mm:3,"
+                               "stiffness_ratio:4,force_vibration_n:4,force_discrepancy:4,"
+                               "contact_lost:4,force_step_n:4,drag_n:4,energy_mj:3,tier,"
+                               "limited_by,turned_apart_deg:3?,scene?,force_above_2hz_n:4?")};
         Found found;
         for (const Group& group : groups) {
             const Summary summary = summarize(group.scores, criteria);
             if (group.task == device::Task::p1) {
-                table.push_back(table1_row(group, summary, base_mm,
-                                           is_papers_row(experiment, criteria, group.algorithm)));
+                add_table1_row(group, summary, base_mm,
+                               is_papers_row(experiment, criteria, group.algorithm), table1);
             } else {
-                tasks.push_back(task_row(group, summary, criteria));
-                if (group.party.scene)
-                    tasks.back().scene = experiment.scenes[*group.party.scene].name;
+                add_task_row(group, summary, criteria, party_cells(experiment, group.party), tasks);
             }
-            found.tables.push_back(
-                table_of(fmt::format("replay/{}-{}", group.algorithm, name_of(group.task)),
-                         parse_rows(group.rows)));
+            found.tables.push_back(from_kept_lines(
+                fmt::format("replay/{}-{}", group.algorithm, name_of(group.task)), group.rows));
         }
-        found.tables.push_back(table_of("table1", table));
-        found.tables.push_back(table_of("tasks", tasks));
         const auto sessions = make_session_rows(experiment, criteria, results);
+        found.tables.push_back(std::move(table1));
+        found.tables.push_back(std::move(tasks));
         found.tables.push_back(table_of("sessions", sessions));
-        found.tables.push_back(table_of("paired", make_paired_rows(sessions)));
+        found.tables.push_back(paired_table(sessions));
         return found;
     }
 
     base::Result<Found> operator()(const experiment::Limits& limits) const
     {
         Found found;
-        found.tables = {table_of("limits", make_limit_rows(experiment, criteria, results)),
-                        table_of("paired", make_paired_limit_rows(experiment, results)),
-                        table_of("curves", make_curve_rows(experiment, criteria, results)),
-                        sessions()};
+        found.tables = {limits_table(experiment, criteria, results),
+                        paired_limits_table(experiment, results),
+                        curves_table(experiment, criteria, results), sessions()};
         if (limits.sensitivity && limits.sensitivity->seeds > 0) {
-            found.tables.push_back(
-                table_of("limits_by_convention",
-                         make_sensitivity_rows(experiment, *limits.sensitivity, results)));
+            found.tables.push_back(sensitivity_table(experiment, *limits.sensitivity, results));
         }
         return found;
     }
 
     base::Result<Found> operator()(const experiment::Trajectories&) const
     {
-        std::vector<TrajectoryRow> rows;
+        // What lies along x.
+        constexpr std::array<std::pair<std::string_view, std::string_view>, 7> columns{
+            {{"time_s", "time_s"},
+             {"cube_l_mm", "lx"},
+             {"cube_r_mm", "rx"},
+             {"hand_l_mm", "lhx"},
+             {"hand_r_mm", "rhx"},
+             {"force_l_n", "lfx"},
+             {"force_r_n", "rfx"}}};
+        Table table{"trajectories", {{"algorithm"}}};
         for (const Group& group : groups_of(experiment, results)) {
-            for (const ReplayRow& row : parse_rows(group.rows)) {
-                rows.push_back(to_trajectory(std::string{group.algorithm}, row));
+            const Table replay = from_kept_lines("", group.rows);
+            Table part{"", {{"algorithm"}}};
+            for (const auto& [key, of_replay] : columns)
+                part.columns.push_back(
+                    {std::string{key}, replay.columns[*replay.place_of(of_replay)].decimals});
+            for (const TableRow& row : rows_of(replay)) {
+                auto& cells = part.rows.emplace_back();
+                cells.push_back(to_cell(group.algorithm));
+                for (const auto& [key, of_replay] : columns) cells.push_back(row[of_replay]);
             }
+            append(table, part);
         }
-        return Found{{table_of("trajectories", rows), sessions()}, {}};
+        return Found{{std::move(table), sessions()}, {}};
     }
 
     base::Result<Found> operator()(const experiment::ImpairmentGrid& grid) const
@@ -209,29 +216,27 @@ struct ResultsOf {
         const auto groups = groups_of(experiment, results);
         const auto points = grid_points(grid);
         const std::size_t groups_per_point = groups.size() / points.size();
-        std::vector<QosRow> rows;
+        Table table{"qos",
+                    columns_in(fmt::format("algorithm,task,delay_ms,jitter_ms,loss_percent,{},{}",
+                                           judged_columns, party_columns))};
         for (std::size_t i = 0; i < groups.size(); ++i) {
             const experiment::GridPoint& point = points[i / groups_per_point];
-            QosRow& row = rows.emplace_back(
-                QosRow{.algorithm = std::string{groups[i].algorithm},
-                       .task = std::string{name_of(groups[i].task)},
-                       .delay_ms = in_units(point.delay),
-                       .jitter_ms = in_units(point.jitter),
-                       .loss_percent = in_units(point.loss),
-                       .judged = make_judged(summarize(groups[i].scores, criteria), criteria)});
-            note_party(experiment, groups[i].party, row);
+            const Judged judged = make_judged(summarize(groups[i].scores, criteria), criteria);
+            const auto party = party_cells(experiment, groups[i].party);
+            table.add(groups[i].algorithm, name_of(groups[i].task), in_units(point.delay),
+                      in_units(point.jitter), in_units(point.loss), judged.mean_mm,
+                      judged.vibration_mm, judged.stiffness_ratio, judged.force_vibration_n,
+                      judged.tier, judged.turned_apart_deg, party.peers, party.scene);
         }
-        return Found{{table_of("qos", rows), sessions()}, {}};
+        return Found{{std::move(table), sessions()}, {}};
     }
 
     base::Result<Found> operator()(const experiment::Claims&) const
     {
         const auto sessions = claim_sessions_of(experiment, results);
-        const ClaimTables tables = make_claim_tables(experiment, criteria, sessions);
-        return Found{{table_of("claims", tables.claims),
-                      table_of("claims_quantiles", tables.quantiles),
-                      table_of("sessions", make_claim_session_rows(criteria, sessions))},
-                     {}};
+        auto tables = claim_tables(experiment, criteria, sessions);
+        tables.push_back(claim_sessions_table(criteria, sessions));
+        return Found{std::move(tables), {}};
     }
 
     base::Result<Found> operator()(const experiment::Calibration&) const

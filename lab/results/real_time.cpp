@@ -209,14 +209,10 @@ RealTimeResult result_of(const RealTimeSession& session, const virtual_time::Tra
 
 Table real_time_rows(std::span<const RealTimeResult> results)
 {
-    constexpr int decimals = 4;
-    Table table{"real_time", {{"algorithm"}, {"where"}}};
-    for (const char* key :
-         {"mean_mm", "std_mm", "max_mm", "virtual_mean_mm", "virtual_std_mm", "virtual_max_mm"})
-        table.columns.push_back({key, decimals});
-    table.columns.push_back({"difference_percent", 2});
-    table.columns.push_back({"valid"});
-    table.columns.push_back({"invalid_because"});
+    Table table{"real_time",
+                columns_in("algorithm,where,mean_mm:4,std_mm:4,max_mm:4,virtual_mean_mm:4,"
+                           "virtual_std_mm:4,virtual_max_mm:4,difference_percent:2,valid,"
+                           "invalid_because")};
     const auto part = [](const std::optional<metrics::Spread>& spread,
                          double metrics::Spread::*value) {
         return spread ? std::optional{(*spread).*value} : std::nullopt;

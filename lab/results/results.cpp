@@ -12,9 +12,7 @@
 #include <array>
 #include <chrono>
 #include <iterator>
-#include <map>
 #include <spdlog/fmt/fmt.h>
-#include <type_traits>
 #include <utility>
 
 namespace hapnet::lab::results {
@@ -53,198 +51,130 @@ Outcome add_run(const File& file, Results& results)
     return {};
 }
 
-/// A leaf of a cell; nullopt: it is empty.
-std::optional<base::Leaf> leaf_of(const Cell& cell)
-{
-    return std::visit(
-        [](const auto& value) -> std::optional<base::Leaf> {
-            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
-                return std::nullopt;
-            } else {
-                return base::Leaf{value};
-            }
-        },
-        cell);
-}
-
-/// False: the field is of another type, or has to have a value.
-bool set_field(const base::FieldRow& field, const Cell& cell, void* owner)
-{
-    const auto leaf = leaf_of(cell);
-    void* value = field.in(owner);
-    if (field.kind->shape != base::ValueKind::Shape::maybe)
-        return field.kind->set(value, leaf.value_or(base::Leaf{std::string{}}));
-    if (!leaf) return true;
-    return field.kind->element->set(field.kind->add(value), *leaf);
-}
-
-/// The rows of a table as structs whose fields are described.
-template <typename Value>
-Outcome append(std::vector<Value>& all, const Table& table)
-{
-    for (const TableRow& row : rows_of(table)) {
-        Value& value = all.emplace_back();
-        for (const base::FieldRow& field : base::field_table<Value>().rows) {
-            if (field.is_spare && !table.place_of(field.key)) continue;
-            if (set_field(field, row[field.key], &value)) continue;
-            return base::fail(
-                fmt::format("{}: {}: found '{}'", table.name, field.key, row.text(field.key)));
-        }
-        if constexpr (requires {
-                          value.peers;
-                          value.scene->size();
-                      })
-            value.algorithm = algorithm_and_party(value); // a page compares parties as algorithms
-    }
-    return {};
-}
-
-template <auto rows>
-Outcome add_rows(const Table& table, Results& results)
-{
-    return append(results.*rows, table);
-}
-
-/// Those of Table 1, which plays P1 and all else on one network, and those of claims, which have
-/// columns of their own; others are not shown one by one.
-Outcome add_sessions(const Table& table, Results& results)
-{
-    if (table.place_of("condition")) return append(results.claim_sessions, table);
-    std::vector<SessionRow> rows;
-    if (auto fine = append(rows, table); !fine) return fine;
-    const auto is_other = [&](const SessionRow& row) {
-        return row.network != rows.front().network;
-    };
-    const bool has_p1 = std::ranges::find(rows, "P1", &SessionRow::task) != rows.end();
-    if (has_p1 && !std::ranges::any_of(rows, is_other))
-        std::ranges::move(rows, std::back_inserter(results.rows_of_sessions));
-    return {};
-}
-
-Outcome add_points(const Table& table, Results& results)
-{
-    const auto before = results.qos_by_point.size();
-    auto fine = append(results.qos_by_point, table);
-    for (std::size_t i = before; i < results.qos_by_point.size(); ++i) {
-        QosRow& cell = results.qos_by_point[i].cell;
-        cell.algorithm = algorithm_and_party(cell);
-    }
-    return fine;
-}
-
-Outcome add_replay(const Table& table, Results& results)
-{
-    std::vector<ReplayRow> rows;
-    if (auto fine = append(rows, table); !fine) return fine;
-    auto replay = replay_of(table.name, rows);
-    if (!replay) return tl::unexpected{replay.error()};
-    results.replays.push_back(*std::move(replay));
-    return {};
-}
-
-Outcome add_trajectories(const Table& table, Results& results)
-{
-    if (auto fine = append(results.trajectories, table); !fine) return fine;
-    return require_increasing(results.trajectories);
-}
-
-struct TableKind {
+/// What is done with a table of some name.
+struct TableRule {
     std::string_view name;
-    Outcome (*add)(const Table&, Results&);
+    std::vector<std::string_view> keys{}; // what no two rows may have alike; none: anything
+    bool is_ranked = false;               // base first
+    bool has_parties = false;             // a page compares parties as it compares algorithms
 };
 
-constexpr std::array kinds{TableKind{"sessions", add_sessions},
-                           TableKind{"paired", add_rows<&Results::paired>},
-                           TableKind{"precision", add_rows<&Results::precision>},
-                           TableKind{"limits_by_axis", add_rows<&Results::limits_by_axis>},
-                           TableKind{"table1", add_rows<&Results::table1>},
-                           TableKind{"tasks", add_rows<&Results::tasks>},
-                           TableKind{"limits", add_rows<&Results::limits>},
-                           TableKind{"limits_by_convention", add_rows<&Results::sensitivity>},
-                           TableKind{"curves", add_rows<&Results::curves>},
-                           TableKind{"trajectories", add_trajectories},
-                           TableKind{"qos", add_rows<&Results::qos>},
-                           TableKind{"qos_by_point", add_points},
-                           TableKind{"claims", add_rows<&Results::claims>},
-                           TableKind{"claims_quantiles", add_rows<&Results::claims_quantiles>},
-                           TableKind{"real_time", add_rows<&Results::real_time>}};
+const std::vector<TableRule>& table_rules()
+{
+    static const std::vector<TableRule> rules{
+        {"table1", {"algorithm"}, true},
+        {"tasks", {"algorithm", "task"}, true},
+        {"limits", {"algorithm", "impairment", "task"}, true, true},
+        {"limits_by_convention", {}, true, true},
+        {"curves", {}, true, true},
+        {"trajectories", {}, true},
+        {"qos", {"algorithm", "task", "delay_ms", "jitter_ms", "loss_percent"}, true, true},
+        {"qos_by_point", {}, false, true},
+        {"real_time", {}, true}};
+    return rules;
+}
+
+/// Of Table 1, which plays P1 and all else on one network; others are not shown one by one.
+bool are_of_table1(const Table& sessions)
+{
+    const Rows rows = rows_of(sessions);
+    const auto is_p1 = [](const TableRow& row) { return row.text("task") == "P1"; };
+    return std::ranges::any_of(rows, is_p1) && std::ranges::all_of(rows, [&](const TableRow& row) {
+               return row.text("network") == rows.front().text("network");
+           });
+}
+
+/// Gives sessions of claims a name of their own. False: the table is not shown.
+bool is_shown(Table& table)
+{
+    if (table.name != "sessions") return true;
+    const bool is_of_claims = table.place_of("condition").has_value();
+    if (is_of_claims) table.name = "claim_sessions";
+    return is_of_claims || are_of_table1(table);
+}
+
+Outcome add_table(Table table, Results& results)
+{
+    if (table.name.starts_with("replay/")) {
+        auto replay = replay_of(table);
+        if (!replay) return tl::unexpected{replay.error()};
+        results.replays.push_back(*std::move(replay));
+        return {};
+    }
+    const auto known = std::ranges::find(results.tables, table.name, &Table::name);
+    if (known == results.tables.end()) {
+        results.tables.push_back(std::move(table));
+    } else {
+        append(*known, table);
+    }
+    return {};
+}
 
 Outcome add_tables(const File& file, Results& results)
 {
-    const auto tables = read_tables(file.text, file.path);
+    auto tables = read_tables(file.text, file.path);
     if (!tables) return tl::unexpected{tables.error()};
-    for (const Table& table : *tables) {
-        const auto kind = std::ranges::find(kinds, table.name, &TableKind::name);
-        Outcome fine;
-        if (table.name.starts_with("replay/")) {
-            fine = add_replay(table, results);
-        } else if (kind != kinds.end()) {
-            fine = kind->add(table, results);
-        }
-        if (!fine) return base::fail(fmt::format("{}: {}", file.path, fine.error().message));
-        const auto folder = folder_of(file.path);
-        results.files.push_back(
-            fmt::format("{}{}{}.csv", folder, folder.empty() ? "" : "/", table.name));
+    const auto folder = folder_of(file.path);
+    for (Table& table : *tables) {
+        const auto path = fmt::format("{}{}{}.csv", folder, folder.empty() ? "" : "/", table.name);
+        if (!is_shown(table)) continue;
+        results.files.push_back({table.name, path});
+        const auto added = add_table(std::move(table), results);
+        if (!added) return base::fail(fmt::format("{}: {}", file.path, added.error().message));
     }
     return {};
 }
 
 /// Says which rows give one thing twice.
-template <typename Value, typename Name>
-Outcome require_once(const std::vector<Value>& rows, std::string_view file, const Name& name)
+Outcome require_once(std::string_view file, std::vector<std::string> names)
 {
-    std::map<std::string, int> counts;
-    for (const Value& row : rows) {
-        const std::string one = name(row);
-        if (++counts[one] == 1) continue;
-        return base::fail(fmt::format("{} has '{}' twice, perhaps in two folders: report one at a "
-                                      "time",
-                                      file, one));
-    }
-    return {};
-}
-
-Outcome require_each_once(const Results& results)
-{
-    return require_once(results.table1, "table1.csv",
-                        [](const Table1Row& row) { return row.algorithm; })
-        .and_then([&] {
-            return require_once(results.tasks, "tasks.csv", [](const TaskRow& row) {
-                return row.algorithm + " in " + row.task;
-            });
-        })
-        .and_then([&] {
-            return require_once(results.limits, "limits.csv", [](const LimitRow& row) {
-                return row.algorithm + ", " + row.impairment + ", " + row.task;
-            });
-        })
-        .and_then([&] {
-            return require_once(results.qos, "qos.csv", [](const QosRow& row) {
-                return fmt::format("{}, {}, {} ms, {} ms, {} %", row.algorithm, row.task,
-                                   row.delay_ms, row.jitter_ms, row.loss_percent);
-            });
-        })
-        .and_then([&] {
-            return require_once(results.replays, "replay/", [](const Replay& replay) {
-                return replay.algorithm + "-" + replay.task;
-            });
-        });
+    std::ranges::sort(names);
+    const auto twice = std::ranges::adjacent_find(names);
+    if (twice == names.end()) return {};
+    return base::fail(fmt::format("{} has '{}' twice, perhaps in two folders: report one at a time",
+                                  file, *twice));
 }
 
 /// Base first, then the others as the paper names them, then what it does not know.
 std::size_t rank(std::string_view algorithm)
 {
     constexpr std::array<std::string_view, 3> known{"base", "sep", "dead-reckoning"};
-    return static_cast<std::size_t>(std::find(known.begin(), known.end(), algorithm) -
-                                    known.begin());
+    return static_cast<std::size_t>(std::ranges::find(known, algorithm) - known.begin());
 }
 
-template <typename Value>
-void put_in_order(std::vector<Value>& rows)
+Outcome put_in_order(Table& table, const TableRule& rule)
 {
-    std::stable_sort(rows.begin(), rows.end(), [](const Value& a, const Value& b) {
-        return rank(a.algorithm) < rank(b.algorithm);
-    });
+    const auto algorithm = table.place_of("algorithm");
+    if (!algorithm) return base::fail(table.name + " has no column 'algorithm'");
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        if (rule.has_parties) table.rows[i][*algorithm] = algorithm_and_party(TableRow{table, i});
+        std::string name;
+        for (const std::string_view key : rule.keys)
+            name += (name.empty() ? "" : ", ") + TableRow{table, i}.text(key);
+        names.push_back(std::move(name));
+    }
+    if (rule.is_ranked) {
+        std::ranges::stable_sort(table.rows, {}, [&](const std::vector<Cell>& row) {
+            return rank(to_text(row[*algorithm]));
+        });
+    }
+    return rule.keys.empty() ? Outcome{} : require_once(table.name + ".csv", std::move(names));
+}
+
+Outcome put_in_order(Results& results)
+{
+    for (const TableRule& rule : table_rules()) {
+        const auto table = std::ranges::find(results.tables, rule.name, &Table::name);
+        if (table == results.tables.end()) continue;
+        if (auto fine = put_in_order(*table, rule); !fine) return fine;
+    }
+    std::vector<std::string> names;
+    for (const Replay& replay : results.replays)
+        names.push_back(replay.algorithm + "-" + replay.task);
+    std::ranges::stable_sort(results.replays, {},
+                             [](const Replay& replay) { return rank(replay.algorithm); });
+    return require_once("replay/", std::move(names));
 }
 
 constexpr std::uint32_t replay_rows_per_s = 100;
@@ -305,6 +235,21 @@ bool Run::is_valid() const
     return found != manifest.end() && found->is_boolean() && found->get<bool>();
 }
 
+const Table& Results::table(std::string_view name) const
+{
+    static const Table none;
+    const auto found = std::ranges::find(tables, name, &Table::name);
+    return found == tables.end() ? none : *found;
+}
+
+std::vector<std::string> Results::files_of(std::string_view name) const
+{
+    std::vector<std::string> found;
+    for (const TableFile& file : files)
+        if (file.table == name) found.push_back(file.path);
+    return found;
+}
+
 std::optional<metrics::Criteria> Results::criteria() const
 {
     if (runs.empty()) return std::nullopt;
@@ -360,17 +305,8 @@ base::Result<Results> read_results(std::span<const File> files)
         const auto added = is_manifest ? add_run(*file, results) : add_tables(*file, results);
         if (!added) return tl::unexpected{added.error()};
     }
-    const auto once = require_each_once(results);
-    if (!once) return tl::unexpected{once.error()};
-    put_in_order(results.table1);
-    put_in_order(results.tasks);
-    put_in_order(results.limits);
-    put_in_order(results.sensitivity);
-    put_in_order(results.curves);
-    put_in_order(results.trajectories);
-    put_in_order(results.qos);
-    put_in_order(results.real_time);
-    put_in_order(results.replays);
+    const auto ordered_well = put_in_order(results);
+    if (!ordered_well) return tl::unexpected{ordered_well.error()};
     return results;
 }
 

@@ -37,10 +37,6 @@ std::string number(std::optional<double> value, int decimals)
     return value ? fmt::format("{:.{}f}", *value, decimals) : std::string{};
 }
 
-constexpr std::array condition_columns{
-    "point",    "algorithm", "task",         "hands",        "peers",   "scene", "duration_s",
-    "delay_ms", "jitter_ms", "loss_percent", "burst_of_100", "network", "seed"};
-
 std::vector<Cell> condition_cells(const SweepRow& row)
 {
     const SessionRow& one = row.real;
@@ -71,7 +67,6 @@ constexpr std::array sweep_measures{
     SweepMeasure{"vibration_mm", &SessionRow::vibration_mm},
     SweepMeasure{"stiffness_ratio", &SessionRow::stiffness_ratio},
     SweepMeasure{"force_vibration_n", &SessionRow::force_vibration_n}};
-constexpr int measure_decimals = 4;
 
 void add_measures(const SessionRow& row, std::vector<Cell>& cells)
 {
@@ -182,19 +177,15 @@ SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,
 
 Table sweep_table(std::span<const SweepRow> rows)
 {
-    Table table{"real_time_sessions", {}};
-    for (const char* key : condition_columns) table.columns.push_back({key});
-    table.columns.push_back({"attempt"});
-    for (const std::string prefix : {"", "virtual_"}) {
-        for (const SweepMeasure& measure : sweep_measures)
-            table.columns.push_back({prefix + std::string{measure.name}, measure_decimals});
-        table.columns.push_back({prefix + "tier"});
-    }
-    for (const Column& column :
-         {Column{"difference_percent", 2}, Column{"vibration_difference_percent", 2},
-          Column{"missed_ticks"}, Column{"longest_gap_ms", 1}, Column{"valid"},
-          Column{"invalid_because"}})
-        table.columns.push_back(column);
+    Table table{
+        "real_time_sessions",
+        columns_in("point,algorithm,task,hands,peers,scene,duration_s,delay_ms,jitter_ms,"
+                   "loss_percent,burst_of_100,network,seed,attempt,mean_mm:4,std_mm:4,max_mm:4,"
+                   "vibration_mm:4,stiffness_ratio:4,force_vibration_n:4,tier,virtual_mean_mm:4,"
+                   "virtual_std_mm:4,virtual_max_mm:4,virtual_vibration_mm:4,"
+                   "virtual_stiffness_ratio:4,virtual_force_vibration_n:4,virtual_tier,"
+                   "difference_percent:2,vibration_difference_percent:2,missed_ticks,"
+                   "longest_gap_ms:1,valid,invalid_because")};
     for (const SweepRow& row : rows) {
         auto& cells = table.rows.emplace_back(condition_cells(row));
         cells.push_back(to_cell(row.attempt));

@@ -4,7 +4,6 @@
 
 #include "lab/experiment/jobs.hpp"
 #include "lab/metrics/criteria.hpp"
-#include "lab/results/rows.hpp"
 #include "lab/results/session_rows.hpp"
 #include "lab/results/table.hpp"
 #include "proto/base/result.hpp"
@@ -82,14 +81,15 @@ constexpr auto fields_of(base::Tag<ConditionRow>)
 {
     using Row = ConditionRow;
     constexpr base::Decimals two{2};
+    constexpr base::Decimals four{4};
     return base::fields(
         "conditions", base::field("point", &Row::point), base::field("algorithm", &Row::algorithm),
         base::field("task", &Row::task), base::field("hands", &Row::hands),
         base::field("peers", &Row::peers), base::field("scene", &Row::scene),
         base::field("duration_s", &Row::duration_s), base::field("network", &Row::network),
         base::field("measure", &Row::measure), base::field("sessions", &Row::sessions),
-        base::field("left_out", &Row::left_out), base::field("real", &Row::real, ten_thousandths),
-        base::field("virtual", &Row::simulated, ten_thousandths),
+        base::field("left_out", &Row::left_out), base::field("real", &Row::real, four),
+        base::field("virtual", &Row::simulated, four),
         base::field("difference_percent", &Row::difference_percent, two),
         base::field("ci_low_percent", &Row::ci_low_percent, two),
         base::field("ci_high_percent", &Row::ci_high_percent, two));

@@ -49,6 +49,25 @@ Cell cell_of_field(const base::FieldRow& row, const void* owner)
 
 } // namespace
 
+std::vector<Column> columns_in(std::string_view line)
+{
+    std::vector<Column> columns;
+    while (!line.empty()) {
+        std::string_view word = line.substr(0, line.find(','));
+        line.remove_prefix(std::min(word.size() + 1, line.size()));
+        Column& column = columns.emplace_back();
+        if (word.ends_with('?')) column.stands = Stands::if_filled;
+        if (word.ends_with('+')) column.stands = Stands::in_json;
+        if (column.stands != Stands::always) word.remove_suffix(1);
+        if (const auto colon = word.find(':'); colon != std::string_view::npos) {
+            column.decimals = word.back() - '0';
+            word = word.substr(0, colon);
+        }
+        column.key = word;
+    }
+    return columns;
+}
+
 std::string_view unit_of(std::string_view key)
 {
     const auto* const end = end_of(key);
@@ -122,7 +141,7 @@ void append(Table& table, const Table& part)
     for (std::size_t i = 0; i < part.columns.size(); ++i) {
         const Column& column = part.columns[i];
         const auto known = table.place_of(column.key);
-        if (!known && column.is_spare && !is_filled(part, i)) continue;
+        if (!known && column.stands == Stands::if_filled && !is_filled(part, i)) continue;
         places.emplace_back(i, known.value_or(table.columns.size()));
         if (!known) table.columns.push_back(column);
     }
@@ -146,7 +165,8 @@ Table table_of(std::string name, const base::FieldTable& fields,
 {
     Table table{std::move(name), {}};
     for (const base::FieldRow& row : fields.rows)
-        table.columns.push_back({std::string{row.key}, row.decimals, row.is_spare});
+        table.columns.push_back({std::string{row.key}, row.decimals,
+                                 row.is_spare ? Stands::if_filled : Stands::always});
     for (const void* value : values) {
         auto& cells = table.rows.emplace_back();
         for (const base::FieldRow& row : fields.rows) cells.push_back(cell_of_field(row, value));

@@ -26,14 +26,19 @@ namespace hapnet::lab::results {
 /// A flag, a whole number, a number or a text; std::monostate: there is none.
 using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
 
-/// A column that stands in a file only where a row has something in it.
-inline constexpr bool spare = true;
+/// Where a column stands: in each file; only where a row has something in it; in JSON and not in
+/// CSV.
+enum class Stands : std::uint8_t { always, if_filled, in_json };
 
 struct Column {
     std::string key;               // with its unit: "mean_mm"
     std::optional<int> decimals{}; // of a number in CSV; nullopt: as many as it takes
-    bool is_spare = false;
+    Stands stands = Stands::always;
 };
+
+/// Columns in a line, as the CSV has them: "mean_mm:3" has three decimals; "scene?" stands only
+/// where a row fills it, "band+" in JSON alone.
+[[nodiscard]] std::vector<Column> columns_in(std::string_view line);
 
 /// The unit at the end of a key: "mm" of "mean_mm"; empty: it has none.
 [[nodiscard]] std::string_view unit_of(std::string_view key);
@@ -105,10 +110,10 @@ struct LeadingCell {
 };
 [[nodiscard]] Table with_leading(const std::vector<LeadingCell>& leading, Table table);
 
-/// Appends the rows of a part. Columns that the table has not yet are added, but for spare ones
-/// that no row fills; a row has nothing in those that it lacks.
+/// Appends the rows of a part. Columns that the table has not yet are added, but for those
+/// that stand only where a row fills them and none does; a row has nothing in those that it lacks.
 void append(Table& table, const Table& part);
-/// The table without the spare columns that no row fills.
+/// The table without the columns that stand only where a row fills them and none does.
 [[nodiscard]] Table filled(const Table& table);
 
 /// The rows of structs whose fields are described.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::lab::results {
 
@@ -39,11 +40,13 @@ std::string json_cell(const Cell& cell)
 
 /// What `text_of` gives for each cell of a row, with commas.
 template <typename TextOf>
-std::string with_commas(const Table& table, std::size_t row, const TextOf& text_of)
+std::string with_commas(const Table& table, std::size_t row, bool of_json, const TextOf& text_of)
 {
     std::string line;
+    bool is_first = true;
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
-        if (i > 0) line += ',';
+        if (!of_json && table.columns[i].stands == Stands::in_json) continue;
+        if (!std::exchange(is_first, false)) line += ',';
         line += text_of(table.columns[i], table.rows[row][i]);
     }
     return line;
@@ -92,19 +95,22 @@ std::optional<Table> table_in(const std::string& name, const Json& json)
 std::string csv_header(const std::vector<Column>& columns)
 {
     std::string line;
-    for (const Column& column : columns)
+    for (const Column& column : columns) {
+        if (column.stands == Stands::in_json) continue;
         line += (line.empty() ? "" : ",") + base::csv_quoted(column.key);
+    }
     return line;
 }
 
 std::string csv_line(const Table& table, std::size_t row)
 {
-    return with_commas(table, row, csv_cell);
+    return with_commas(table, row, false, csv_cell);
 }
 
 std::string json_line(const Table& table, std::size_t row)
 {
-    return with_commas(table, row, [](const Column&, const Cell& cell) { return json_cell(cell); });
+    return with_commas(table, row, true,
+                       [](const Column&, const Cell& cell) { return json_cell(cell); });
 }
 
 std::string json_head(const std::string& name, const std::vector<Column>& columns)
@@ -141,6 +147,7 @@ std::string aligned_text(const Table& table)
     std::vector<std::string> lines(whole.rows.size() + 1);
     for (std::size_t i = 0; i < whole.columns.size(); ++i) {
         const Column& column = whole.columns[i];
+        if (column.stands == Stands::in_json) continue;
         std::vector<std::string> cells{column.key};
         for (const auto& row : whole.rows) cells.push_back(csv_cell(column, row[i]));
         const auto width = std::ranges::max(cells, {}, &std::string::size).size() + gap;
@@ -153,6 +160,17 @@ std::string aligned_text(const Table& table)
         text += line + '\n';
     }
     return text;
+}
+
+Json json_objects(const Table& table)
+{
+    Json list = Json::array();
+    for (const auto& row : table.rows) {
+        Json& object = list.emplace_back(Json::object());
+        for (std::size_t i = 0; i < row.size(); ++i)
+            object[table.columns[i].key] = Json::parse(json_cell(row[i]));
+    }
+    return list;
 }
 
 base::Result<std::vector<Table>> read_tables(std::string_view text, const std::string& path)

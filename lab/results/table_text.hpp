@@ -4,6 +4,7 @@
 
 #include "lab/results/table.hpp"
 
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,7 +21,7 @@ inline constexpr const char* sessions_name = "sessions.json";
 /// What was played in real time beside the results of an experiment.
 inline constexpr const char* real_time_name = "real_time.json";
 
-// The parts of the texts, which come one after the other. All columns of a table stand in them.
+// The parts of the texts, which come one after the other.
 
 [[nodiscard]] std::string csv_header(const std::vector<Column>& columns);
 /// `1,2.500,"a, b"`, without a line's end.
@@ -33,12 +34,15 @@ inline constexpr std::string_view json_end = "}}\n";
 /// `"limits":{"columns":[...],"rows":[`, which `]}` ends.
 [[nodiscard]] std::string json_head(const std::string& name, const std::vector<Column>& columns);
 
-// The texts of files, without the spare columns that no row fills.
+// The texts of files, without the columns that stand only where a row fills them and none does.
 
 [[nodiscard]] std::string csv_text(const Table& table);
 [[nodiscard]] std::string json_text(std::span<const Table> tables);
 /// The cells of the CSV in columns of equal width, for people.
 [[nodiscard]] std::string aligned_text(const Table& table);
+
+/// The rows as objects by the keys of the columns.
+[[nodiscard]] nlohmann::ordered_json json_objects(const Table& table);
 
 /// The tables of a file of JSON. The error names the file, and what is wrong in it.
 [[nodiscard]] base::Result<std::vector<Table>> read_tables(std::string_view text,

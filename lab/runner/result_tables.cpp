@@ -102,9 +102,12 @@ void ResultTables::commit_csv(const Table& table) const
 {
     BlockFile file{folder_ / (table.name + ".csv")};
     file.add(results::csv_header(table.columns) + '\n');
-    for_each_line(table, table.csv, [&](std::string_view line, std::size_t missing) {
+    for_each_line(table, table.csv, [&](std::string_view line, Columns missing) {
         file.add(line);
-        file.add(std::string(missing, ',') + '\n');
+        const auto commas = std::ranges::count_if(missing, [](const results::Column& column) {
+            return column.stands != results::Stands::in_json;
+        });
+        file.add(std::string(static_cast<std::size_t>(commas), ',') + '\n');
     });
     file.commit();
 }
@@ -123,10 +126,10 @@ bool ResultTables::commit_json(const char* name, bool of_sessions) const
         file.add(std::exchange(between_tables, ","));
         file.add(results::json_head(table.name, table.columns));
         std::string_view between_rows = "\n[";
-        for_each_line(table, table.json, [&](std::string_view line, std::size_t missing) {
+        for_each_line(table, table.json, [&](std::string_view line, Columns missing) {
             file.add(std::exchange(between_rows, ",\n["));
             file.add(line);
-            for (; missing > 0; --missing) file.add(",null");
+            for (std::size_t i = 0; i < missing.size(); ++i) file.add(",null");
             file.add("]");
         });
         file.add("]}");
@@ -145,7 +148,7 @@ void ResultTables::for_each_line(const Table& table, const WaitingLines& lines,
     for (std::size_t row = 0; row < table.rows; ++row) {
         if (!line.read(lines.get())) refuse(table.name);
         if (width + 1 != table.widths.end() && row == (width + 1)->first) ++width;
-        take(line.text(), table.columns.size() - width->second);
+        take(line.text(), Columns{table.columns}.subspan(width->second));
     }
 }
 

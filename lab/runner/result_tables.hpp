@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,8 +45,9 @@ private:
         std::vector<std::pair<std::size_t, std::size_t>> widths{};
         std::size_t rows = 0;
     };
-    /// Takes a line that has waited, and how many cells it lacks at its end.
-    using TakeLine = std::function<void(std::string_view line, std::size_t missing)>;
+    using Columns = std::span<const results::Column>;
+    /// Takes a line that has waited, and the columns that it lacks at its end.
+    using TakeLine = std::function<void(std::string_view line, Columns missing)>;
 
     [[nodiscard]] Table& table_named(const std::string& name);
     [[nodiscard]] WaitingLines wait_beside(const std::string& name) const;

@@ -229,6 +229,12 @@ def controlled_play(programs):
     lab.wait(10)
 
 
+# The columns of some tables that the CSV has not.
+IN_JSON_ALONE = {
+    "table1": [f"{part}_{end}_mm" for part in ("mean", "std", "max") for end in ("low", "high")],
+    "limits": ["band"], "precision": ["order"]}
+
+
 def tables_agree(programs):
     """Each table in results.json and sessions.json is that of the CSV, before it was rounded."""
     said = []
@@ -243,12 +249,16 @@ def tables_agree(programs):
         for name, table in tables.items():
             with open(folder / f"{name}.csv", encoding="utf-8", newline="") as file:
                 rows = list(csv.reader(file))
-            if [column["key"] for column in table["columns"]] != rows[0]:
+            places = [place for place, column in enumerate(table["columns"])
+                      if column["key"] not in IN_JSON_ALONE.get(name.partition("_by_")[0], ())]
+            columns = [table["columns"][place] for place in places]
+            if [column["key"] for column in columns] != rows[0]:
                 raise AssertionError(f"{folder.name}/{name}: other columns")
             if len(table["rows"]) != len(rows) - 1:
                 raise AssertionError(f"{folder.name}/{name}: other rows")
             for cells, line in zip(table["rows"], rows[1:]):
-                for column, cell, text in zip(table["columns"], cells, line, strict=True):
+                for column, place, text in zip(columns, places, line, strict=True):
+                    cell = cells[place]
                     if not is_cell(cell, text, column.get("decimals")):
                         raise AssertionError(f"{folder.name}/{name}: {cell!r} and {text!r}")
         said.append(f"{folder.name}: {', '.join(sorted(tables))}")

@@ -25,11 +25,10 @@ Table sessions_of(double (*mean)(int, int))
     return table_of("sessions", rows);
 }
 
-const ComparedRow& row_of(const std::vector<ComparedRow>& rows, const std::string& conditions,
-                          const std::string& measure = "mean_mm")
+TableRow row_of(const Table& compared, const std::string& conditions)
 {
-    for (const ComparedRow& row : rows) {
-        if (row.conditions == conditions && row.measure == measure) return row;
+    for (const TableRow& row : rows_of(compared)) {
+        if (row.text("conditions") == conditions && row.text("measure") == "mean_mm") return row;
     }
     throw std::runtime_error{"no row " + conditions};
 }
@@ -41,16 +40,16 @@ TEST(ComparedRows, PairSessionsAndSumUpTheirConditions)
         [](int delay, int seed) { return 1.0 * delay + seed + (delay == 0 ? 0.5 : -2.0); });
     const auto rows = compare_sessions({a, "a"}, {b, "b"});
     ASSERT_TRUE(rows) << rows.error().message;
-    const ComparedRow& near = row_of(*rows, "delay_ms=0");
-    EXPECT_EQ(near.sessions, 7U);
-    EXPECT_DOUBLE_EQ(near.median_a, 4.0);
-    EXPECT_DOUBLE_EQ(near.median_b, 4.5);
-    EXPECT_DOUBLE_EQ(near.difference, 0.5);
-    EXPECT_DOUBLE_EQ(near.ci_low, 0.5);
-    EXPECT_DOUBLE_EQ(near.sign_test_p, 2.0 / 128.0) << "seven of seven, two-sided";
-    EXPECT_DOUBLE_EQ(row_of(*rows, "delay_ms=40").difference, -2.0);
-    EXPECT_EQ(row_of(*rows, "all").sessions, 14U);
-    EXPECT_DOUBLE_EQ(row_of(*rows, "all").sign_test_p, 1.0);
+    const TableRow near = row_of(*rows, "delay_ms=0");
+    EXPECT_EQ(near.number("sessions"), 7.0);
+    EXPECT_DOUBLE_EQ(*near.number("median_a"), 4.0);
+    EXPECT_DOUBLE_EQ(*near.number("median_b"), 4.5);
+    EXPECT_DOUBLE_EQ(*near.number("difference"), 0.5);
+    EXPECT_DOUBLE_EQ(*near.number("ci_low"), 0.5);
+    EXPECT_DOUBLE_EQ(*near.number("sign_test_p"), 2.0 / 128.0) << "seven of seven, two-sided";
+    EXPECT_DOUBLE_EQ(*row_of(*rows, "delay_ms=40").number("difference"), -2.0);
+    EXPECT_EQ(row_of(*rows, "all").number("sessions"), 14.0);
+    EXPECT_DOUBLE_EQ(*row_of(*rows, "all").number("sign_test_p"), 1.0);
 }
 
 TEST(ComparedRows, LeaveOutWhatOneSideHasNot)
@@ -59,7 +58,7 @@ TEST(ComparedRows, LeaveOutWhatOneSideHasNot)
     auto b = a;
     b.rows.pop_back();
     const auto compared = compare_sessions({a, "a"}, {b, "b"}).value();
-    EXPECT_EQ(row_of(compared, "delay_ms=40").sessions, 6U);
+    EXPECT_EQ(row_of(compared, "delay_ms=40").number("sessions"), 6.0);
     b.rows.clear();
     EXPECT_EQ(compare_sessions({a, "a"}, {b, "b"}).error().message,
               "a and b have no session in common");
@@ -81,7 +80,7 @@ TEST(ComparedRows, MeasureByColumnsThatSessionsHave)
     row.drag_n = row.energy_mj = row.force_above_2hz_n = 1.0;
     const Table one = table_of("sessions", std::vector{row});
     const auto rows = compare_sessions({one, "a"}, {one, "b"}).value();
-    EXPECT_EQ(rows.size(), 13U);
+    EXPECT_EQ(rows.rows.size(), 13U);
 }
 
 } // namespace

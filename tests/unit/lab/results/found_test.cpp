@@ -4,7 +4,7 @@
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/text.hpp"
 #include "lab/results/found.hpp"
-#include "lab/results/rows.hpp"
+#include "lab/results/replay.hpp"
 #include "lab/results/shipped.hpp"
 #include "lab/results/table_text.hpp"
 #include "peer/core/sync/text.hpp"
@@ -265,8 +265,9 @@ both.delay = "80ms"
     for (std::size_t at = 0; (at = sessions.find(",P1,", at)) != std::string::npos; ++at) ++of_p1;
     EXPECT_EQ(of_p1, 3U) << "without lots one seed of P1 is as good as ten";
     EXPECT_EQ(csv_text(files.at("replay/sep-P1")),
-              base::csv_header<ReplayRow>() + "\n0.0000,1.000,2.000,3.000,4.000,5.000,6.000,7.0000,"
-                                              "8.000,9.000,10.000,11.000,12.000,13.000,14.0000\n");
+              "time_s,lx,ly,lz,lhx,lhy,lhz,lfx,rx,ry,rz,rhx,rhy,rhz,rfx\n0.0000,1.000,2.000,3.000,"
+              "4.000,5.000,6.000,7.0000,"
+              "8.000,9.000,10.000,11.000,12.000,13.000,14.0000\n");
 }
 
 TEST(Results, TheOtherKindsWriteTheirColumns)
@@ -297,20 +298,21 @@ loss = ["50%"]
               "base,T1,100,15,50,10.000,1.009,,,unusable\n");
 }
 
-TEST(Rows, ThinATraceToTheRowsThatAreWanted)
+TEST(ReplayTable, ThinsATraceToTheRowsThatAreWanted)
 {
     virtual_time::Trace trace;
     trace.begin = std::chrono::milliseconds{2};
     for (auto& side : trace.sides) side.resize(25);
     trace.sides[1][10].body = base::Position{{0.0123, 0.0, -0.5}};
-    const auto rows = to_lines(make_replay_rows(trace, 100));
+    const auto rows = kept_lines(replay_table(trace, 100));
     EXPECT_EQ(rows, "0.0020,0.000,0.000,0.000,0.000,0.000,0.000,0.0000,0.000,0.000,0.000,0.000,"
                     "0.000,0.000,0.0000\n"
                     "0.0120,0.000,0.000,0.000,0.000,0.000,0.000,0.0000,12.300,0.000,-500.000,0.000,"
                     "0.000,0.000,0.0000\n"
                     "0.0220,0.000,0.000,0.000,0.000,0.000,0.000,0.0000,0.000,0.000,0.000,0.000,"
                     "0.000,0.000,0.0000\n");
-    EXPECT_TRUE(make_replay_rows(trace, 0).empty());
+    EXPECT_TRUE(replay_table(trace, 0).is_empty());
+    EXPECT_EQ(kept_lines(from_kept_lines("replay/a-T1", rows)), rows);
 }
 
 TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)

@@ -3,6 +3,7 @@
 #include "lab/results/real_time.hpp"
 
 #include "emulator/core/profile/text.hpp"
+#include "lab/results/table_text.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "peer/core/sync/text.hpp"
 

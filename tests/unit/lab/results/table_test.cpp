@@ -12,7 +12,7 @@ namespace {
 
 Table limits()
 {
-    Table table{"limits", {{"task"}, {"limit", 2}, {"seeds"}, {"scene", {}, spare}}};
+    Table table{"limits", {{"task"}, {"limit", 2}, {"seeds"}, {"scene", {}, Stands::if_filled}}};
     table.add("T1", 94.5, 3U, std::optional<std::string>{});
     table.add("T3", std::numeric_limits<double>::infinity(), 3U, std::optional<std::string>{});
     return table;
@@ -45,7 +45,7 @@ TEST(Table, HasAColumnForEachFieldOfAStruct)
     EXPECT_EQ(table.columns[*table.place_of("mean_mm")].decimals, 3);
     EXPECT_EQ(row.text("tier"), "usable");
     EXPECT_EQ(row.number("std_mm"), std::nullopt);
-    EXPECT_TRUE(table.columns[*table.place_of("force_above_2hz_n")].is_spare);
+    EXPECT_EQ(table.columns[*table.place_of("force_above_2hz_n")].stands, Stands::if_filled);
 }
 
 TEST(Table, IsFilledWithoutTheSpareColumnsThatNoRowHas)
@@ -71,6 +71,22 @@ TEST(Table, TakesThePartsOfSeveralWhoseColumnsDiffer)
     EXPECT_EQ(rows[0].text("value") + rows[0].text("b") + rows[0].text("c"), "1ms2");
     EXPECT_EQ(rows[1].text("value") + rows[1].text("b") + rows[1].text("c"), "2msx");
     EXPECT_EQ(rows[2].number("a"), 1.0);
+}
+
+TEST(Columns, StandInALineWithTheirDecimalsAndWhereTheyStand)
+{
+    const auto columns = columns_in("task,mean_mm:3,scene?,turned_deg:2?,band+");
+    ASSERT_EQ(columns.size(), 5U);
+    EXPECT_EQ(columns[0].key, "task");
+    EXPECT_EQ(columns[0].decimals, std::nullopt);
+    EXPECT_EQ(columns[0].stands, Stands::always);
+    EXPECT_EQ(columns[1].key, "mean_mm");
+    EXPECT_EQ(columns[1].decimals, 3);
+    EXPECT_EQ(columns[2].stands, Stands::if_filled);
+    EXPECT_EQ(columns[3].key, "turned_deg");
+    EXPECT_EQ(columns[3].decimals, 2);
+    EXPECT_EQ(columns[4].key, "band");
+    EXPECT_EQ(columns[4].stands, Stands::in_json);
 }
 
 TEST(Columns, SayTheirUnitAndWordsByTheirKey)

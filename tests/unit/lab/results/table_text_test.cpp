@@ -10,7 +10,8 @@ namespace {
 
 Table sample_of_limits()
 {
-    Table table{"limits", {{"task"}, {"limit_ms", 2}, {"met"}, {"seed"}, {"scene", {}, spare}}};
+    Table table{"limits",
+                {{"task"}, {"limit_ms", 2}, {"met"}, {"seed"}, {"scene", {}, Stands::if_filled}}};
     const std::optional<std::string> none;
     table.add("T1, \"fast\"", 94.0 / 3.0, true, 18446744073709551615U, none);
     table.add("T3\n", std::optional<double>{}, false, 1U, none);
@@ -30,6 +31,16 @@ TEST(TableText, RoundsInCsvAndNotInJson)
     EXPECT_EQ(table.at("columns").size(), 4U) << "no row fills the scene";
     EXPECT_EQ(table.at("rows")[0][1].get<double>(), 94.0 / 3.0);
     EXPECT_EQ(table.at("rows")[1].dump(), R"(["T3\n",null,false,1])");
+}
+
+TEST(TableText, LeavesOutOfCsvWhatStandsInJsonAlone)
+{
+    Table table{"t", {{"low", {}, Stands::in_json}, {"a"}, {"high", {}, Stands::in_json}}};
+    table.add(1.0, 2.0, 3.0);
+    EXPECT_EQ(csv_text(table), "a\n2\n");
+    EXPECT_EQ(aligned_text(table), "a\n2\n");
+    const auto json = nlohmann::json::parse(json_text(std::vector{table}));
+    EXPECT_EQ(json["tables"]["t"]["rows"].dump(), "[[1,2,3]]");
 }
 
 TEST(TableText, ReadsWhatItHasWritten)

@@ -365,10 +365,11 @@ TEST(ResultTables, JoinTheLinesOfPartsWhoseColumnsDiffer)
     const std::filesystem::path folder = testing::TempDir();
     ResultTables tables{folder};
     std::filesystem::create_symlink(folder / "victim", folder / "t.csv.part");
-    results::Table first{"t", {{"value"}, {"a", 1}, {"b"}, {"d", {}, results::spare}}};
+    results::Table first{"t", {{"value"}, {"a", 1}, {"b"}, {"d", {}, results::Stands::if_filled}}};
     first.add("1ms", 1.25, 2U, std::optional<double>{});
-    results::Table second{"t", {{"value"}, {"a", 1}, {"c"}}};
-    second.add("2,ms", 3.0, "4,5");
+    results::Table second{"t",
+                          {{"value"}, {"a", 1}, {"in_json", {}, results::Stands::in_json}, {"c"}}};
+    second.add("2,ms", 3.0, 9U, "4,5");
     for (const results::Table& part : {first, second, first}) tables.add(part);
     const results::Table session{"sessions_by_axis", {{"seed"}}};
     tables.add(session);

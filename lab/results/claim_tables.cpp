@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/results/claim_rows.hpp"
+#include "lab/results/claim_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -158,7 +158,7 @@ public:
         : experiment_{experiment}, criteria_{criteria}, sessions_{sessions}
     {}
 
-    ClaimTables tables() &&
+    std::vector<Table> tables() &&
     {
         claim_usable();
         claim_stiffness();
@@ -167,7 +167,7 @@ public:
         claim_contact_and_energy();
         claim_three();
         claim_silence();
-        return std::move(tables_);
+        return {std::move(claims_), std::move(quantiles_)};
     }
 
 private:
@@ -215,23 +215,18 @@ private:
                           {.least = 100.0, .of_mean = true}, "% usable");
         return found;
     }
-    void add(std::string claim, const std::vector<Number>& numbers)
+    void add(std::string_view claim, const std::vector<Number>& numbers)
     {
-        tables_.quantiles.push_back(
-            {.claim = claim,
-             .quantile = joined(numbers, [](const Number& n) { return said(n, n.all, 0.9); }),
-             .seeds = experiment_.seeds});
-        ClaimRow& row = tables_.claims.emplace_back();
-        row.claim = std::move(claim);
-        row.value = joined(numbers, [](const Number& n) { return said(n, n.judging, 1.0); });
-        row.accept = joined(numbers, accepted);
+        quantiles_.add(
+            claim, joined(numbers, [](const Number& n) { return said(n, n.all, 0.9); }),
+            experiment_.seeds);
         const auto is_empty = [](const Number& n) { return n.judging.empty(); };
-        if (std::ranges::any_of(numbers, is_empty)) {
-            row.verdict = ClaimVerdict::undecided;
-        } else {
-            row.verdict =
-                std::ranges::all_of(numbers, is_kept) ? ClaimVerdict::met : ClaimVerdict::missed;
-        }
+        const std::string_view verdict = std::ranges::any_of(numbers, is_empty) ? "undecided"
+                                         : std::ranges::all_of(numbers, is_kept) ? "met"
+                                                                                 : "missed";
+        claims_.add(claim,
+                    joined(numbers, [](const Number& n) { return said(n, n.judging, 1.0); }),
+                    joined(numbers, accepted), verdict);
     }
 
     void claim_usable()
@@ -331,7 +326,8 @@ private:
     const experiment::Experiment& experiment_;
     const metrics::Criteria& criteria_;
     const ClaimSessions& sessions_;
-    ClaimTables tables_;
+    Table claims_{"claims", columns_in("claim,value,accept,verdict")};
+    Table quantiles_{"claims_quantiles", columns_in("claim,quantile,seeds")};
 };
 
 using Stiffness = decltype(metrics::Metrics::stiffness_n_per_m);
@@ -386,43 +382,34 @@ ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
     return found;
 }
 
-ClaimTables make_claim_tables(const experiment::Experiment& experiment,
-                              const metrics::Criteria& criteria, const ClaimSessions& sessions)
+std::vector<Table> claim_tables(const experiment::Experiment& experiment,
+                                const metrics::Criteria& criteria, const ClaimSessions& sessions)
 {
     return ClaimBook{experiment, criteria, sessions}.tables();
 }
 
-std::vector<ClaimSessionRow> make_claim_session_rows(const metrics::Criteria& criteria,
-                                                     const ClaimSessions& sessions)
+Table claim_sessions_table(const metrics::Criteria& criteria, const ClaimSessions& sessions)
 {
-    std::vector<ClaimSessionRow> rows;
+    Table table{"sessions",
+                columns_in("algorithm,condition,task,hands,peers,delay_ms,jitter_ms,loss_percent,"
+                           "burst_of_100,seed,mean_mm:3,max_mm:3,vibration_mm:3,stiffness_ratio:4,"
+                           "force_vibration_n:4,force_above_2hz_n:4?,force_discrepancy:4,"
+                           "contact_lost:4,energy_mj:4,scored_share:4,tier")};
     for (const ClaimSession& session : sessions.sessions) {
         const metrics::Scores& scores = session.scores;
-        ClaimSessionRow& row = rows.emplace_back();
-        row.algorithm = session.algorithm;
-        row.condition = session.cell->name;
-        row.task = name_of(session.task);
-        row.hands = session.cell->hands;
-        row.peers = session.cell->peers;
-        row.delay_ms = static_cast<double>(session.cell->delay_ms);
-        row.jitter_ms = static_cast<double>(session.cell->jitter_ms);
-        row.loss_percent = static_cast<double>(session.cell->loss_percent);
-        row.burst_of_100 = static_cast<double>(session.cell->burst_of_100);
-        row.seed = session.seed;
-        row.mean_mm = mean_mm(scores);
-        if (scores.discrepancy_m) row.max_mm = 1e3 * scores.discrepancy_m->max;
-        row.vibration_mm = vibration_mm(scores);
-        row.stiffness_ratio = stiffness(scores);
-        row.force_vibration_n = force_vibration_n(scores);
-        if (scores.force_above_2hz_added_n)
-            row.force_above_2hz_n = scores.force_above_2hz_added_n->first;
-        row.force_discrepancy = scores.force_discrepancy;
-        row.contact_lost = scores.contact_lost;
-        row.energy_mj = energy_mj(scores);
-        row.scored_share = scores.scored_share;
-        row.tier = judge(scores, criteria).tier;
+        const experiment::ClaimCell& cell = *session.cell;
+        std::optional<double> max_mm, swings_n;
+        if (scores.discrepancy_m) max_mm = 1e3 * scores.discrepancy_m->max;
+        if (scores.force_above_2hz_added_n) swings_n = scores.force_above_2hz_added_n->first;
+        table.add(session.algorithm, cell.name, name_of(session.task), cell.hands, cell.peers,
+                  static_cast<double>(cell.delay_ms), static_cast<double>(cell.jitter_ms),
+                  static_cast<double>(cell.loss_percent), static_cast<double>(cell.burst_of_100),
+                  session.seed, mean_mm(scores), max_mm, vibration_mm(scores), stiffness(scores),
+                  force_vibration_n(scores), swings_n, scores.force_discrepancy,
+                  scores.contact_lost, energy_mj(scores), scores.scored_share,
+                  judge(scores, criteria).tier);
     }
-    return rows;
+    return table;
 }
 
 } // namespace hapnet::lab::results

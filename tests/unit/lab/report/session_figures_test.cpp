@@ -35,7 +35,7 @@ std::string page_of(const results::Results& results)
     return text_of(report_of(results, "r"), "report.html");
 }
 
-TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecords)
+TEST(SessionFigures, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecords)
 {
     TwoRecords records;
     const results::Results results = results_of(records);
@@ -47,9 +47,9 @@ TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecord
     EXPECT_EQ(data.at("sections")[1].at("id"), "sessions");
     EXPECT_EQ(data.at("sections").size(), 2U) << "no experiment was to be here";
     EXPECT_TRUE(holds(page, "25.00 mm on average while both hands were on, 25.0 mm at most"));
-    EXPECT_TRUE(holds(words, R"(["the body |x_A - x_B|, mm","25.000")"));
-    EXPECT_TRUE(holds(words, R"(["ticks per second","1000.00")"));
-    EXPECT_TRUE(holds(words, "algorithm <base>"));
+    EXPECT_TRUE(holds(words, R"({"name":"the body |x_A - x_B|, mm","cells":["25.000")"));
+    EXPECT_TRUE(holds(words, R"({"name":"ticks per second","cells":["1000.00")"));
+    EXPECT_TRUE(holds(words, R"("algorithm":"<base>")"));
     EXPECT_FALSE(holds(page, "<base>"));
     const auto files = report_of(results, "r");
     for (const std::string name : {"apart", "cubes", "forces"}) {
@@ -61,7 +61,7 @@ TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecord
     EXPECT_EQ(page_subject(page), "session");
 }
 
-TEST(SessionSection, ShowsDistanceAndAngleOfEachBodyWhereTheyTurnOrAreSeveral)
+TEST(SessionFigures, ShowsDistanceAndAngleOfEachBodyWhereTheyTurnOrAreSeveral)
 {
     TwoRecords records;
     EXPECT_FALSE(holds(page_of(results_of(records)), "Angle between")) << "the cube cannot turn";
@@ -74,27 +74,27 @@ TEST(SessionSection, ShowsDistanceAndAngleOfEachBodyWhereTheyTurnOrAreSeveral)
     const std::string page = page_of(results);
     EXPECT_TRUE(holds(page, "body 1 5.00 mm, body 2 5.00 mm"));
     EXPECT_TRUE(holds(page, "body 1 0.00 deg, body 2 180.00 deg"));
-    EXPECT_TRUE(holds(test::words_of(page), R"(["body 2","5.000")"));
+    EXPECT_TRUE(holds(test::words_of(page), R"({"name":"body 2","cells":["5.000")"));
     for (const std::string name : {"bodies", "angles"}) {
         const auto series = test::figure_of(page, "session-T3-" + name).at("series");
         EXPECT_EQ(series.size(), 2U) << name;
     }
 }
 
-TEST(SessionSection, SaysWhetherTheSessionIsValidAndWhyNot)
+TEST(SessionFigures, SaysWhetherTheSessionIsValidAndWhyNot)
 {
     TwoRecords records;
-    EXPECT_TRUE(holds(page_of(results_of(records)), R"({"b":"Valid."})"));
+    EXPECT_TRUE(holds(page_of(results_of(records)), R"("valid":true,"invalid_because":[])"));
     records::Recording late{2};
     late.session(1s).ticks(500ms, 1s, record::Phase::running, records::cube_at(0.0));
     results::Results results;
     ASSERT_TRUE(add_session(results, "late", records.a.content(), late.content()));
     const std::string page = page_of(results);
-    EXPECT_TRUE(holds(page, R"({"b":"Not valid."})"));
-    EXPECT_TRUE(holds(page, R"("list":["the sessions overlap 50.0 %, less than 95 %"])"));
+    EXPECT_TRUE(holds(page, R"("valid":false,"invalid_because":["the sessions overlap 50.0 %, )"
+                            R"(less than 95 %"])"));
 }
 
-TEST(SessionSection, IsThereWithoutAPlayerWhenTheTwoNeverPlayedTogether)
+TEST(SessionFigures, IsThereWithoutAPlayerWhenTheTwoNeverPlayedTogether)
 {
     records::Recording a{1};
     records::Recording b{2};
@@ -104,11 +104,11 @@ TEST(SessionSection, IsThereWithoutAPlayerWhenTheTwoNeverPlayedTogether)
     ASSERT_TRUE(add_session(results, "", a.content(), b.content()));
     const std::string page = page_of(results);
     EXPECT_FALSE(test::data_of(page).contains("replays"));
-    EXPECT_FALSE(holds(test::words_of(page), R"("player")"));
+    EXPECT_FALSE(holds(test::words_of(page), R"("id":"replay")"));
     EXPECT_TRUE(holds(page, "The two sides were never running together."));
 }
 
-TEST(SessionSection, RefusesRecordsThatDoNotBelongTogether)
+TEST(SessionFigures, RefusesRecordsThatDoNotBelongTogether)
 {
     records::Recording a{1};
     records::Recording b{1};
@@ -117,14 +117,14 @@ TEST(SessionSection, RefusesRecordsThatDoNotBelongTogether)
     EXPECT_TRUE(results.sessions.empty());
 }
 
-TEST(SessionSection, ThePlayerShowsTheSceneOfTheRecord)
+TEST(SessionFigures, ThePlayerShowsTheSceneOfTheRecord)
 {
     TwoRecords records;
     records.a.content().config["scene_toml"] = "[[body]]\nsize = \"60mm\"\nmass = \"0.1kg\"\n";
     EXPECT_TRUE(holds(page_of(results_of(records)), R"("half":[30.0,30.0,30.0])"));
 }
 
-TEST(DemoSection, PutsTheDemosTablesOnTopOfTheSessions)
+TEST(Report, PutsTheDemosTablesOnTopOfTheSessions)
 {
     TwoRecords records;
     results::Results results = results_of(records);
@@ -138,7 +138,7 @@ TEST(DemoSection, PutsTheDemosTablesOnTopOfTheSessions)
     std::vector<std::string> ids;
     for (const auto& section : data.at("sections")) ids.push_back(section.at("id"));
     EXPECT_EQ(ids, (std::vector<std::string>{"demo", "replay", "sessions", "runs"}));
-    EXPECT_TRUE(holds(words, R"(["paper","13.79","0.00")"));
+    EXPECT_TRUE(holds(words, R"({"name":"paper","cells":["13.79","0.00")"));
     EXPECT_TRUE(holds(words, "mean within 15 % of the paper's: met"));
     EXPECT_TRUE(holds(words, "--out <here & there>"));
     EXPECT_FALSE(holds(page, "<here"));

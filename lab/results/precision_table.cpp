@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/results/precision_rows.hpp"
+#include "lab/results/precision_table.hpp"
 
 #include "lab/metrics/precision.hpp"
 #include "lab/results/session_rows.hpp"
@@ -8,11 +8,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numeric>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -150,55 +152,102 @@ std::vector<std::uint32_t> numbers_of_seeds(std::uint32_t all)
     return numbers;
 }
 
-void add_rows(const Figure& figure, const Figure& reference, const PrecisionRow& common,
-              std::vector<PrecisionRow>& rows)
+/// A figure at a value of the axis beside the reference's.
+struct ComparedFigure {
+    std::string value;
+    const Figure* figure = nullptr;
+    double difference = 0.0;
+    std::optional<metrics::Interval> interval{}; // of the difference; nullopt: of one seed
+};
+
+ComparedFigure compared(const std::string& value, const Figure& figure, const Figure& reference)
 {
-    PrecisionRow row = common;
-    row.algorithm = figure.algorithm;
-    row.task = figure.task;
-    row.figure = figure.name;
-    row.found = figure.found;
-    row.difference = figure.found - reference.found;
+    ComparedFigure one{value, &figure, figure.found - reference.found};
     if (figure.seeds > 1) {
-        const auto interval = metrics::paired_interval(
-            figure.replicates(figure.seeds), reference.replicates(figure.seeds), figure.seeds);
-        row.ci_low = interval.low;
-        row.ci_high = interval.high;
+        one.interval = metrics::paired_interval(figure.replicates(figure.seeds),
+                                                reference.replicates(figure.seeds), figure.seeds);
     }
-    for (const std::uint32_t seeds : numbers_of_seeds(figure.seeds)) {
-        const double error =
-            metrics::root_mean_square_error(figure.replicates(seeds), reference.found);
-        row.error = std::isfinite(error) ? std::optional{error} : std::nullopt;
-        row.seeds = seeds;
-        row.ticks = figure.ticks / figure.seeds * seeds;
-        rows.push_back(row);
+    return one;
+}
+
+/// "0.5ms" in its parts; nullopt: no number.
+struct Measured {
+    double number = 0.0;
+    std::string_view unit;
+};
+std::optional<Measured> measured(std::string_view text)
+{
+    Measured value;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value.number);
+    if (error != std::errc{} || !(value.number > 0.0)) return std::nullopt;
+    value.unit = text.substr(static_cast<std::size_t>(end - text.data()));
+    return value;
+}
+
+/// The order in which a figure converges, by the differences that chance does not explain; nullopt,
+/// too, when they change their sign.
+std::optional<double> order_of_figure(const std::string& reference,
+                                      const std::vector<ComparedFigure>& by_value)
+{
+    const auto finest = measured(reference);
+    std::vector<metrics::StepError> errors;
+    bool is_above = false, is_below = false;
+    for (const ComparedFigure& one : by_value) {
+        const auto step = measured(one.value);
+        const bool is_sure =
+            !one.interval || one.interval->low > 0.0 || one.interval->high < 0.0;
+        if (one.value == reference || !is_sure || one.difference == 0.0) continue;
+        if (!step || !finest || step->unit != finest->unit) return std::nullopt;
+        is_above = is_above || one.difference > 0.0;
+        is_below = is_below || one.difference < 0.0;
+        errors.push_back({step->number, std::abs(one.difference)});
+    }
+    if (!finest || (is_above && is_below)) return std::nullopt;
+    return metrics::order_of(errors, finest->number);
+}
+
+void add_rows(const experiment::Axis& axis, const Figure& reference,
+              const std::vector<ComparedFigure>& by_value, Table& table)
+{
+    const auto order = order_of_figure(*axis.reference, by_value);
+    for (const ComparedFigure& one : by_value) {
+        const Figure& figure = *one.figure;
+        const auto low = one.interval ? std::optional{one.interval->low} : std::nullopt;
+        const auto high = one.interval ? std::optional{one.interval->high} : std::nullopt;
+        for (const std::uint32_t seeds : numbers_of_seeds(figure.seeds)) {
+            table.add(figure.algorithm, figure.task, figure.name, axis.key, one.value,
+                      *axis.reference, seeds, figure.ticks / figure.seeds * seeds, figure.found,
+                      one.difference, low, high,
+                      metrics::root_mean_square_error(figure.replicates(seeds), reference.found),
+                      order);
+        }
     }
 }
 
 } // namespace
 
-std::vector<PrecisionRow> make_precision_rows(const experiment::Axis& axis,
-                                              std::span<const AxisFindings> values,
-                                              const metrics::Criteria& criteria)
+Table precision_table(const experiment::Axis& axis, std::span<const AxisFindings> values,
+                      const metrics::Criteria& criteria)
 {
     std::vector<std::vector<Figure>> figures;
     for (const AxisFindings& one : values) figures.push_back(figures_of(one, criteria));
     const auto of_reference = std::ranges::find(values, *axis.reference, &AxisFindings::value);
     base::ensure(of_reference != values.end());
-    PrecisionRow common;
-    common.parameter = axis.key;
-    common.reference = *axis.reference;
-    std::vector<PrecisionRow> rows;
+    Table table{"precision",
+                columns_in("algorithm,task,figure,parameter,value,reference,seeds,ticks,found:6,"
+                           "difference:6,ci_low:6,ci_high:6,error:6,order+")};
     for (const Figure& reference :
          figures[static_cast<std::size_t>(of_reference - values.begin())]) {
+        std::vector<ComparedFigure> by_value;
         for (std::size_t i = 0; i < values.size(); ++i) {
-            common.value = values[i].value;
             const auto found = std::ranges::find_if(
                 figures[i], [&](const Figure& one) { return one.is_same_as(reference); });
-            if (found != figures[i].end()) add_rows(*found, reference, common, rows);
+            if (found != figures[i].end())
+                by_value.push_back(compared(values[i].value, *found, reference));
         }
+        add_rows(axis, reference, by_value, table);
     }
-    return rows;
+    return table;
 }
 
 } // namespace hapnet::lab::results

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/section.hpp"
+#include "lab/report/replays.hpp"
 #include "proto/page/base64.hpp"
 #include "scene/description.hpp"
 #include "scene/mass.hpp"
@@ -16,6 +16,8 @@
 namespace hapnet::lab::report {
 
 namespace {
+
+using page::Json;
 
 constexpr double mm_per_m = 1e3;
 
@@ -147,22 +149,8 @@ Json packed(const results::Replay& replay)
 
 } // namespace
 
-std::optional<Section> replay_section(const results::Results& results)
+page::Json replays_of(const results::Results& results)
 {
-    if (results.replays.empty()) return std::nullopt;
-    Section section{"replay", "Look at it"};
-    section.add(page::paragraph(
-        "Each computer holds a copy of what is blue. Each picture shows one of them, with the hand "
-        "that is there; dashed outlines are what the others have at the same moment: the bodies, "
-        "and their hands. Arrows are forces on the hands. In 3-D, drag a picture to turn them "
-        "all."));
-    section.add(Json::object({{"player", true}}));
-    return section;
-}
-
-Json replays_of(const results::Results& results)
-{
-    if (results.replays.empty()) return nullptr;
     Json replays = Json::array();
     for (const results::Replay& replay : results.replays) replays.push_back(packed(replay));
     return replays;
