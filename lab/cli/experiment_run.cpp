@@ -5,10 +5,10 @@
 #include "lab/cli/files.hpp"
 #include "lab/cli/host.hpp"
 #include "lab/records/kept_play.hpp"
-#include "lab/records/text_table.hpp"
+#include "lab/results/found.hpp"
 #include "lab/results/manifest.hpp"
-#include "lab/results/precision_rows.hpp"
-#include "lab/results/result_files.hpp"
+#include "lab/results/precision_table.hpp"
+#include "lab/results/table_text.hpp"
 #include "lab/runner/checksums.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/result_tables.hpp"
@@ -21,6 +21,7 @@
 #include "proto/record/writer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -64,12 +65,12 @@ std::string name_of_point(const LoadedExperiment::Part& part)
 }
 
 /// What the lines of a table have before their own cells: at which point of the axes they are.
-std::vector<runner::LeadingCell> leading_cells(const std::vector<experiment::Axis>& axes,
-                                               const LoadedExperiment::Part& part)
+std::vector<results::LeadingCell> leading_cells(const std::vector<experiment::Axis>& axes,
+                                                const LoadedExperiment::Part& part)
 {
     if (axes.empty()) return {};
     if (axes.size() == 1) return {{"parameter", axes.front().key}, {"value", part.values.front()}};
-    std::vector<runner::LeadingCell> cells{{"point", fmt::format("{}", part.point + 1)}};
+    std::vector<results::LeadingCell> cells{{"point", results::to_cell(part.point + 1)}};
     for (std::size_t i = 0; i < axes.size(); ++i) cells.push_back({axes[i].key, part.values[i]});
     return cells;
 }
@@ -198,28 +199,32 @@ public:
         forget_old_checksums();
         if (part.experiment.record) write_records(out_, part);
         if (has_reference()) findings_.push_back({part.values.front(), &part.experiment, found});
-        const auto files = results::make_result_files(part.experiment, experiment_.criteria, found);
-        if (!files) throw std::runtime_error{files.error().message};
-        for (const results::File& file : *files) add(part, file);
+        auto results = results::find_results(part.experiment, experiment_.criteria, found);
+        if (!results) throw std::runtime_error{results.error().message};
+        for (results::Table& table : results->tables) add(part, std::move(table));
+        if (!experiment_.whole.axes.empty()) return;
+        for (const results::File& file : results->files) {
+            write_text(out_ / file.path, file.text);
+            names_.push_back(file.path);
+            shown_ += file.text + '\n';
+        }
     }
 
     /// Moves all into place. Returns the digest.
     std::string finish(const runner::SessionStore::Counts& counts)
     {
         forget_old_checksums();
-        for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
         if (has_reference()) {
-            constexpr const char* name = "precision.csv";
             const auto& axis = experiment_.whole.axes.front();
-            const auto rows = results::make_precision_rows(axis, findings_, experiment_.criteria);
-            write_text(out_ / name, base::csv_text(rows));
-            names_.emplace_back(name);
+            tables_.add(results::precision_table(axis, findings_, experiment_.criteria));
         }
+        for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
         const auto checksums = runner::checksums_of(out_, names_);
         write_text(out_ / runner::checksums_name, checksums);
         auto digest = runner::checksum_of(checksums);
         write_manifest(counts, {}, digest);
-        for (const std::string& name : names_) print_short(name);
+        for (const results::Table& table : short_) shown_ += aligned_text(table) + '\n';
+        net::print(shown_);
         return digest;
     }
 
@@ -251,34 +256,21 @@ private:
         return !axes.empty() && axes.front().reference.has_value();
     }
 
-    void add(const LoadedExperiment::Part& part, results::File file)
+    void add(const LoadedExperiment::Part& part, results::Table table)
     {
-        constexpr std::string_view ending = ".csv";
-        const bool is_table =
-            file.path.ends_with(ending) && file.path.find('/') == std::string::npos;
         const auto& axes = experiment_.whole.axes;
-        if (!axes.empty() && !is_table) return;
-        if (!is_table) {
-            write_text(out_ / file.path, file.text);
-            names_.push_back(file.path);
-            return;
-        }
         if (!axes.empty()) {
-            const std::string_view varied = axes.size() == 1 ? "_by_axis" : "_by_point";
-            file.path.insert(file.path.size() - ending.size(), varied);
+            if (table.name.starts_with("replay/")) return;
+            table = with_leading(leading_cells(axes, part), std::move(table));
+            table.name += axes.size() == 1 ? "_by_axis" : "_by_point";
         }
-        tables_.add(file, leading_cells(axes, part));
-    }
-
-    /// On standard output, what can be read at a glance.
-    void print_short(const std::string& name) const
-    {
-        const bool is_short = name == "table1.csv" || name == "criteria.toml" ||
-                              name.starts_with("limits.") || name == "limits_by_axis.csv";
-        if (!is_short) return;
-        const auto text = net::text_of_file((out_ / name).string());
-        if (!text) throw std::runtime_error{text.error().message};
-        net::print((name.ends_with(".csv") ? records::aligned(*text) : *text) + "\n");
+        tables_.add(table);
+        // What can be read at a glance stands on standard output, too.
+        constexpr std::array<std::string_view, 3> are_short{"table1", "limits", "limits_by_axis"};
+        if (std::ranges::find(are_short, table.name) == are_short.end()) return;
+        const auto known = std::ranges::find(short_, table.name, &results::Table::name);
+        append(known == short_.end() ? short_.emplace_back(results::Table{table.name, {}}) : *known,
+               table);
     }
 
     const LoadedExperiment& experiment_;
@@ -286,6 +278,8 @@ private:
     fs::path out_;
     runner::ResultTables tables_;
     std::vector<std::string> names_;
+    std::vector<results::Table> short_;
+    std::string shown_;                           // on standard output
     std::vector<results::AxisFindings> findings_; // of an axis with a reference
     bool has_written_ = false;
     base::TimePoint start_;

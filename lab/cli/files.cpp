@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/files.hpp"
 
+#include "lab/results/table_text.hpp"
 #include "peer/shared_object/load.hpp"
+#include "proto/disk/result_file.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
@@ -58,6 +60,24 @@ constexpr std::array peer_keys{TypedKey{"algorithm", is_text, "a text"},
 
 /// The object that a result file holds. The error names the file, and the key whose value has
 /// another type.
+/// What stood in CSV before it stood in JSON: a folder with one and without the other is an old
+/// one.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> written_as_csv{
+    {{results::tables_name, "table1.csv"},
+     {results::tables_name, "limits.csv"},
+     {results::tables_name, "limits_by_axis.csv"},
+     {results::tables_name, "limits_by_point.csv"},
+     {results::tables_name, "qos.csv"},
+     {results::tables_name, "qos_by_axis.csv"},
+     {results::tables_name, "qos_by_point.csv"},
+     {results::tables_name, "trajectories.csv"},
+     {results::tables_name, "claims.csv"},
+     {results::tables_name, "precision.csv"},
+     {results::sessions_name, "sessions.csv"},
+     {results::sessions_name, "sessions_by_axis.csv"},
+     {results::sessions_name, "sessions_by_point.csv"},
+     {results::real_time_name, "real_time.csv"}}};
+
 base::Result<Json> read_result(const std::string& path, std::span<const TypedKey> keys)
 {
     auto json = read_json(path);
@@ -137,6 +157,28 @@ base::Result<results::SessionFiles> read_session_files(const std::string& folder
         files.others.push_back(*std::move(json));
     }
     return files;
+}
+
+base::Result<void> require_tables(const std::string& folder, std::string_view name)
+{
+    namespace fs = std::filesystem;
+    if (fs::exists(fs::path{folder} / name)) return {};
+    for (const auto& [file, csv] : written_as_csv) {
+        if (file != name || !fs::exists(fs::path{folder} / csv)) continue;
+        return base::fail(
+            fmt::format("{} has {} and no {}, as an older version of hapnet-lab wrote "
+                        "it: run it again: its sessions are reused",
+                        folder, csv, name));
+    }
+    return {};
+}
+
+void write_result_tables(const std::string& folder, const std::string& name,
+                         const std::vector<results::Table>& tables)
+{
+    for (const results::Table& table : tables)
+        disk::ResultFile{fmt::format("{}/{}.csv", folder, table.name)}.commit(csv_text(table));
+    disk::ResultFile{folder + '/' + name}.commit(results::json_text(tables));
 }
 
 } // namespace hapnet::lab

@@ -4,11 +4,14 @@
 
 #include "lab/experiment/experiment.hpp"
 #include "lab/results/session_files.hpp"
+#include "lab/results/table.hpp"
 #include "proto/base/result.hpp"
 #include "proto/record/reader.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace hapnet::lab {
 
@@ -26,5 +29,13 @@ void create_folder(const std::string& path);
 
 /// What a folder holds of a session over real UDP. The error names the file that is missing.
 [[nodiscard]] base::Result<results::SessionFiles> read_session_files(const std::string& folder);
+
+/// The error: the folder has CSV and not the file of that name beside it, results.json,
+/// sessions.json or real_time.json, as an older version of hapnet-lab wrote it.
+[[nodiscard]] base::Result<void> require_tables(const std::string& folder, std::string_view name);
+
+/// Writes each table as CSV, and all of them into a file of that name. Throws std::system_error.
+void write_result_tables(const std::string& folder, const std::string& name,
+                         const std::vector<results::Table>& tables);
 
 } // namespace hapnet::lab

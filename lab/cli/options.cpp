@@ -156,7 +156,8 @@ void add_report(cli::Command& command, ReportCommand& report)
         "Writes report.html, one self-contained page. Of a folder: "
         "the results of its experiments beside the paper, of the demo, or of a "
         "recorded session; of a folder of such folders, without a manifest.json of its own, it "
-        "writes one. Of two records or more: their session; the page is written "
+        "writes one. The tables are read from results.json: run again what an older version "
+        "wrote. Of two records or more: their session; the page is written "
         "beside the first.");
     command.add_exit_codes(exit_codes_without_run);
     command
@@ -427,7 +428,8 @@ void add_compare(cli::Command& command, CompareCommand& compare)
         "same algorithm, in the same task, scene, network and with the same seed. Of what each is "
         "measured by: the median of B - A with its 95 % interval, and the p of a sign test.");
     command.add_exit_codes(exit_codes_without_run);
-    command.positional("DIR_A", "A folder with sessions.csv", cli::into(compare.folder_a))
+    command
+        .positional("DIR_A", "A folder of results, with sessions.json", cli::into(compare.folder_a))
         .required("results/before results/after");
     command.positional("DIR_B", "Another", cli::into(compare.folder_b))
         .required("results/before results/after");

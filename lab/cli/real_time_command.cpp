@@ -7,8 +7,8 @@
 #include "lab/cli/session_records.hpp"
 #include "lab/cli/sweep_command.hpp"
 #include "lab/results/real_time.hpp"
+#include "lab/results/table_text.hpp"
 #include "lab/virtual_time/play.hpp"
-#include "proto/disk/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
@@ -80,7 +80,7 @@ base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
                           " has no sessions: run scripts/real-time.sh --out " + folder.string() +
                           " first");
     }
-    disk::ResultFile{(folder / "real_time.csv").string()}.commit(real_time_csv(results));
+    write_result_tables(command.folder, results::real_time_name, {real_time_rows(results)});
     const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
                                                host()};
     const auto noted =

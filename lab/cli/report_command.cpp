@@ -8,6 +8,7 @@
 #include "lab/report/report.hpp"
 #include "lab/results/results.hpp"
 #include "lab/results/several.hpp"
+#include "lab/results/table_text.hpp"
 #include "lab/runner/checksums.hpp"
 #include "proto/base/version.hpp"
 #include "proto/disk/result_file.hpp"
@@ -27,22 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The result files in one folder and in its replay/. Single sessions are shown beside Table 1
-/// alone; other experiments can have a million of them.
-void collect(const fs::path& folder, std::vector<std::string>& paths)
-{
-    for (const fs::path& place : {folder, folder / "replay"}) {
-        if (!fs::is_directory(place)) continue;
-        for (const auto& entry : fs::directory_iterator{place}) {
-            const auto path = entry.path().generic_string();
-            const bool is_shown =
-                entry.path().filename() != "sessions.csv" || fs::exists(folder / "table1.csv");
-            if (entry.is_regular_file() && results::is_result_file(path) && is_shown)
-                paths.push_back(path);
-        }
-    }
-}
-
 /// The folder itself and those in it, by name.
 std::vector<fs::path> places_in(const fs::path& root)
 {
@@ -57,15 +42,31 @@ std::vector<fs::path> places_in(const fs::path& root)
     return places;
 }
 
+/// The manifests and tables of the folders. Single sessions are shown beside Table 1 and claims
+/// alone; other experiments can have a million of them.
 base::Result<std::vector<results::File>> read_files(const std::vector<fs::path>& places)
 {
-    std::vector<std::string> paths;
-    for (const fs::path& place : places) collect(place, paths);
     std::vector<results::File> files;
-    for (const std::string& path : paths) {
-        auto text = net::text_of_file(path);
+    const auto add = [&](const fs::path& path) -> base::Result<void> {
+        if (!fs::exists(path)) return {};
+        auto text = net::text_of_file(path.string());
         if (!text) return tl::unexpected{text.error()};
-        files.push_back({path, *std::move(text)});
+        files.push_back({path.generic_string(), *std::move(text)});
+        return {};
+    };
+    for (const fs::path& place : places) {
+        for (const char* name : {results::tables_name, results::real_time_name}) {
+            if (auto fine = require_tables(place.generic_string(), name); !fine)
+                return tl::unexpected{fine.error()};
+        }
+        for (const char* name : {"manifest.json", results::tables_name, results::real_time_name,
+                                 results::sessions_name}) {
+            const bool is_shown = name != results::sessions_name ||
+                                  fs::exists(place / "table1.csv") ||
+                                  fs::exists(place / "claims.csv");
+            if (auto fine = is_shown ? add(place / name) : base::Result<void>{}; !fine)
+                return tl::unexpected{fine.error()};
+        }
     }
     return files;
 }
@@ -142,8 +143,8 @@ base::Result<results::Results> results_in(const fs::path& root)
     if (!files) return tl::unexpected{files.error()};
     auto results = read_results(*files);
     if (!results) return results;
-    for (const results::File& file : *files)
-        results->files.push_back(fs::path{file.path}.lexically_relative(root).generic_string());
+    for (results::TableFile& file : results->files)
+        file.path = fs::path{file.path}.lexically_relative(root).generic_string();
     for (const fs::path& place : places) {
         const auto records = records_in(place);
         if (records.size() < 2) continue;
@@ -163,8 +164,8 @@ base::Result<results::Results> results_in(const fs::path& root)
                 fmt::join(names_of_files(records), ", ")));
         }
         return base::fail(root.generic_string() +
-                          " holds no results: expected manifest.json, table1.csv, limits.csv or "
-                          "the like, or the two records of a session, there or one folder below");
+                          " holds no results: expected manifest.json or results.json, or the "
+                          "two records of a session, there or one folder below");
     }
     return results;
 }

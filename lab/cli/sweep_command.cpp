@@ -10,6 +10,7 @@
 #include "lab/experiment/daemons.hpp"
 #include "lab/records/recorded_trace.hpp"
 #include "lab/results/sweep.hpp"
+#include "lab/results/table_text.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/base/version.hpp"
 #include "proto/disk/result_file.hpp"
@@ -252,11 +253,9 @@ base::Result<std::string> conclude_sweep(const RealTimeCommand& command)
                                                 : cell.attempts.back().invalid_because});
     }
     if (rows.empty()) return base::fail(command.folder + " has no sessions that were played");
-    const fs::path folder{command.folder};
     const auto conditions = results::make_condition_rows(rows);
-    disk::ResultFile{(folder / "real_time_sessions.csv").string()}.commit(sweep_csv(rows));
-    disk::ResultFile{(folder / "real_time_conditions.csv").string()}.commit(
-        conditions_csv(conditions));
+    write_result_tables(command.folder, results::real_time_name,
+                        {sweep_table(rows), table_of("real_time_conditions", conditions)});
     const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
                                                host()};
     auto manifest = real_time_manifest(noted, circumstances);

@@ -27,7 +27,7 @@ struct SessionSpec {
 /// What came of a session: a pure function of its spec.
 struct PlayedSession {
     metrics::Metrics metrics{};
-    std::string rows{}; // CSV without a header: see rows.hpp; empty when none were to be kept
+    std::string rows{}; // CSV without a header: see replay.hpp; empty when none were to be kept
     std::optional<double> apart_m{}; // of a session that ends in silence
 };
 

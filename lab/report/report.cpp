@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/report.hpp"
 
-#include "lab/report/player.hpp"
-#include "lab/report/section.hpp"
-#include "lab/report/words.hpp"
+#include "lab/records/analysis_report.hpp"
+#include "lab/report/assets.hpp"
+#include "lab/report/figures.hpp"
+#include "lab/report/replays.hpp"
+#include "lab/results/table_text.hpp"
+#include "lab/results/verdicts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -14,204 +18,235 @@ namespace hapnet::lab::report {
 
 namespace {
 
-/// What a page can have, and how to make it.
-struct PartOfPage {
-    std::string_view what;
-    std::optional<Section> (*section)(const results::Results&);
-    std::string_view command; // up to the folder; empty: it comes with others
+using page::Json;
+using Results = results::Results;
+
+bool never(const Results&) { return false; }
+
+/// Whether anything stands against the paper.
+bool has_verdicts(const Results& results)
+{
+    const auto has = [](std::string_view key) {
+        return [key](const results::TableRow& row) { return !row.text(key).empty(); };
+    };
+    const auto limits = results.rows("limits");
+    return std::ranges::any_of(results.rows("table1"), has("verdict")) ||
+           std::ranges::any_of(limits, [&](const results::TableRow& row) {
+               return row.text("task") == results::worst_task && has("status")(row);
+           });
+}
+
+/// A section of a page. It is there where its table has rows.
+struct SectionKind {
+    std::string_view id;
+    std::string_view title;
+    std::string_view table{}; // empty: `is_there` says it
+    FigureGroups (*figures)(const Results&) = nullptr;
+    /// The command that makes what is missing, up to the folder; empty: it comes with others.
+    std::string_view what{};
+    std::string_view command{};
     std::string_view subfolder{};
+    bool (*is_there)(const Results&) = never;
 };
 
-constexpr std::array parts_of_page{
-    PartOfPage{"the demo", demo_section, ""},
-    PartOfPage{"the replay", replay_section, "scripts/table1.sh --out", "table1"},
-    PartOfPage{"recorded sessions", session_section, ""},
-    PartOfPage{"Table 1", table1_section, "scripts/table1.sh --out", "table1"},
-    PartOfPage{"Fig. 6a", fig6a_section, "scripts/fig6a.sh --out", "fig6a"},
-    PartOfPage{"Fig. 6b", fig6b_section, "scripts/fig6b.sh --out", "fig6b"},
-    PartOfPage{"the curves", curves_section, "scripts/fig6a.sh --out", "fig6a"},
-    PartOfPage{"how far a limit can be trusted", trust_section, "scripts/fig6a.sh --out", "fig6a"},
-    PartOfPage{"what accuracy costs", precision_section, ""},
-    PartOfPage{"what was not chosen", axis_section, ""},
-    PartOfPage{"conditions varied together", points_section, ""},
-    PartOfPage{"algorithms seed by seed", paired_section, ""},
-    PartOfPage{"Fig. 7", fig7_section, "scripts/fig7.sh --out", "fig7"},
-    PartOfPage{"what a network must offer", qos_section, "scripts/qos.sh --out", "qos"},
-    PartOfPage{"the closed-loop tasks", tasks_section, "scripts/table1.sh --out", "table1"},
-    PartOfPage{"real time", real_time_section, "scripts/table1.sh --real-time --out", "table1"},
-    PartOfPage{"what stands against the paper", claims_section, ""},
-    PartOfPage{"what is claimed beyond the paper", beyond_section, "scripts/beat.sh --out", "beat"},
-    PartOfPage{"how to repeat it", runs_section, ""}};
+constexpr std::array section_kinds{
+    SectionKind{.id = "demo",
+                .title = "The demo beside the paper’s Table 1",
+                .is_there = [](const Results& r) { return r.demo.has_value(); }},
+    SectionKind{.id = "replay",
+                .title = "Look at it",
+                .what = "the replay",
+                .command = "scripts/table1.sh --out",
+                .subfolder = "table1",
+                .is_there = [](const Results& r) { return !r.replays.empty(); }},
+    SectionKind{.id = "sessions",
+                .title = "The sessions",
+                .figures = session_figures,
+                .is_there = [](const Results& r) { return !r.sessions.empty(); }},
+    SectionKind{"table1", "Table 1: how far the two copies are apart", "table1", table1_figures,
+                "Table 1", "scripts/table1.sh --out", "table1"},
+    SectionKind{"fig6a", "Fig. 6a: tolerated delay and jitter", "limits", fig6a_figures, "Fig. 6a",
+                "scripts/fig6a.sh --out", "fig6a"},
+    SectionKind{"fig6b", "Fig. 6b: tolerated loss", "limits", fig6b_figures, "Fig. 6b",
+                "scripts/fig6b.sh --out", "fig6b"},
+    SectionKind{"curves", "The curves behind the limits", "curves", curves_figures, "the curves",
+                "scripts/fig6a.sh --out", "fig6a"},
+    SectionKind{"trust", "How far a limit can be trusted", "limits_by_convention", trust_figures,
+                "how far a limit can be trusted", "scripts/fig6a.sh --out", "fig6a"},
+    SectionKind{"precision", "What accuracy costs", "precision", precision_figures},
+    SectionKind{"axis", "What was not chosen, and what the paper leaves open", "limits_by_axis",
+                axis_figures},
+    SectionKind{"points", "Conditions varied together", "qos_by_point", points_figures},
+    SectionKind{"paired", "Algorithms seed by seed", "paired"},
+    SectionKind{"fig7", "Fig. 7: where each side has the cube", "trajectories", fig7_figures,
+                "Fig. 7", "scripts/fig7.sh --out", "fig7"},
+    SectionKind{"qos", "What a network must offer", "qos", qos_figures, "what a network must offer",
+                "scripts/qos.sh --out", "qos"},
+    SectionKind{"tasks", "The closed-loop tasks beside it", "tasks", tasks_figures,
+                "the closed-loop tasks", "scripts/table1.sh --out", "table1"},
+    SectionKind{"real-time", "Real time beside virtual time", "real_time", real_time_figures,
+                "real time", "scripts/table1.sh --real-time --out", "table1"},
+    SectionKind{.id = "claims",
+                .title = "What stands against the paper, and how it came about",
+                .is_there = has_verdicts},
+    SectionKind{"beyond", "What is claimed beyond the paper", "claims", nullptr,
+                "what is claimed beyond the paper", "scripts/beat.sh --out", "beat"},
+    SectionKind{.id = "runs", .title = "How to repeat it", .is_there = [](const Results& r) {
+                    return !r.runs.empty();
+                }}};
 
-/// The sections that there are, and what is missing.
-struct Contents {
-    std::vector<Section> sections;
-    std::vector<Json> missing;
-};
+/// The file whose rows a section's figures show; empty: a file of the page's own.
+std::string_view source_of(const SectionKind& kind)
+{
+    if (kind.id == "points") return "";
+    return kind.id == "tasks" ? "sessions" : kind.table;
+}
 
 /// What a page is about. A page about one thing does not replace one about another unnoticed.
-enum class Subject : std::uint8_t { experiments, demo, session };
-
-Subject subject_of(const results::Results& results)
+std::string subject_of(const Results& results)
 {
-    if (results.demo) return Subject::demo;
-    const bool has_sessions_only = !results.sessions.empty() && results.runs.empty();
-    return has_sessions_only ? Subject::session : Subject::experiments;
+    if (results.demo) return "demo";
+    return !results.sessions.empty() && results.runs.empty() ? "session" : "experiments";
 }
 
-std::string_view name_of(Subject subject)
-{
-    switch (subject) {
-    case Subject::experiments: return "experiments";
-    case Subject::demo: return "demo";
-    case Subject::session: return "session";
-    }
-    return "";
-}
-
-Contents contents_of(const results::Results& results, std::string_view folder)
-{
-    Contents contents;
-    const bool is_of_experiments = subject_of(results) == Subject::experiments;
-    for (const PartOfPage& part : parts_of_page) {
-        if (auto section = part.section(results)) {
-            contents.sections.push_back(*std::move(section));
-        } else if (!part.command.empty() && is_of_experiments) {
-            contents.missing.push_back(page::text_of(
-                {fmt::format("{}: ", part.what),
-                 page::code(fmt::format("{} {}/{}", part.command, folder, part.subfolder))}));
-        }
-    }
-    return contents;
-}
-
-std::string title_of(const results::Results& results)
+std::string title_of(const Results& results)
 {
     if (results.runs.size() == 1) {
-        const auto& manifest = results.runs.front().manifest;
-        const auto title = manifest.find("title");
-        if (title != manifest.end() && title->is_string()) return title->get<std::string>();
+        const auto title = results.runs.front().manifest.value("title", Json{});
+        if (title.is_string()) return title.get<std::string>();
     }
-    if (subject_of(results) != Subject::session) return "Two people, one cube, a bad network";
+    if (subject_of(results) != "session") return "Two people, one cube, a bad network";
     if (results.sessions.size() > 1) return "Recorded sessions";
     const std::string& task = results.sessions.front().task;
     return task.empty() ? "A recorded session" : "A recorded session of task " + task;
 }
 
-std::string_view lead_of(Subject subject)
+Json json_of(const std::vector<records::TextTable>& tables)
 {
-    switch (subject) {
-    case Subject::experiments:
-        return "Two simulated hands push one cube over a bad network; each computer has its own "
-               "copy of the cube, and this page shows how far the copies drift apart and when the "
-               "push stops feeling right, beside the paper’s numbers.";
-    case Subject::demo:
-        return "Two simulated hands push one cube through the emulator, over real UDP, under the "
-               "paper’s 160 ms. This page shows how far the two copies of the cube drift apart, "
-               "beside the paper’s numbers.";
-    case Subject::session:
-        return "Two hands push one cube over a network; each computer has its own copy of the "
-               "cube. This page shows what the two records say: how far the copies drift apart, "
-               "what the network did, and whether the run counts.";
+    Json list = Json::array();
+    for (const records::TextTable& table : tables) {
+        Json rows = Json::array();
+        for (const records::TextTable::Row& row : table.rows)
+            rows.push_back({{"name", row.name}, {"cells", row.cells}, {"note", row.note}});
+        list.push_back({{"caption", table.caption},
+                        {"unit", table.unit},
+                        {"heads", table.heads},
+                        {"rows", std::move(rows)},
+                        {"remarks", table.remarks}});
     }
-    return "";
+    return list;
 }
 
-/// Why a run is not valid.
-void add_reasons(std::vector<Json>& reasons, const results::Run& run)
+Json sessions_of(const Results& results)
 {
-    if (run.is_valid()) return;
-    const auto add = [&](const std::string& why) {
-        reasons.emplace_back(fmt::format("{}: {}", run.folder, why));
-    };
-    const auto found = run.manifest.find("invalid_because");
-    if (found == run.manifest.end() || !found->is_array() || found->empty()) {
-        // Each row of the sessions over real UDP says it for itself.
-        const bool is_real_time = run.manifest.value("kind", Json{}) == "real-time";
-        add(is_real_time ? "not every session over real UDP kept its timing" : "does not say why");
-        return;
+    Json list = Json::array();
+    for (const results::RecordedSession& session : results.sessions) {
+        list.push_back({{"peers", {session.peer_a, session.peer_b}},
+                        {"algorithm", session.algorithm},
+                        {"valid", session.analysis.valid()},
+                        {"invalid_because", session.analysis.invalid_because},
+                        {"tables", json_of(tables_of(session.analysis))},
+                        {"clock", clock_text(session.analysis.clock)}});
     }
-    for (const auto& reason : *found)
-        add(reason.is_string() ? reason.get<std::string>() : reason.dump());
+    return list;
 }
 
-/// The banner that says whether the results are valid, and why not. null for recorded sessions:
-/// their own sections say it.
-Json validity(const results::Results& results)
+Json runs_of(const Results& results)
 {
-    std::vector<Json> reasons;
-    for (const results::Run& run : results.runs) add_reasons(reasons, run);
-    if (!reasons.empty()) {
-        return page::banner(
-            "missed", page::text_of({page::bold("Not valid."), " These numbers do not count:"}),
-            std::move(reasons));
-    }
-    if (!results.runs.empty()) {
-        return page::banner(
-            "met", page::text_of({page::bold("Valid."), " All runs completed and passed their own "
-                                                        "validity checks."}));
-    }
-    if (subject_of(results) == Subject::session) return nullptr;
-    return page::banner("", "There is no manifest.json: it is not known how these numbers came "
-                            "about and whether they are valid.");
+    Json list = Json::array();
+    for (const results::Run& run : results.runs)
+        list.push_back({{"folder", run.folder}, {"manifest", run.manifest}});
+    return list;
 }
 
-Json tile(std::size_t count, std::string_view text, std::string_view style)
+/// The tables that a page shows, and not only draws.
+Json tables_of(const Results& results)
 {
-    return Json::object({{"count", count}, {"text", text}, {"style", style}});
+    constexpr std::array<std::string_view, 10> are_shown{
+        "table1", "tasks",     "limits",           "limits_by_convention", "paired",
+        "claims", "precision", "claims_quantiles", "claim_sessions",       "real_time"};
+    std::vector<results::Table> tables;
+    for (const std::string_view name : are_shown)
+        if (!results.table(name).is_empty()) tables.push_back(results.table(name));
+    return Json::parse(results::json_text(tables)).at("tables");
 }
 
-/// The number of results for each verdict against the paper; null where there are none.
-Json tiles_of(const Claims& claims)
-{
-    if (claims.are_none()) return nullptr;
-    Json block = Json::object();
-    block["tiles"] = Json::array({tile(claims.calibrated.size(), "calibrated", "calibrated"),
-                                  tile(claims.selected.size() + claims.by_construction.size(),
-                                       "selected, or by construction", "seen"),
-                                  tile(claims.met.size(), "predicted and met", "met"),
-                                  tile(claims.undecided.size(), "undecided", "seen"),
-                                  tile(claims.missed.size(), "missed", "missed")});
-    return block;
-}
-
-page::Page page_of(const results::Results& results, Contents contents)
-{
-    const Subject subject = subject_of(results);
-    page::Page page{std::string{name_of(subject)}, title_of(results),
-                    std::string{lead_of(subject)}};
-    for (Json block : {validity(results), tiles_of(main_claims(results))})
-        if (!block.is_null()) page.head.push_back(std::move(block));
-    page.sections = std::move(contents.sections);
-    if (!contents.missing.empty()) {
-        auto& section = page.sections.emplace_back(page::Section{"missing", "Not in this folder"});
-        section.add(page::paragraph("These commands make the rest; report the folder again "
-                                    "afterwards."));
-        section.add(page::list_of(std::move(contents.missing)));
-    }
-    if (subject != Subject::session) {
-        page.foot = "The hands are simulated. A verdict is a calibrated convention, not a finding "
-                    "about people.";
-    }
-    page.replays = replays_of(results);
-    return page;
-}
-
-/// Writes the numbers of the figures that no result file has.
-std::vector<results::File> tables_of(std::vector<page::Section>& sections)
-{
-    std::vector<results::File> files;
-    for (page::Section& section : sections) {
-        for (page::Figure& figure : section.figures) {
-            const bool is_map = std::holds_alternative<page::HeatMap>(figure.content);
-            if (!figure.sources.empty() || is_map) continue;
-            const std::string path = fmt::format("figures/{}.csv", figure.id);
-            files.push_back({path, page::csv_of(json_of(figure))});
-            figure.sources = {path};
+/// A page on its way: its data, and its figures' own files.
+class PageData {
+public:
+    PageData(const Results& results, std::string_view folder) : results_{results}
+    {
+        Json sections = Json::array(), missing = Json::array();
+        for (const SectionKind& kind : section_kinds) {
+            if (auto section = section_of(kind); !section.is_null()) {
+                sections.push_back(std::move(section));
+            } else if (!kind.command.empty()) {
+                missing.push_back(
+                    {{"what", kind.what},
+                     {"command", fmt::format("{} {}/{}", kind.command, folder, kind.subfolder)}});
+            }
         }
+        data_ = {{"subject", subject_of(results)},
+                 {"title", title_of(results)},
+                 {"sections", std::move(sections)},
+                 {"missing", subject_of(results) == "experiments" ? missing : Json::array()},
+                 {"runs", runs_of(results)},
+                 {"tables", tables_of(results)},
+                 {"sessions", sessions_of(results)}};
+        if (results.demo) data_["demo"] = json_of(demo_tables(*results.demo));
+        data_["figures"] = std::move(figures_);
+        if (!results.replays.empty()) data_["replays"] = replays_of(results);
     }
-    return files;
-}
+
+    std::vector<results::File> files() &&
+    {
+        std::vector<page::Asset> assets;
+        for (const page::Asset& asset : lab_assets()) {
+            const bool is_layout =
+                std::ranges::find(layout_modules, asset.name) != layout_modules.end();
+            if (is_layout || data_.contains("replays")) assets.push_back(asset);
+        }
+        files_.insert(files_.begin(), {"report.html", page::html_of(data_, assets)});
+        return std::move(files_);
+    }
+
+private:
+    /// null: it has no data.
+    Json section_of(const SectionKind& kind)
+    {
+        if (kind.table.empty() ? !kind.is_there(results_) : results_.table(kind.table).is_empty())
+            return nullptr;
+        const auto groups = kind.figures == nullptr ? FigureGroups{} : kind.figures(results_);
+        if (kind.figures != nullptr && groups.empty()) return nullptr;
+        Json list = Json::array();
+        for (const FigureGroup& group : groups) {
+            Json names = Json::array();
+            for (const page::Figure& figure : group.figures) {
+                names.push_back(figure.id);
+                add(figure, results_.files_of(source_of(kind)));
+            }
+            list.push_back({{"title", group.title}, {"figures", std::move(names)}});
+        }
+        const bool is_one = kind.id == "sessions" && results_.sessions.size() == 1;
+        return {{"id", kind.id}, {"title", is_one ? "The session" : kind.title}, {"groups", list}};
+    }
+
+    /// A figure whose numbers no result file has gets a file of its own.
+    void add(page::Figure figure, std::vector<std::string> sources)
+    {
+        if (figure.sources.empty()) figure.sources = std::move(sources);
+        if (figure.sources.empty() && !std::holds_alternative<page::HeatMap>(figure.content)) {
+            figure.sources = {fmt::format("figures/{}.csv", figure.id)};
+            files_.push_back({figure.sources.front(), page::csv_of(page::json_of(figure))});
+        }
+        figures_.push_back(page::json_of(figure));
+    }
+
+    const Results& results_;
+    Json figures_ = Json::array();
+    Json data_;
+    std::vector<results::File> files_;
+};
 
 } // namespace
 
@@ -226,21 +261,7 @@ std::string_view page_subject(std::string_view page)
 
 std::vector<results::File> report_of(const results::Results& results, std::string_view folder)
 {
-    page::Page page = page_of(results, contents_of(results, folder));
-    std::vector<results::File> tables = tables_of(page.sections);
-    const auto player = page.replays.is_null() ? std::span<const page::Asset>{} : player_assets();
-    std::vector<results::File> files{{"report.html", html_of(page, player)}};
-    files.insert(files.end(), tables.begin(), tables.end());
-    return files;
-}
-
-std::vector<std::string> files_named(const results::Results& results, std::string_view name)
-{
-    std::vector<std::string> files;
-    for (const std::string& file : results.files) {
-        if (file.substr(file.rfind('/') + 1) == name) files.push_back(file);
-    }
-    return files;
+    return PageData{results, folder}.files();
 }
 
 } // namespace hapnet::lab::report

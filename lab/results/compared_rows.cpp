@@ -36,34 +36,30 @@ bool is_condition(std::string_view column)
     return std::ranges::find(measures, column) == measures.end() && column != "tier";
 }
 
-/// The sessions of a file by the cells of their conditions.
+/// The sessions of a table by the texts of their conditions.
 struct Sessions {
-    std::vector<std::string> conditions; // columns
-    std::vector<std::string> measured;   // columns
-    std::map<std::vector<std::string>, std::vector<std::string>> cells{};
-    std::vector<std::vector<std::string>> order{}; // of the file
+    const Table& table;
+    std::vector<std::string> conditions{}; // columns
+    std::map<std::vector<std::string>, TableRow> rows{};
+    std::vector<std::vector<std::string>> order{}; // of the table
 };
 
-base::Result<Sessions> read_sessions(const File& file)
+base::Result<Sessions> sessions_in(const SessionsTable& of)
 {
-    const auto table = base::parse_csv(file.text, file.path);
-    if (!table) return tl::unexpected{table.error()};
-    Sessions sessions;
-    for (const std::string& column : table->columns)
-        (is_condition(column) ? sessions.conditions : sessions.measured).push_back(column);
+    Sessions sessions{of.table};
+    for (const Column& column : of.table.columns)
+        if (is_condition(column.key)) sessions.conditions.push_back(column.key);
     for (const char* column : {"algorithm", "task", "seed"}) {
-        if (std::ranges::find(sessions.conditions, column) != sessions.conditions.end()) continue;
-        return base::fail(fmt::format("{}:1: there is no column '{}': compare takes the sessions "
+        if (of.table.place_of(column)) continue;
+        return base::fail(fmt::format("{}: there is no column '{}': compare takes the sessions "
                                       "of two folders of results",
-                                      file.path, column));
+                                      of.path, column));
     }
-    for (const base::CsvTable::Line& line : table->lines) {
-        std::vector<std::string> key, cells;
-        for (std::size_t i = 0; i < table->columns.size(); ++i)
-            (is_condition(table->columns[i]) ? key : cells).push_back(line.cells[i]);
-        if (!sessions.cells.emplace(key, std::move(cells)).second) {
-            return base::fail(
-                fmt::format("{}:{}: the session is there already", file.path, line.number));
+    for (const TableRow& row : rows_of(of.table)) {
+        std::vector<std::string> key;
+        for (const std::string& column : sessions.conditions) key.push_back(row.text(column));
+        if (!sessions.rows.emplace(key, row).second) {
+            return base::fail(fmt::format("{}: '{}' is there twice", of.path, fmt::join(key, ",")));
         }
         sessions.order.push_back(std::move(key));
     }
@@ -112,46 +108,43 @@ private:
     std::vector<std::size_t> telling_;
 };
 
-/// The sessions of both files that a row is of, by the cells that they are measured by.
-using Cells = std::vector<std::string>;
-using CommonSessions = std::vector<std::pair<const Cells*, const Cells*>>;
+/// The sessions of both tables that a row is of.
+using CommonSessions = std::vector<std::pair<TableRow, TableRow>>;
 
-/// Nothing where neither file has numbers.
-void add_rows(const ComparedRow& named, const CommonSessions& pairs, const Sessions& a,
-              const Sessions& b, std::vector<ComparedRow>& rows)
+/// Sessions that are compared together.
+struct SessionGroup {
+    std::string algorithm;
+    std::string task;
+    std::string conditions;
+    CommonSessions pairs{};
+};
+
+/// Nothing where neither table has numbers.
+void add_rows(const SessionGroup& group, Table& table)
 {
     for (const std::string_view measure : measures) {
-        const auto in_a = place_of(a.measured, measure), in_b = place_of(b.measured, measure);
-        if (in_a == a.measured.size() || in_b == b.measured.size()) continue;
         std::vector<double> of_a, of_b;
-        for (const auto& [cells_a, cells_b] : pairs) {
-            double x = 0.0, y = 0.0;
-            if (!base::read_cell((*cells_a)[in_a], x) || !base::read_cell((*cells_b)[in_b], y))
-                continue;
-            of_a.push_back(x);
-            of_b.push_back(y);
+        for (const auto& [a, b] : group.pairs) {
+            const auto x = a.number(measure), y = b.number(measure);
+            if (!x || !y) continue;
+            of_a.push_back(*x);
+            of_b.push_back(*y);
         }
         if (of_a.empty()) continue;
         const auto test = metrics::paired_test(of_b, of_a);
-        ComparedRow& row = rows.emplace_back(named);
-        row.measure = measure;
-        row.sessions = test.seeds;
-        row.median_a = metrics::median_of(of_a);
-        row.median_b = metrics::median_of(of_b);
-        row.difference = test.median;
-        row.ci_low = test.interval.low;
-        row.ci_high = test.interval.high;
-        row.sign_test_p = test.p;
+        table.add(group.algorithm, group.task, group.conditions, measure, test.seeds,
+                  metrics::median_of(of_a), metrics::median_of(of_b), test.median,
+                  test.interval.low, test.interval.high, test.p);
     }
 }
 
 } // namespace
 
-base::Result<std::vector<ComparedRow>> compare_sessions(const File& a, const File& b)
+base::Result<Table> compare_sessions(const SessionsTable& a, const SessionsTable& b)
 {
-    const auto of_a = read_sessions(a);
+    const auto of_a = sessions_in(a);
     if (!of_a) return tl::unexpected{of_a.error()};
-    const auto of_b = read_sessions(b);
+    const auto of_b = sessions_in(b);
     if (!of_b) return tl::unexpected{of_b.error()};
     if (of_a->conditions != of_b->conditions) {
         return base::fail(fmt::format("{} and {} name their sessions by other columns: {}; and {}",
@@ -161,35 +154,29 @@ base::Result<std::vector<ComparedRow>> compare_sessions(const File& a, const Fil
     const auto algorithm = place_of(of_a->conditions, "algorithm");
     const auto task = place_of(of_a->conditions, "task");
     const ConditionNames names{*of_a};
-    std::vector<std::pair<ComparedRow, CommonSessions>> groups; // as they come
-    const auto group_of = [&](const ComparedRow& named) -> CommonSessions& {
-        for (auto& [row, pairs] : groups) {
-            if (row.algorithm == named.algorithm && row.task == named.task &&
-                row.conditions == named.conditions) {
-                return pairs;
-            }
-        }
-        return groups.emplace_back(named, CommonSessions{}).second;
+    std::vector<SessionGroup> groups; // as they come
+    const auto group_of = [&](const std::vector<std::string>& key, const std::string& conditions) {
+        const auto found = std::ranges::find_if(groups, [&](const SessionGroup& group) {
+            return group.algorithm == key[algorithm] && group.task == key[task] &&
+                   group.conditions == conditions;
+        });
+        if (found != groups.end()) return &found->pairs;
+        return &groups.emplace_back(SessionGroup{key[algorithm], key[task], conditions}).pairs;
     };
     for (const auto& key : of_a->order) {
-        const auto other = of_b->cells.find(key);
-        if (other == of_b->cells.end()) continue;
-        const std::pair pair{&of_a->cells.at(key), &other->second};
-        ComparedRow named;
-        named.algorithm = key[algorithm];
-        named.task = key[task];
-        if (!names.is_one()) {
-            named.conditions = all_conditions;
-            group_of(named).push_back(pair);
-            named.conditions = names.name(key);
-        }
-        group_of(named).push_back(pair);
+        const auto other = of_b->rows.find(key);
+        if (other == of_b->rows.end()) continue;
+        const std::pair pair{of_a->rows.at(key), other->second};
+        if (!names.is_one()) group_of(key, all_conditions)->push_back(pair);
+        group_of(key, names.name(key))->push_back(pair);
     }
     if (groups.empty())
         return base::fail(fmt::format("{} and {} have no session in common", a.path, b.path));
-    std::vector<ComparedRow> rows;
-    for (const auto& [named, pairs] : groups) add_rows(named, pairs, *of_a, *of_b, rows);
-    return rows;
+    Table table{"compared",
+                columns_in("algorithm,task,conditions,measure,sessions,median_a:4,median_b:4,"
+                           "difference:4,ci_low:4,ci_high:4,sign_test_p")};
+    for (const SessionGroup& group : groups) add_rows(group, table);
+    return table;
 }
 
 } // namespace hapnet::lab::results

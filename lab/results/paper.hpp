@@ -5,7 +5,7 @@
 #include "lab/experiment/impairment.hpp"
 #include "lab/metrics/psychometric.hpp"
 #include "lab/metrics/spread.hpp"
-#include "lab/results/rows.hpp"
+#include "lab/results/verdicts.hpp"
 
 #include <limits>
 #include <optional>

@@ -3,32 +3,38 @@
 #pragma once
 
 #include "lab/experiment/experiment.hpp"
+#include "lab/results/table.hpp"
 
 #include <cstdint>
 #include <optional>
-#include <spdlog/fmt/fmt.h>
 #include <string>
 
 namespace hapnet::lab::results {
 
-// How many played, and where: columns of a table in which that is not two in the task's own scene.
-
-/// Fills the columns of a row.
-template <typename Row>
-void note_party(const experiment::Experiment& experiment, const experiment::Party& party, Row& row)
+/// How many played, and where: the last columns of a table in which that is not two in the task's
+/// own scene.
+struct PartyCells {
+    std::optional<std::uint32_t> peers{};
+    std::optional<std::string> scene{};
+};
+[[nodiscard]] inline PartyCells party_cells(const experiment::Experiment& experiment,
+                                            const experiment::Party& party)
 {
+    PartyCells cells;
     const bool are_always_two = experiment.peers.size() == 1 && experiment.peers.front() == 2;
-    if (!are_always_two) row.peers = party.peers;
-    if (party.scene) row.scene = experiment.scenes[*party.scene].name;
+    if (!are_always_two) cells.peers = party.peers;
+    if (party.scene) cells.scene = experiment.scenes[*party.scene].name;
+    return cells;
 }
 
+inline constexpr std::string_view party_columns = "peers?,scene?";
+
 /// The algorithm of a row as a page names it: "base, 3 peers, carry".
-template <typename Row>
-[[nodiscard]] std::string algorithm_and_party(const Row& row)
+[[nodiscard]] inline std::string algorithm_and_party(const TableRow& row)
 {
-    std::string name = row.algorithm;
-    if (row.peers) name += fmt::format(", {} peers", *row.peers);
-    if (row.scene) name += ", " + *row.scene;
+    std::string name = row.text("algorithm");
+    if (const auto peers = row.text("peers"); !peers.empty()) name += ", " + peers + " peers";
+    if (const auto scene = row.text("scene"); !scene.empty()) name += ", " + scene;
     return name;
 }
 

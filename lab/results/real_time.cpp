@@ -5,7 +5,6 @@
 #include "device/governor/limits.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "lab/metrics/metrics.hpp"
-#include "lab/results/rows.hpp"
 #include "peer/core/peer.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/fields_json.hpp"
@@ -208,29 +207,25 @@ RealTimeResult result_of(const RealTimeSession& session, const virtual_time::Tra
     return result;
 }
 
-std::string real_time_csv(std::span<const RealTimeResult> results)
+Table real_time_rows(std::span<const RealTimeResult> results)
 {
-    std::vector<RealTimeRow> rows;
-    for (const RealTimeResult& result : results) {
-        RealTimeRow row{.algorithm = result.algorithm,
-                        .where = result.where,
-                        .difference_percent = result.difference_percent(),
-                        .is_valid = result.valid(),
-                        .invalid_because =
-                            fmt::format("{}", fmt::join(result.invalid_because, "; "))};
-        if (const auto& mm = result.real_mm) {
-            row.mean_mm = mm->mean;
-            row.std_mm = mm->std;
-            row.max_mm = mm->max;
-        }
-        if (const auto& mm = result.virtual_mm) {
-            row.virtual_mean_mm = mm->mean;
-            row.virtual_std_mm = mm->std;
-            row.virtual_max_mm = mm->max;
-        }
-        rows.push_back(std::move(row));
+    Table table{"real_time",
+                columns_in("algorithm,where,mean_mm:4,std_mm:4,max_mm:4,virtual_mean_mm:4,"
+                           "virtual_std_mm:4,virtual_max_mm:4,difference_percent:2,valid,"
+                           "invalid_because")};
+    const auto part = [](const std::optional<metrics::Spread>& spread,
+                         double metrics::Spread::*value) {
+        return spread ? std::optional{(*spread).*value} : std::nullopt;
+    };
+    for (const RealTimeResult& one : results) {
+        using metrics::Spread;
+        table.add(one.algorithm, one.where, part(one.real_mm, &Spread::mean),
+                  part(one.real_mm, &Spread::std), part(one.real_mm, &Spread::max),
+                  part(one.virtual_mm, &Spread::mean), part(one.virtual_mm, &Spread::std),
+                  part(one.virtual_mm, &Spread::max), one.difference_percent(), one.valid(),
+                  fmt::format("{}", fmt::join(one.invalid_because, "; ")));
     }
-    return base::csv_text(rows);
+    return table;
 }
 
 std::string real_time_table(std::span<const RealTimeResult> results)

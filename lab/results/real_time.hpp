@@ -5,6 +5,7 @@
 #include "lab/metrics/spread.hpp"
 #include "lab/results/manifest.hpp"
 #include "lab/results/session_files.hpp"
+#include "lab/results/table.hpp"
 #include "lab/virtual_time/setting.hpp"
 #include "lab/virtual_time/trace.hpp"
 #include "proto/base/reading.hpp"
@@ -66,8 +67,8 @@ struct RealTimeResult {
 [[nodiscard]] RealTimeResult result_of(const RealTimeSession& session,
                                        const virtual_time::Trace& twin);
 
-/// real_time.csv.
-[[nodiscard]] std::string real_time_csv(std::span<const RealTimeResult> results);
+/// The table real_time.
+[[nodiscard]] Table real_time_rows(std::span<const RealTimeResult> results);
 /// The same as lines of text for a person, who also learns which results agree within 5 %.
 [[nodiscard]] std::string real_time_table(std::span<const RealTimeResult> results);
 

@@ -5,15 +5,14 @@
 #include "lab/records/recorded_trace.hpp"
 #include "lab/results/party_columns.hpp"
 #include "lab/results/several.hpp"
+#include "lab/results/table_text.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <iterator>
-#include <map>
 #include <spdlog/fmt/fmt.h>
-#include <type_traits>
 #include <utility>
 
 namespace hapnet::lab::results {
@@ -52,158 +51,130 @@ Outcome add_run(const File& file, Results& results)
     return {};
 }
 
-template <typename Value>
-Outcome append(std::vector<Value>& all, base::Result<std::vector<Value>> rows)
-{
-    if (!rows) return tl::unexpected{rows.error()};
-    all.insert(all.end(), std::make_move_iterator(rows->begin()),
-               std::make_move_iterator(rows->end()));
-    return {};
-}
-
-Outcome add_replay(const File& file, Results& results)
-{
-    auto replay = read_replay(file);
-    if (!replay) return tl::unexpected{replay.error()};
-    results.replays.push_back(*std::move(replay));
-    return {};
-}
-
-struct FileKind {
+/// What is done with a table of some name.
+struct TableRule {
     std::string_view name;
-    Outcome (*add)(const File&, Results&);
+    std::vector<std::string_view> keys{}; // what no two rows may have alike; none: anything
+    bool is_ranked = false;               // base first
+    bool has_parties = false;             // a page compares parties as it compares algorithms
 };
 
-/// A file whose rows are kept as they are read.
-template <auto rows>
-Outcome add_rows(const File& file, Results& results)
+const std::vector<TableRule>& table_rules()
 {
-    using Row = typename std::remove_reference_t<decltype(results.*rows)>::value_type;
-    auto read = base::read_csv<Row>(file.text, file.path);
-    if constexpr (requires(Row row) { row.peers; }) {
-        // A page compares parties as it compares algorithms.
-        for (std::size_t i = 0; read && i < read->size(); ++i)
-            (*read)[i].algorithm = algorithm_and_party((*read)[i]);
+    static const std::vector<TableRule> rules{
+        {"table1", {"algorithm"}, true},
+        {"tasks", {"algorithm", "task"}, true},
+        {"limits", {"algorithm", "impairment", "task"}, true, true},
+        {"limits_by_convention", {}, true, true},
+        {"curves", {}, true, true},
+        {"trajectories", {}, true},
+        {"qos", {"algorithm", "task", "delay_ms", "jitter_ms", "loss_percent"}, true, true},
+        {"qos_by_point", {}, false, true},
+        {"real_time", {}, true}};
+    return rules;
+}
+
+/// Of Table 1, which plays P1 and all else on one network; others are not shown one by one.
+bool are_of_table1(const Table& sessions)
+{
+    const Rows rows = rows_of(sessions);
+    const auto is_p1 = [](const TableRow& row) { return row.text("task") == "P1"; };
+    return std::ranges::any_of(rows, is_p1) && std::ranges::all_of(rows, [&](const TableRow& row) {
+               return row.text("network") == rows.front().text("network");
+           });
+}
+
+/// Gives sessions of claims a name of their own. False: the table is not shown.
+bool is_shown(Table& table)
+{
+    if (table.name != "sessions") return true;
+    const bool is_of_claims = table.place_of("condition").has_value();
+    if (is_of_claims) table.name = "claim_sessions";
+    return is_of_claims || are_of_table1(table);
+}
+
+Outcome add_table(Table table, Results& results)
+{
+    if (table.name.starts_with("replay/")) {
+        auto replay = replay_of(table);
+        if (!replay) return tl::unexpected{replay.error()};
+        results.replays.push_back(*std::move(replay));
+        return {};
     }
-    return append(results.*rows, std::move(read));
-}
-
-/// Those of Table 1, which plays P1 and all else on one network, and those of claims, which have
-/// columns of their own; others are not shown one by one.
-Outcome add_sessions(const File& file, Results& results)
-{
-    const std::string_view header = std::string_view{file.text}.substr(0, file.text.find('\n'));
-    if (header.find("condition") != std::string_view::npos) {
-        return append(results.claim_sessions,
-                      base::read_csv<ClaimSessionRow>(file.text, file.path));
+    const auto known = std::ranges::find(results.tables, table.name, &Table::name);
+    if (known == results.tables.end()) {
+        results.tables.push_back(std::move(table));
+    } else {
+        append(*known, table);
     }
-    if (header.find("network") == std::string_view::npos) return {};
-    auto rows = base::read_csv<SessionRow>(file.text, file.path);
-    if (!rows) return tl::unexpected{rows.error()};
-    const auto is_other = [&](const SessionRow& row) {
-        return row.network != rows->front().network;
-    };
-    const bool has_p1 = std::ranges::find(*rows, "P1", &SessionRow::task) != rows->end();
-    if (!has_p1 || std::ranges::any_of(*rows, is_other)) return {};
-    return append(results.rows_of_sessions, std::move(rows));
+    return {};
 }
 
-Outcome add_points(const File& file, Results& results)
+Outcome add_tables(const File& file, Results& results)
 {
-    auto rows = base::read_csv<PointQosRow>(file.text, file.path);
-    if (rows)
-        for (PointQosRow& row : *rows) row.cell.algorithm = algorithm_and_party(row.cell);
-    return append(results.qos_by_point, std::move(rows));
-}
-
-constexpr std::array kinds{FileKind{"manifest.json", add_run},
-                           FileKind{"sessions.csv", add_sessions},
-                           FileKind{"paired.csv", add_rows<&Results::paired>},
-                           FileKind{"precision.csv", add_rows<&Results::precision>},
-                           FileKind{"limits_by_axis.csv", add_rows<&Results::limits_by_axis>},
-                           FileKind{"table1.csv", add_rows<&Results::table1>},
-                           FileKind{"tasks.csv", add_rows<&Results::tasks>},
-                           FileKind{"limits.csv", add_rows<&Results::limits>},
-                           FileKind{"limits_by_convention.csv", add_rows<&Results::sensitivity>},
-                           FileKind{"curves.csv", add_rows<&Results::curves>},
-                           FileKind{"trajectories.csv",
-                                    [](const File& f, Results& r) {
-                                        return append(r.trajectories, read_trajectories(f));
-                                    }},
-                           FileKind{"qos.csv", add_rows<&Results::qos>},
-                           FileKind{"qos_by_point.csv", add_points},
-                           FileKind{"claims.csv", add_rows<&Results::claims>},
-                           FileKind{"claims_quantiles.csv", add_rows<&Results::claims_quantiles>},
-                           FileKind{"real_time.csv", add_rows<&Results::real_time>}};
-
-constexpr FileKind replay_kind{"*.csv", add_replay};
-
-const FileKind* kind_of(std::string_view path)
-{
-    const auto folder = folder_of(path);
-    if (file_name_of(folder) == "replay" && path.ends_with(".csv")) return &replay_kind;
-    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const FileKind& kind) {
-        return kind.name == file_name_of(path);
-    });
-    return found == kinds.end() ? nullptr : &*found;
+    auto tables = read_tables(file.text, file.path);
+    if (!tables) return tl::unexpected{tables.error()};
+    const auto folder = folder_of(file.path);
+    for (Table& table : *tables) {
+        const auto path = fmt::format("{}{}{}.csv", folder, folder.empty() ? "" : "/", table.name);
+        if (!is_shown(table)) continue;
+        results.files.push_back({table.name, path});
+        const auto added = add_table(std::move(table), results);
+        if (!added) return base::fail(fmt::format("{}: {}", file.path, added.error().message));
+    }
+    return {};
 }
 
 /// Says which rows give one thing twice.
-template <typename Value, typename Name>
-Outcome require_once(const std::vector<Value>& rows, std::string_view file, const Name& name)
+Outcome require_once(std::string_view file, std::vector<std::string> names)
 {
-    std::map<std::string, int> counts;
-    for (const Value& row : rows) {
-        const std::string one = name(row);
-        if (++counts[one] == 1) continue;
-        return base::fail(fmt::format("{} has '{}' twice, perhaps in two folders: report one at a "
-                                      "time",
-                                      file, one));
-    }
-    return {};
-}
-
-Outcome require_each_once(const Results& results)
-{
-    return require_once(results.table1, "table1.csv",
-                        [](const Table1Row& row) { return row.algorithm; })
-        .and_then([&] {
-            return require_once(results.tasks, "tasks.csv", [](const TaskRow& row) {
-                return row.algorithm + " in " + row.task;
-            });
-        })
-        .and_then([&] {
-            return require_once(results.limits, "limits.csv", [](const LimitRow& row) {
-                return row.algorithm + ", " + row.impairment + ", " + row.task;
-            });
-        })
-        .and_then([&] {
-            return require_once(results.qos, "qos.csv", [](const QosRow& row) {
-                return fmt::format("{}, {}, {} ms, {} ms, {} %", row.algorithm, row.task,
-                                   row.delay_ms, row.jitter_ms, row.loss_percent);
-            });
-        })
-        .and_then([&] {
-            return require_once(results.replays, "replay/", [](const Replay& replay) {
-                return replay.algorithm + "-" + replay.task;
-            });
-        });
+    std::ranges::sort(names);
+    const auto twice = std::ranges::adjacent_find(names);
+    if (twice == names.end()) return {};
+    return base::fail(fmt::format("{} has '{}' twice, perhaps in two folders: report one at a time",
+                                  file, *twice));
 }
 
 /// Base first, then the others as the paper names them, then what it does not know.
 std::size_t rank(std::string_view algorithm)
 {
     constexpr std::array<std::string_view, 3> known{"base", "sep", "dead-reckoning"};
-    return static_cast<std::size_t>(std::find(known.begin(), known.end(), algorithm) -
-                                    known.begin());
+    return static_cast<std::size_t>(std::ranges::find(known, algorithm) - known.begin());
 }
 
-template <typename Value>
-void put_in_order(std::vector<Value>& rows)
+Outcome put_in_order(Table& table, const TableRule& rule)
 {
-    std::stable_sort(rows.begin(), rows.end(), [](const Value& a, const Value& b) {
-        return rank(a.algorithm) < rank(b.algorithm);
-    });
+    const auto algorithm = table.place_of("algorithm");
+    if (!algorithm) return base::fail(table.name + " has no column 'algorithm'");
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        if (rule.has_parties) table.rows[i][*algorithm] = algorithm_and_party(TableRow{table, i});
+        std::string name;
+        for (const std::string_view key : rule.keys)
+            name += (name.empty() ? "" : ", ") + TableRow{table, i}.text(key);
+        names.push_back(std::move(name));
+    }
+    if (rule.is_ranked) {
+        std::ranges::stable_sort(table.rows, {}, [&](const std::vector<Cell>& row) {
+            return rank(to_text(row[*algorithm]));
+        });
+    }
+    return rule.keys.empty() ? Outcome{} : require_once(table.name + ".csv", std::move(names));
+}
+
+Outcome put_in_order(Results& results)
+{
+    for (const TableRule& rule : table_rules()) {
+        const auto table = std::ranges::find(results.tables, rule.name, &Table::name);
+        if (table == results.tables.end()) continue;
+        if (auto fine = put_in_order(*table, rule); !fine) return fine;
+    }
+    std::vector<std::string> names;
+    for (const Replay& replay : results.replays)
+        names.push_back(replay.algorithm + "-" + replay.task);
+    std::ranges::stable_sort(results.replays, {},
+                             [](const Replay& replay) { return rank(replay.algorithm); });
+    return require_once("replay/", std::move(names));
 }
 
 constexpr std::uint32_t replay_rows_per_s = 100;
@@ -264,6 +235,21 @@ bool Run::is_valid() const
     return found != manifest.end() && found->is_boolean() && found->get<bool>();
 }
 
+const Table& Results::table(std::string_view name) const
+{
+    static const Table none;
+    const auto found = std::ranges::find(tables, name, &Table::name);
+    return found == tables.end() ? none : *found;
+}
+
+std::vector<std::string> Results::files_of(std::string_view name) const
+{
+    std::vector<std::string> found;
+    for (const TableFile& file : files)
+        if (file.table == name) found.push_back(file.path);
+    return found;
+}
+
 std::optional<metrics::Criteria> Results::criteria() const
 {
     if (runs.empty()) return std::nullopt;
@@ -307,8 +293,6 @@ base::Result<void> add_session(Results& results, const std::string& name,
     return {};
 }
 
-bool is_result_file(std::string_view path) { return kind_of(path) != nullptr; }
-
 base::Result<Results> read_results(std::span<const File> files)
 {
     std::vector<const File*> ordered;
@@ -317,22 +301,12 @@ base::Result<Results> read_results(std::span<const File> files)
               [](const File* a, const File* b) { return a->path < b->path; });
     Results results;
     for (const File* file : ordered) {
-        const FileKind* kind = kind_of(file->path);
-        if (kind == nullptr) continue;
-        const auto added = kind->add(*file, results);
+        const bool is_manifest = file_name_of(file->path) == "manifest.json";
+        const auto added = is_manifest ? add_run(*file, results) : add_tables(*file, results);
         if (!added) return tl::unexpected{added.error()};
     }
-    const auto once = require_each_once(results);
-    if (!once) return tl::unexpected{once.error()};
-    put_in_order(results.table1);
-    put_in_order(results.tasks);
-    put_in_order(results.limits);
-    put_in_order(results.sensitivity);
-    put_in_order(results.curves);
-    put_in_order(results.trajectories);
-    put_in_order(results.qos);
-    put_in_order(results.real_time);
-    put_in_order(results.replays);
+    const auto ordered_well = put_in_order(results);
+    if (!ordered_well) return tl::unexpected{ordered_well.error()};
     return results;
 }
 

@@ -5,17 +5,17 @@
 #include "lab/metrics/criteria.hpp"
 #include "lab/records/analysis.hpp"
 #include "lab/records/curves.hpp"
-#include "lab/results/claim_rows.hpp"
 #include "lab/results/demo.hpp"
-#include "lab/results/precision_rows.hpp"
-#include "lab/results/rows.hpp"
-#include "lab/results/session_rows.hpp"
+#include "lab/results/file.hpp"
+#include "lab/results/replay.hpp"
+#include "lab/results/table.hpp"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::lab::results {
@@ -40,30 +40,26 @@ struct RecordedSession {
     records::SessionCurves curves;
 };
 
+/// A table as CSV.
+struct TableFile {
+    std::string table; // its name among the results
+    std::string path;  // in the folder of the page
+};
+
 /// All that a result folder holds, its subfolders' results joined.
 struct Results {
     std::vector<Run> runs;
-    std::vector<Table1Row> table1;
-    std::vector<TaskRow> tasks;
-    std::vector<LimitRow> limits;
-    std::vector<SensitivityRow> sensitivity;
-    std::vector<CurveRow> curves;
-    std::vector<TrajectoryRow> trajectories;
-    std::vector<QosRow> qos;
-    std::vector<PointQosRow> qos_by_point;
-    std::vector<RealTimeRow> real_time;
-    std::vector<ClaimRow> claims;
-    std::vector<ClaimQuantileRow> claims_quantiles;
-    std::vector<ClaimSessionRow> claim_sessions;
-    std::vector<SessionRow> rows_of_sessions; // of the experiments of Table 1
-    std::vector<AxisLimitRow> limits_by_axis;
-    std::vector<PairedRow> paired;
-    std::vector<PrecisionRow> precision;
+    std::vector<Table> tables; // sessions are those of Table 1, claim_sessions those of claims
     std::vector<Replay> replays;
     std::vector<RecordedSession> sessions;
     std::optional<DemoRun> demo;
-    std::vector<std::string> files; // that were read, as paths in the folder of the page
+    std::vector<TableFile> files;
 
+    /// An empty one where there is none of that name.
+    [[nodiscard]] const Table& table(std::string_view name) const;
+    [[nodiscard]] Rows rows(std::string_view name) const { return rows_of(table(name)); }
+    /// The CSV files of a table, as paths from the page.
+    [[nodiscard]] std::vector<std::string> files_of(std::string_view name) const;
     /// By which all runs judged; nullopt when they do not say, or differ.
     [[nodiscard]] std::optional<metrics::Criteria> criteria() const;
 };
@@ -78,13 +74,9 @@ struct Results {
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              std::span<const record::Record* const> records);
 
-/// Whether a file of this name is one that read_results() reads; all others it leaves alone.
-/// Replays are those of a folder replay/.
-[[nodiscard]] bool is_result_file(std::string_view path);
-
-/// Reads the files of a result folder and of its subfolders; their order does not matter. Errors
-/// begin with "FILE:LINE: ". Of two results that exclude each other, such as two rows of Table 1
-/// for one algorithm, it is an error that both are there.
+/// Reads the manifests and tables of a result folder and of its subfolders; their order does not
+/// matter. Errors begin with "FILE:". Of two results that exclude each other, such as two rows of
+/// Table 1 for one algorithm, it is an error that both are there.
 [[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
 
 } // namespace hapnet::lab::results

@@ -214,7 +214,7 @@ std::vector<SessionRow> make_session_rows(const experiment::Experiment& experime
     return std::move(rows).rows();
 }
 
-std::vector<PairedRow> make_paired_rows(const std::vector<SessionRow>& sessions)
+Table paired_table(const std::vector<SessionRow>& sessions)
 {
     std::map<std::pair<SharedCondition, std::string>, BySeed> played;
     std::vector<std::pair<SharedCondition, std::string>> order; // as they come
@@ -224,7 +224,7 @@ std::vector<PairedRow> make_paired_rows(const std::vector<SessionRow>& sessions)
         if (seeds.empty()) order.push_back(key);
         seeds.emplace(row.seed, &row);
     }
-    std::vector<PairedRow> rows;
+    Table table{"paired", columns_in(paired_columns)};
     for (const auto& key : order) {
         const std::string& reference = sessions.front().algorithm;
         const auto against = played.find({key.first, reference});
@@ -233,18 +233,11 @@ std::vector<PairedRow> make_paired_rows(const std::vector<SessionRow>& sessions)
             const auto pairs = pairs_of(played.at(key), against->second, measure);
             if (pairs.a.size() < 2) continue;
             const auto test = metrics::paired_test(pairs.a, pairs.b);
-            rows.push_back({.algorithm = key.second,
-                            .reference = reference,
-                            .task = std::get<0>(key.first),
-                            .measure = std::string{measure.name},
-                            .seeds = test.seeds,
-                            .difference = test.median,
-                            .ci_low = test.interval.low,
-                            .ci_high = test.interval.high,
-                            .sign_test_p = test.p});
+            table.add(key.second, reference, std::get<0>(key.first), measure.name, test.seeds,
+                      test.median, test.interval.low, test.interval.high, test.p);
         }
     }
-    return rows;
+    return table;
 }
 
 } // namespace hapnet::lab::results

@@ -4,7 +4,8 @@
 
 #include "lab/experiment/jobs.hpp"
 #include "lab/metrics/paired.hpp"
-#include "lab/results/rows.hpp"
+#include "lab/results/table.hpp"
+#include "proto/base/csv.hpp"
 
 #include <span>
 #include <string>
@@ -81,34 +82,12 @@ constexpr auto fields_of(base::Tag<SessionRow>)
 make_session_rows(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
                   std::span<const experiment::JobResult> results);
 
-/// Of paired.csv: two algorithms that met the same hands and network, seed by seed.
-struct PairedRow {
-    std::string algorithm;
-    std::string reference;
-    std::string task;
-    std::string measure; // with its unit; "p50 of delay, ms" of a limit
-    std::uint32_t seeds = 0;
-    /// algorithm - reference: of limits p50, else the median of the seeds; nullopt: one of the two
-    /// limits was not reached.
-    std::optional<double> difference{};
-    std::optional<double> ci_low{}; // 95 %
-    std::optional<double> ci_high{};
-    std::optional<double> sign_test_p{}; // nullopt for limits
-};
-constexpr auto fields_of(base::Tag<PairedRow>)
-{
-    using Row = PairedRow;
-    constexpr base::Decimals four{4};
-    return base::fields("paired", base::field("algorithm", &Row::algorithm),
-                        base::field("reference", &Row::reference), base::field("task", &Row::task),
-                        base::field("measure", &Row::measure), base::field("seeds", &Row::seeds),
-                        base::field("difference", &Row::difference, four),
-                        base::field("ci_low", &Row::ci_low, four),
-                        base::field("ci_high", &Row::ci_high, four),
-                        base::field("sign_test_p", &Row::sign_test_p));
-}
-
+/// The columns of the table paired: `algorithm` - `reference` of a measure, seed by seed. Of limits
+/// the difference is that of p50, and there is none where one of the two was not reached; else it
+/// is the median of the seeds.
+inline constexpr std::string_view paired_columns =
+    "algorithm,reference,task,measure,seeds,difference:4,ci_low:4,ci_high:4,sign_test_p";
 /// Each algorithm against the first, in each task and condition that both played.
-[[nodiscard]] std::vector<PairedRow> make_paired_rows(const std::vector<SessionRow>& sessions);
+[[nodiscard]] Table paired_table(const std::vector<SessionRow>& sessions);
 
 } // namespace hapnet::lab::results

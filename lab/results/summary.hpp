@@ -3,11 +3,11 @@
 #pragma once
 
 #include "lab/metrics/verdict.hpp"
-#include "lab/results/rows.hpp"
 
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace hapnet::lab::results {
 
@@ -26,6 +26,19 @@ struct Summary {
 /// A task's scores by seed; at least one.
 [[nodiscard]] Summary summarize(std::span<const metrics::Scores> scores,
                                 const metrics::Criteria& criteria);
+
+/// By what a session is judged.
+struct Judged {
+    std::optional<double> mean_mm{};
+    std::optional<double> vibration_mm{};
+    std::optional<double> stiffness_ratio{};
+    std::optional<double> force_vibration_n{};
+    metrics::Tier tier{};
+    std::optional<double> turned_apart_deg{}; // mean of the worst seed; where a body turns
+};
+/// The columns of its members, in their order.
+inline constexpr std::string_view judged_columns =
+    "mean_mm:3,vibration_mm:3,stiffness_ratio:4,force_vibration_n:4,tier,turned_apart_deg:3?";
 
 /// What is judged of the worst, by the filter that the criteria judge by; the mean is the typical.
 [[nodiscard]] Judged make_judged(const Summary& summary, const metrics::Criteria& criteria);

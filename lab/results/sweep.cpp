@@ -37,54 +37,49 @@ std::string number(std::optional<double> value, int decimals)
     return value ? fmt::format("{:.{}f}", *value, decimals) : std::string{};
 }
 
-constexpr std::array condition_columns{
-    "point",    "algorithm", "task",         "hands",        "peers",   "scene", "duration_s",
-    "delay_ms", "jitter_ms", "loss_percent", "burst_of_100", "network", "seed"};
-
-std::vector<std::string> condition_cells(const SweepRow& row)
+std::vector<Cell> condition_cells(const SweepRow& row)
 {
     const SessionRow& one = row.real;
-    return {base::csv_quoted(row.point),
-            base::csv_quoted(one.algorithm),
+    return {row.point,
+            one.algorithm,
             one.task,
-            base::csv_quoted(one.hands),
-            fmt::format("{}", one.peers),
-            base::csv_quoted(one.scene),
-            fmt::format("{}", one.duration_s),
-            one.delay_ms ? fmt::format("{}", *one.delay_ms) : "",
-            one.jitter_ms ? fmt::format("{}", *one.jitter_ms) : "",
-            one.loss_percent ? fmt::format("{}", *one.loss_percent) : "",
-            one.burst_of_100 ? fmt::format("{}", *one.burst_of_100) : "",
-            base::csv_quoted(one.network),
-            fmt::format("{}", one.seed)};
+            one.hands,
+            to_cell(one.peers),
+            one.scene,
+            one.duration_s,
+            to_cell(one.delay_ms),
+            to_cell(one.jitter_ms),
+            to_cell(one.loss_percent),
+            to_cell(one.burst_of_100),
+            one.network,
+            one.seed};
 }
 
 /// What both are measured by, and compared.
 struct SweepMeasure {
     std::string_view name;
     std::optional<double> SessionRow::*value;
-    int decimals;
 };
 constexpr std::array sweep_measures{
-    SweepMeasure{"mean_mm", &SessionRow::mean_mm, 4},
-    SweepMeasure{"std_mm", &SessionRow::std_mm, 4},
-    SweepMeasure{"max_mm", &SessionRow::max_mm, 4},
-    SweepMeasure{"vibration_mm", &SessionRow::vibration_mm, 4},
-    SweepMeasure{"stiffness_ratio", &SessionRow::stiffness_ratio, 4},
-    SweepMeasure{"force_vibration_n", &SessionRow::force_vibration_n, 4}};
+    SweepMeasure{"mean_mm", &SessionRow::mean_mm},
+    SweepMeasure{"std_mm", &SessionRow::std_mm},
+    SweepMeasure{"max_mm", &SessionRow::max_mm},
+    SweepMeasure{"vibration_mm", &SessionRow::vibration_mm},
+    SweepMeasure{"stiffness_ratio", &SessionRow::stiffness_ratio},
+    SweepMeasure{"force_vibration_n", &SessionRow::force_vibration_n}};
 
-void add_measures(const SessionRow& row, std::vector<std::string>& cells)
+void add_measures(const SessionRow& row, std::vector<Cell>& cells)
 {
-    for (const SweepMeasure& measure : sweep_measures)
-        cells.push_back(number(row.*measure.value, measure.decimals));
-    cells.emplace_back(base::name_of(row.tier));
+    for (const SweepMeasure& measure : sweep_measures) cells.push_back(to_cell(row.*measure.value));
+    cells.push_back(to_cell(row.tier));
 }
 
-std::string condition_of(const SweepRow& row)
+/// All cells of a condition but the seed.
+std::vector<Cell> condition_of(const SweepRow& row)
 {
     auto cells = condition_cells(row);
-    cells.pop_back(); // the seed
-    return fmt::format("{}", fmt::join(cells, ","));
+    cells.pop_back();
+    return cells;
 }
 
 /// The sessions of one condition.
@@ -180,50 +175,46 @@ SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,
             .invalid_because = fmt::format("{}", fmt::join(played.invalid_because, "; "))};
 }
 
-std::string sweep_csv(std::span<const SweepRow> rows)
+Table sweep_table(std::span<const SweepRow> rows)
 {
-    std::vector<std::string> columns{condition_columns.begin(), condition_columns.end()};
-    columns.emplace_back("attempt");
-    for (const std::string_view prefix : {"", "virtual_"}) {
-        for (const SweepMeasure& measure : sweep_measures)
-            columns.push_back(fmt::format("{}{}", prefix, measure.name));
-        columns.push_back(fmt::format("{}tier", prefix));
-    }
-    for (const char* column : {"difference_percent", "vibration_difference_percent", "missed_ticks",
-                               "longest_gap_ms", "valid", "invalid_because"})
-        columns.emplace_back(column);
-    std::string text = fmt::format("{}\n", fmt::join(columns, ","));
+    Table table{
+        "real_time_sessions",
+        columns_in("point,algorithm,task,hands,peers,scene,duration_s,delay_ms,jitter_ms,"
+                   "loss_percent,burst_of_100,network,seed,attempt,mean_mm:4,std_mm:4,max_mm:4,"
+                   "vibration_mm:4,stiffness_ratio:4,force_vibration_n:4,tier,virtual_mean_mm:4,"
+                   "virtual_std_mm:4,virtual_max_mm:4,virtual_vibration_mm:4,"
+                   "virtual_stiffness_ratio:4,virtual_force_vibration_n:4,virtual_tier,"
+                   "difference_percent:2,vibration_difference_percent:2,missed_ticks,"
+                   "longest_gap_ms:1,valid,invalid_because")};
     for (const SweepRow& row : rows) {
-        auto cells = condition_cells(row);
-        cells.push_back(fmt::format("{}", row.attempt));
+        auto& cells = table.rows.emplace_back(condition_cells(row));
+        cells.push_back(to_cell(row.attempt));
         add_measures(row.real, cells);
         add_measures(row.simulated, cells);
         const auto percent = [&](std::optional<double> SessionRow::*value) {
             return row.is_valid ? percent_of(row.real.*value, row.simulated.*value) : std::nullopt;
         };
         cells.push_back(
-            number(farther(percent(&SessionRow::mean_mm), percent(&SessionRow::std_mm)), 2));
-        cells.push_back(number(percent(&SessionRow::vibration_mm), 2));
-        cells.push_back(fmt::format("{}", row.missed_ticks));
-        cells.push_back(number(row.longest_gap_ms, 1));
-        cells.emplace_back(row.is_valid ? "true" : "false");
-        cells.push_back(base::csv_quoted(row.invalid_because));
-        text += fmt::format("{}\n", fmt::join(cells, ","));
+            to_cell(farther(percent(&SessionRow::mean_mm), percent(&SessionRow::std_mm))));
+        cells.push_back(to_cell(percent(&SessionRow::vibration_mm)));
+        for (const Cell& cell : {to_cell(row.missed_ticks), to_cell(row.longest_gap_ms),
+                                 to_cell(row.is_valid), to_cell(row.invalid_because)})
+            cells.push_back(cell);
     }
-    return text;
+    return table;
 }
 
 std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows)
 {
-    std::vector<std::string> order;
-    std::map<std::string, std::map<std::uint64_t, const SweepRow*>> conditions;
+    std::vector<std::vector<Cell>> order;
+    std::map<std::vector<Cell>, std::map<std::uint64_t, const SweepRow*>> conditions;
     for (const SweepRow& row : rows) {
         const auto condition = condition_of(row);
         if (!conditions.contains(condition)) order.push_back(condition);
         note(row, conditions[condition]);
     }
     std::vector<ConditionRow> compared;
-    for (const std::string& name : order) {
+    for (const std::vector<Cell>& name : order) {
         Condition condition;
         for (const auto& [seed, row] : conditions[name]) {
             if (row->is_valid) {
@@ -249,11 +240,6 @@ std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows)
         }
     }
     return compared;
-}
-
-std::string conditions_csv(std::span<const ConditionRow> rows)
-{
-    return base::csv_text(std::vector<ConditionRow>{rows.begin(), rows.end()});
 }
 
 std::string conditions_table(std::span<const ConditionRow> rows)

@@ -4,8 +4,8 @@
 
 #include "lab/experiment/jobs.hpp"
 #include "lab/metrics/criteria.hpp"
-#include "lab/results/rows.hpp"
 #include "lab/results/session_rows.hpp"
+#include "lab/results/table.hpp"
 #include "proto/base/result.hpp"
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct PlayedCell {
 /// Reads an object. The error names the key that is missing or has another type.
 [[nodiscard]] base::Result<PlayedCell> played_cell_from(const nlohmann::json& json);
 
-/// Of real_time_sessions.csv: a session as it was played once.
+/// Of the table real_time_sessions: a session as it was played once.
 struct SweepRow {
     std::string point; // of the axes: "hands.stiffness=100N/m"
     SessionRow real{};
@@ -55,9 +55,10 @@ struct SweepCell {
 [[nodiscard]] SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,
                                       const metrics::Criteria& criteria);
 
-[[nodiscard]] std::string sweep_csv(std::span<const SweepRow> rows);
+/// The table real_time_sessions.
+[[nodiscard]] Table sweep_table(std::span<const SweepRow> rows);
 
-/// Of real_time_conditions.csv: a measure of all valid sessions of one condition.
+/// Of the table real_time_conditions: a measure of all valid sessions of one condition.
 struct ConditionRow {
     std::string point;
     std::string algorithm;
@@ -80,20 +81,20 @@ constexpr auto fields_of(base::Tag<ConditionRow>)
 {
     using Row = ConditionRow;
     constexpr base::Decimals two{2};
+    constexpr base::Decimals four{4};
     return base::fields(
         "conditions", base::field("point", &Row::point), base::field("algorithm", &Row::algorithm),
         base::field("task", &Row::task), base::field("hands", &Row::hands),
         base::field("peers", &Row::peers), base::field("scene", &Row::scene),
         base::field("duration_s", &Row::duration_s), base::field("network", &Row::network),
         base::field("measure", &Row::measure), base::field("sessions", &Row::sessions),
-        base::field("left_out", &Row::left_out), base::field("real", &Row::real, ten_thousandths),
-        base::field("virtual", &Row::simulated, ten_thousandths),
+        base::field("left_out", &Row::left_out), base::field("real", &Row::real, four),
+        base::field("virtual", &Row::simulated, four),
         base::field("difference_percent", &Row::difference_percent, two),
         base::field("ci_low_percent", &Row::ci_low_percent, two),
         base::field("ci_high_percent", &Row::ci_high_percent, two));
 }
 [[nodiscard]] std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows);
-[[nodiscard]] std::string conditions_csv(std::span<const ConditionRow> rows);
 /// The same for a person.
 [[nodiscard]] std::string conditions_table(std::span<const ConditionRow> rows);
 

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/results/file.hpp"
+#include "lab/results/table.hpp"
 
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,23 +16,18 @@
 
 namespace hapnet::lab::runner {
 
-/// A column before those of a table, and what all lines of a part have in it.
-struct LeadingCell {
-    std::string column;
-    std::string value;
-};
-
 /// Tables of results on their way to a folder, part after part. Lines wait in files without a name:
 /// what is kept in memory does not grow with the parts.
 class ResultTables {
 public:
     explicit ResultTables(std::filesystem::path folder) : folder_{std::move(folder)} {}
 
-    /// Appends the lines of a CSV to the table of its name. Columns that the table has not yet are
-    /// added; one that a line lacks is empty in it. Throws std::system_error.
-    void add(const results::File& csv, std::span<const LeadingCell> leading);
+    /// Appends the rows of a part to the table of its name. Columns that the table has not yet are
+    /// added; a row has nothing in those that it lacks. Throws std::system_error.
+    void add(const results::Table& part);
 
-    /// Moves all tables to their places, and names them. Throws std::system_error.
+    /// Writes each table as CSV and all of them as JSON, sessions in a file of their own. Returns
+    /// the names of the files. Throws std::system_error.
     [[nodiscard]] std::vector<std::string> commit();
 
 private:
@@ -42,15 +38,24 @@ private:
 
     struct Table {
         std::string name;
-        WaitingLines waiting;
-        std::vector<std::string> columns{};
-        /// From which line on lines have how many cells.
+        WaitingLines csv;
+        WaitingLines json;
+        std::vector<results::Column> columns{};
+        /// From which row on rows have how many cells.
         std::vector<std::pair<std::size_t, std::size_t>> widths{};
-        std::size_t lines = 0;
+        std::size_t rows = 0;
     };
+    using Columns = std::span<const results::Column>;
+    /// Takes a line that has waited, and the columns that it lacks at its end.
+    using TakeLine = std::function<void(std::string_view line, Columns missing)>;
 
     [[nodiscard]] Table& table_named(const std::string& name);
     [[nodiscard]] WaitingLines wait_beside(const std::string& name) const;
+    void wait(const WaitingLines& lines, const std::string& text, const std::string& name) const;
+    void for_each_line(const Table& table, const WaitingLines& lines, const TakeLine& take) const;
+    void commit_csv(const Table& table) const;
+    /// Of the tables that are, or are not, of sessions. False: there are none.
+    [[nodiscard]] bool commit_json(const char* name, bool of_sessions) const;
     [[noreturn]] void refuse(const std::string& name) const;
 
     std::filesystem::path folder_;

@@ -3,7 +3,7 @@
 #include "lab/runner/runner.hpp"
 
 #include "lab/experiment/claims.hpp"
-#include "lab/results/rows.hpp"
+#include "lab/results/replay.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/wait.hpp"
@@ -134,10 +134,9 @@ base::Result<experiment::PlayedSession> play_in_virtual_time(const experiment::S
             });
     }
     return play(spec.setting, &stop).map([&](const virtual_time::Trace& trace) {
-        return experiment::PlayedSession{
-            metrics::metrics_of(trace),
-            to_lines(results::make_replay_rows(trace, spec.rows_per_s)),
-            {}};
+        return experiment::PlayedSession{metrics::metrics_of(trace),
+                                         kept_lines(results::replay_table(trace, spec.rows_per_s)),
+                                         {}};
     });
 }
 

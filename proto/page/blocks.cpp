@@ -8,14 +8,6 @@ namespace hapnet::page {
 
 namespace {
 
-Json with_blocks(std::string_view key, Json value, Json blocks)
-{
-    Json block = Json::object();
-    block[std::string{key}] = std::move(value);
-    block["blocks"] = std::move(blocks);
-    return block;
-}
-
 Json array_of(std::vector<Json> values)
 {
     Json list = Json::array();
@@ -26,45 +18,12 @@ Json array_of(std::vector<Json> values)
 } // namespace
 
 Json bold(std::string_view words) { return Json::object({{"b", words}}); }
-Json code(std::string_view words) { return Json::object({{"code", words}}); }
-
-Json link(std::string_view words, std::string_view href)
-{
-    return Json::object({{"a", words}, {"href", href}});
-}
-
-Json badge(std::string_view words, std::string_view style)
-{
-    return Json::object({{"badge", words}, {"style", style}});
-}
-
-Json text_of(std::initializer_list<Json> pieces)
-{
-    Json text = Json::array();
-    for (const Json& piece : pieces) {
-        if (piece.is_array()) {
-            text.insert(text.end(), piece.begin(), piece.end());
-        } else {
-            text.push_back(piece);
-        }
-    }
-    return text;
-}
 
 Json paragraph(Json text, std::string_view style)
 {
     Json block = Json::object();
     block["p"] = std::move(text);
     if (!style.empty()) block["style"] = style;
-    return block;
-}
-
-Json heading(std::string_view words) { return Json::object({{"heading", words}}); }
-
-Json list_of(std::vector<Json> lines)
-{
-    Json block = Json::object();
-    block["list"] = array_of(std::move(lines));
     return block;
 }
 
@@ -79,17 +38,10 @@ Json banner(std::string_view style, Json text, std::vector<Json> list)
     return block;
 }
 
-Json folded(Json text, Json blocks)
-{
-    return with_blocks("folded", std::move(text), std::move(blocks));
-}
-
 Json panels(std::string_view size, Json blocks)
 {
-    return with_blocks("panels", size, std::move(blocks));
+    return {{"panels", size}, {"blocks", std::move(blocks)}};
 }
-
-Json zoomed(Json blocks) { return with_blocks("zoomed", true, std::move(blocks)); }
 
 Json json_of(const Table& table)
 {

@@ -10,32 +10,19 @@
 namespace hapnet::page {
 
 // What stands on a page, as data that web/page/report makes elements of. A text is a string, or a
-// list of strings and of the pieces below; a line break in it stays one. Nothing is markup.
+// list of strings and of such pieces as bold(); a line break in it stays one. Nothing is markup.
 
 using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json bold(std::string_view words);
-[[nodiscard]] Json code(std::string_view words);
-[[nodiscard]] Json link(std::string_view words, std::string_view href);
-/// Words in a frame, in the look of a class of report.css.
-[[nodiscard]] Json badge(std::string_view words, std::string_view style = "");
-/// Texts and pieces, one after the other.
-[[nodiscard]] Json text_of(std::initializer_list<Json> pieces);
 
 [[nodiscard]] Json paragraph(Json text, std::string_view style = "");
-[[nodiscard]] Json heading(std::string_view words);
-[[nodiscard]] Json list_of(std::vector<Json> lines);
 /// Words whose lines and spaces stay as they are.
 [[nodiscard]] Json preformatted(std::string_view words);
 /// A text in a frame that says how something went: "met", "missed" or "" are its styles.
 [[nodiscard]] Json banner(std::string_view style, Json text, std::vector<Json> list = {});
-/// Blocks that are hidden behind a line of text until a reader opens them.
-[[nodiscard]] Json folded(Json text, Json blocks);
 /// Blocks beside each other; `size` is "", "small" or "tiny".
 [[nodiscard]] Json panels(std::string_view size, Json blocks);
-/// Blocks whose curves zoom and point together.
-[[nodiscard]] Json zoomed(Json blocks);
-
 /// A cell of a table, in the look of a class of report.css.
 struct Cell {
     Json text;

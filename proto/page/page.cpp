@@ -56,7 +56,6 @@ Json data_of(const Page& page)
     data["sections"] = std::move(sections);
     data["foot"] = page.foot;
     data["figures"] = std::move(figures);
-    if (!page.replays.is_null()) data["replays"] = page.replays;
     return data;
 }
 
@@ -102,6 +101,11 @@ Json Section::keep(Figure figure)
 
 std::string html_of(const Page& page, std::span<const Asset> more)
 {
+    return html_of(data_of(page), more);
+}
+
+std::string html_of(const Json& data, std::span<const Asset> more)
+{
     Carried files = carried(more);
     Json modules{{"plain", std::move(files.plain)}, {"packed", std::move(files.packed)}};
     return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -111,8 +115,9 @@ std::string html_of(const Page& page, std::span<const Asset> more)
                        "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main></main>\n"
                        "<noscript><p>This page is drawn by JavaScript. Its numbers stand in the "
                        "element hapnet-data.</p></noscript>\n",
-                       page.subject, escaped(page.title), files.style) +
-           json_element("hapnet-data", data_of(page)) + json_element("modules", modules) +
+                       data.at("subject").get<std::string>(),
+                       escaped(data.at("title").get<std::string>()), files.style) +
+           json_element("hapnet-data", data) + json_element("modules", modules) +
            fmt::format("<script>\n{}</script>\n</body>\n</html>\n", files.loader);
 }
 

@@ -43,11 +43,13 @@ struct Page {
     Json head = Json::array(); // blocks
     std::vector<Section> sections{};
     std::string foot{};
-    Json replays{}; // of the player; null: there is none
 };
 
 /// The page as one HTML file that needs no other. It carries its data in one element of JSON, and
 /// the modules that draw it, `more` besides.
 [[nodiscard]] std::string html_of(const Page& page, std::span<const Asset> more = {});
+/// Likewise of data that have `subject`, `title`, `figures` and what `more` makes words and blocks
+/// of.
+[[nodiscard]] std::string html_of(const Json& data, std::span<const Asset> more);
 
 } // namespace hapnet::page

@@ -20,10 +20,29 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr const char* table1 =
-    "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,verdict,class,"
-    "max_class\n"
-    "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated,calibrated,calibrated\n";
+/// A results.json with one table of one row.
+std::string results_of(const std::string& name, const Json& row)
+{
+    Json columns = Json::array(), cells = Json::array();
+    for (const auto& [key, cell] : row.items()) {
+        columns.push_back({{"key", key}});
+        cells.push_back(cell);
+    }
+    const Json table{{"columns", columns}, {"rows", Json::array({cells})}};
+    return Json{{"version", 1}, {"tables", {{name, table}}}}.dump();
+}
+
+const std::string table1 = results_of("table1", {{"algorithm", "base"},
+                                                 {"mean_mm", 13.611},
+                                                 {"min_mm", 0},
+                                                 {"max_mm", 47.251},
+                                                 {"std_mm", 10.683},
+                                                 {"paper_mean_mm", 13.789},
+                                                 {"paper_max_mm", 46.01},
+                                                 {"paper_std_mm", 10.986},
+                                                 {"verdict", "calibrated"},
+                                                 {"class", "calibrated"},
+                                                 {"max_class", "calibrated"}});
 
 void write_file(const fs::path& path, const std::string& text)
 {
@@ -35,10 +54,17 @@ TEST(LabReport, WritesThePageAndItsFiguresOfAFolderAndItsSubfolders)
 {
     const TemporaryFolder temporary;
     const fs::path folder = temporary.file("results");
-    write_file(folder / "table1/table1.csv", table1);
-    write_file(folder / "qos.csv", "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,"
-                                   "vibration_mm,stiffness_ratio,force_vibration_n,tier\n"
-                                   "base,T1,0,0,0,0.1,0.01,,0.01,good\n");
+    write_file(folder / "table1/results.json", table1);
+    write_file(folder / "results.json", results_of("qos", {{"algorithm", "base"},
+                                                           {"task", "T1"},
+                                                           {"delay_ms", 0},
+                                                           {"jitter_ms", 0},
+                                                           {"loss_percent", 0},
+                                                           {"mean_mm", 0.1},
+                                                           {"vibration_mm", 0.01},
+                                                           {"stiffness_ratio", nullptr},
+                                                           {"force_vibration_n", 0.01},
+                                                           {"tier", "good"}}));
     write_file(folder / "notes.txt", "not ours");
     const auto outcome = run("hapnet-lab", {"report", folder.string()});
     EXPECT_EQ(outcome.exit, 0) << outcome.err;
@@ -47,7 +73,7 @@ TEST(LabReport, WritesThePageAndItsFiguresOfAFolderAndItsSubfolders)
     const auto data = test::data_of(page);
     std::vector<std::string> sections;
     for (const auto& section : data.at("sections")) sections.push_back(section.at("id"));
-    EXPECT_EQ(sections, (std::vector<std::string>{"table1", "qos", "claims", "missing"}));
+    EXPECT_EQ(sections, (std::vector<std::string>{"table1", "qos", "claims"}));
     EXPECT_NE(page.find("scripts/fig7.sh --out " + folder.string() + "/fig7"), std::string::npos);
     EXPECT_EQ(test::figure_of(page, "table1-mean").at("sources")[0], "table1/table1.csv");
     EXPECT_EQ(test::figure_of(page, "qos-base-0").at("sources")[0], "qos.csv");
@@ -71,7 +97,7 @@ TEST(LabReport, WritesTheManifestOfAFolderOfResultsAndAgainWhenOneHasChanged)
     };
     write_file(folder / "qos/manifest.json", part("2026-11-25T10:00:00Z", true));
     write_file(folder / "table1/manifest.json", part("2026-11-25T09:00:00Z", true));
-    write_file(folder / "table1/table1.csv", table1);
+    write_file(folder / "table1/results.json", table1);
     ASSERT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     auto manifest = Json::parse(text_of((folder / "manifest.json").string()));
     EXPECT_EQ(manifest["kind"], "several");
@@ -141,7 +167,7 @@ TEST(LabReport, SaysThatItReplacesAPageAboutSomethingElse)
 {
     const TemporaryFolder temporary;
     const fs::path folder = temporary.file("mixed");
-    write_file(folder / "table1.csv", table1);
+    write_file(folder / "results.json", table1);
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).err, "");
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).err, "") << "the same page again";
     write_record(folder / "a.rec", 1, 0.010);
@@ -165,12 +191,11 @@ TEST(LabReport, ShowsEveryTwoOfThreePeersNamedOrInAFolder)
     const auto named = run("hapnet-lab", words);
     EXPECT_EQ(named.exit, 0) << named.err;
     const auto page = text_of((folder / "report.html").string());
-    for (const char* pair :
-         {"A is peer 1, B is peer 2", "A is peer 1, B is peer 3", "A is peer 2, B is peer 3"})
+    for (const char* pair : {R"("peers":[1,2])", R"("peers":[1,3])", R"("peers":[2,3])"})
         EXPECT_NE(page.find(pair), std::string::npos) << pair;
     const auto found = run("hapnet-lab", {"report", folder.string()});
     EXPECT_EQ(found.exit, 0) << found.err;
-    EXPECT_NE(text_of((folder / "report.html").string()).find("A is peer 2, B is peer 3"),
+    EXPECT_NE(text_of((folder / "report.html").string()).find(R"("peers":[2,3])"),
               std::string::npos);
 }
 
@@ -198,7 +223,7 @@ TEST(LabReport, RefusesOneRecordAloneAndTwoThatDoNotBelongTogether)
     EXPECT_FALSE(fs::exists(folder / "report.html"));
 }
 
-TEST(LabReport, RefusesWhatIsNoResultWithFileAndLine)
+TEST(LabReport, RefusesWhatIsNoResultWithItsFile)
 {
     const TemporaryFolder temporary;
     const fs::path folder = temporary.file("results");
@@ -210,14 +235,38 @@ TEST(LabReport, RefusesWhatIsNoResultWithFileAndLine)
         return outcome.err;
     };
     EXPECT_NE(refusal().find("holds no results: expected manifest.json"), std::string::npos);
-    write_file(folder / "table1.csv", std::string{table1} + "sep,1,2\n");
+    auto short_row = Json::parse(table1);
+    short_row["tables"]["table1"]["rows"][0].erase(10);
+    write_file(folder / "results.json", short_row.dump());
     const auto broken = refusal();
-    EXPECT_NE(broken.find("table1.csv:3: expected 11 cells as in the header, found 3"),
+    EXPECT_NE(broken.find("results.json: not what this version of hapnet-lab writes: a row of "
+                          "'table1' has not a cell for each column"),
               std::string::npos)
         << broken;
     const auto none = run("hapnet-lab", {"report", temporary.file("none")});
     EXPECT_EQ(none.exit, 2);
     EXPECT_NE(none.err.find("none does not exist: name a folder"), std::string::npos) << none.err;
+}
+
+TEST(LabReport, AsksToRunAgainWhatAnOlderVersionWrote)
+{
+    const TemporaryFolder temporary;
+    const fs::path all = temporary.file("all"), old = all / "table1";
+    write_file(old / "table1.csv", "algorithm,mean_mm\nbase,13.611\n");
+    write_file(old / "sessions.csv", "algorithm,task,seed\nbase,P1,1\n");
+    const auto expect_refusal = [&](const std::vector<std::string>& words, const char* csv,
+                                    const char* json) {
+        const auto outcome = run("hapnet-lab", words);
+        EXPECT_EQ(outcome.exit, 2) << outcome.err;
+        const auto why = old.string() + " has " + csv + " and no " + json +
+                         ", as an older version of hapnet-lab wrote it: run it again: its sessions "
+                         "are reused";
+        EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    };
+    expect_refusal({"report", old.string()}, "table1.csv", "results.json");
+    expect_refusal({"report", all.string()}, "table1.csv", "results.json");
+    expect_refusal({"compare", old.string(), old.string()}, "sessions.csv", "sessions.json");
+    EXPECT_FALSE(fs::exists(old / "report.html"));
 }
 
 } // namespace

@@ -61,7 +61,8 @@ protected:
 
     void expect_same_csv(const std::string& a, const std::string& b) const
     {
-        for (const char* name : {"limits.csv", "curves.csv", "sessions.csv", "paired.csv"}) {
+        for (const char* name : {"limits.csv", "curves.csv", "sessions.csv", "paired.csv",
+                                 "results.json", "sessions.json"}) {
             EXPECT_FALSE(result(a, name).empty()) << name;
             EXPECT_EQ(result(a, name), result(b, name)) << name;
         }

@@ -225,10 +225,7 @@ const std::set<std::string>& without_table()
         "LossReport", "ProbeDelays", "ProbeWay", "ProbeSummary",
         // JSON, CSV and the settings in a record's header
         "Examination", "Finding", "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics",
-        "Table1Row", "TaskRow", "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow",
-        "PrecisionRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow", "ClaimQuantileRow",
-        "ClaimSessionRow", "ConditionRow", "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow",
-        "ReplayRow", "WrittenMount", "WrittenConfig"};
+        "ConditionRow", "WrittenMount", "WrittenConfig"};
     return names;
 }
 

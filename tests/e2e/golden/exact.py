@@ -6,6 +6,7 @@ Commands are run in one folder, in the order of the table, with the programs in 
 read what earlier ones have written.
 """
 
+import csv
 import json
 import shutil
 import signal
@@ -119,7 +120,7 @@ def groups(repository):
             Step(f"{lab} play --task T7 --peers 4 --duration 6s --json", schema="play")],
         "lab-control": [Step(controlled_play)],
         "lab-run": [Step(f"{lab} run {name} {words} --out run/{name}", files=[f"run/{name}"])
-                    for name, words in EXPERIMENTS.items()],
+                    for name, words in EXPERIMENTS.items()] + [Step(tables_agree)],
         "lab-plan": [
             Step(f"{lab} plan qos {TWO} --out plan", files=["plan/plan.json"]),
             *(Step(f"{lab} run plan --shard {n}/2", files=[f"plan/shards/{n}-of-2.jsonl"])
@@ -226,6 +227,54 @@ def controlled_play(programs):
     yield Output("frame of peer 1", watch.read())
     lab.send_signal(signal.SIGTERM)
     lab.wait(10)
+
+
+# The columns of some tables that the CSV has not.
+IN_JSON_ALONE = {
+    "table1": [f"{part}_{end}_mm" for part in ("mean", "std", "max") for end in ("low", "high")],
+    "limits": ["band"], "precision": ["order"]}
+
+
+def tables_agree(programs):
+    """Each table in results.json and sessions.json is that of the CSV, before it was rounded."""
+    said = []
+    for folder in sorted((programs.place / "run").iterdir()):
+        tables = {}
+        for name in ("results.json", "sessions.json"):
+            if (folder / name).exists():
+                tables.update(json.loads((folder / name).read_text(encoding="utf-8"))["tables"])
+        files = {str(path.relative_to(folder))[:-4] for path in folder.rglob("*.csv")}
+        if files != tables.keys():
+            raise AssertionError(f"{folder.name}: {files} and {tables.keys()}")
+        for name, table in tables.items():
+            with open(folder / f"{name}.csv", encoding="utf-8", newline="") as file:
+                rows = list(csv.reader(file))
+            places = [place for place, column in enumerate(table["columns"])
+                      if column["key"] not in IN_JSON_ALONE.get(name.partition("_by_")[0], ())]
+            columns = [table["columns"][place] for place in places]
+            if [column["key"] for column in columns] != rows[0]:
+                raise AssertionError(f"{folder.name}/{name}: other columns")
+            if len(table["rows"]) != len(rows) - 1:
+                raise AssertionError(f"{folder.name}/{name}: other rows")
+            for cells, line in zip(table["rows"], rows[1:]):
+                for column, place, text in zip(columns, places, line, strict=True):
+                    cell = cells[place]
+                    if not is_cell(cell, text, column.get("decimals")):
+                        raise AssertionError(f"{folder.name}/{name}: {cell!r} and {text!r}")
+        said.append(f"{folder.name}: {', '.join(sorted(tables))}")
+    return [Output("tables that are the same in CSV and in JSON", "\n".join(said))]
+
+
+def is_cell(cell, text, decimals):
+    """Whether a cell of CSV is that of JSON, rounded to so many decimals; None: not rounded."""
+    if cell is None or isinstance(cell, (bool, str)):
+        return text == {None: "", True: "true", False: "false"}.get(cell, cell)
+    if isinstance(cell, int) and decimals is None:
+        return text == str(cell)
+    if decimals is None:
+        return float(text) == cell
+    return len(text.partition(".")[2]) == decimals and \
+        abs(float(text) - cell) <= 0.500001 * 10**-decimals
 
 
 def reports_folder(programs):

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Puts a page together from the data that it carries: words, tables, figures and the player.
+// Puts a page together from the data that it carries: words, tables, figures and the player. Of
+// results it carries tables, of which words and blocks are made first.
 
 import { make } from "../dom.js";
 import { Document } from "./document.js";
@@ -24,7 +25,8 @@ const startPlayer = async (replays) => {
 
 /** `files` are those that the page carries, by name. */
 export const start = async (files) => {
-  const data = JSON.parse(document.getElementById("hapnet-data").textContent);
+  const carried = JSON.parse(document.getElementById("hapnet-data").textContent);
+  const data = carried.tables ? (await import("./sections.js")).layOut(carried) : carried;
   const main = document.querySelector("main");
   const page = new Document(data);
   page.fill(main);

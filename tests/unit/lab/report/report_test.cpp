@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/player.hpp"
-#include "lab/report/section.hpp"
+#include "lab/report/assets.hpp"
 #include "tests/unit/lab/report/sample.hpp"
 
 #include <algorithm>
@@ -42,19 +41,13 @@ TEST(Report, HasASectionExactlyIfTheFolderHasItsData)
 TEST(Report, SaysWhichCommandMakesWhatIsMissing)
 {
     const std::string page = words_of({sample_table1()});
-    EXPECT_TRUE(holds(page, R"(["Fig. 6b: ",{"code":"scripts/fig6b.sh --out r/fig6b"}])"));
-    EXPECT_TRUE(holds(page, R"({"code":"scripts/table1.sh --real-time --out r/table1"})"));
-    EXPECT_FALSE(holds(page, R"("Table 1: ")"));
+    EXPECT_TRUE(holds(page, R"({"what":"Fig. 6b","command":"scripts/fig6b.sh --out r/fig6b"})"));
+    EXPECT_TRUE(holds(page, R"("command":"scripts/table1.sh --real-time --out r/table1"})"));
+    EXPECT_FALSE(holds(page, R"("what":"Table 1")"));
 }
 
-TEST(Report, ShowsNumbersBesideThePapersWithTheirBandsAndMissesInRed)
+TEST(Report, DrawsNumbersBesideThePapersAndMissesInRed)
 {
-    const std::string page = words_of({sample_table1()});
-    EXPECT_TRUE(holds(page, R"({"text":"13.61","style":"ours"},{"text":"13.79","style":"paper"},)"
-                            R"({"text":"12.41 to 15.17","style":"band"})"));
-    EXPECT_TRUE(holds(page, R"({"text":"66.61","style":"ours missed"},{"text":"58.85",)"
-                            R"("style":"paper"},{"text":"40.00 to 65.00","style":"band"})"));
-    EXPECT_TRUE(holds(page, R"({"badge":"calibrated","style":"calibrated"})"));
     const auto of = [&](const char* id) {
         return figure_of({sample_table1()}, id).at("series")[1].at("bars")[2];
     };
@@ -63,38 +56,8 @@ TEST(Report, ShowsNumbersBesideThePapersWithTheirBandsAndMissesInRed)
     EXPECT_FALSE(of("table1-mean").contains("missed"));
 }
 
-TEST(Report, ShowsWhatIsClaimedBeyondThePaperAndWhatOfItIsMissed)
-{
-    const std::string page = words_of({sample_claims(), sample_claims_quantiles()});
-    EXPECT_TRUE(holds(page, "2 claims, made before the first run; 1 missed"));
-    EXPECT_TRUE(holds(
-        page, R"({"text":"5.97, 5.42","style":"ours"},{"text":"5.96, 5.41","style":"ours"})"));
-    EXPECT_TRUE(holds(
-        page,
-        R"({"text":"0.98 to 1.46","style":"ours missed"},{"text":"0.98 to 1.32","style":"ours"})"));
-    EXPECT_FALSE(holds(words_of({sample_claims()}), "0.98 to 1.32")) << "one file alone is shown";
-    EXPECT_TRUE(holds(page, R"({"badge":"missed","style":"missed"})"));
-}
-
-TEST(Report, ShowsTheSlowForceThatNoClaimIsAboutOfTheFirstAlgorithm)
-{
-    const std::string page = words_of({sample_claims(), sample_claim_sessions()});
-    EXPECT_TRUE(holds(page, R"x(["100ms","0.070 (0.090)"])x"));
-    EXPECT_FALSE(holds(words_of({sample_claims()}), "above 2 Hz")) << "without the sessions";
-}
-
 TEST(Report, ShowsTheErrorOfEachFigureBesideItsCost)
 {
-    const std::string page = words_of({sample_precision()});
-    // 0.7 and 0.3 mm beyond that of 0.5 ms: the order is 1.
-    EXPECT_TRUE(
-        holds(page, R"({"text":"mean, mm","style":"words"},"13.2","0.7","0.3","reference","1.0")"));
-    EXPECT_TRUE(holds(page, R"x("0.1\n(0.08 … 0.12)","reference","–","0.2","0.063","0.063")x"));
-    results::File swaying = sample_precision();
-    const std::string above = "2ms,0.5ms,1,120000,13.500000,0.300000";
-    swaying.text.replace(swaying.text.find(above), above.size(),
-                         "2ms,0.5ms,1,120000,12.900000,-0.300000");
-    EXPECT_TRUE(holds(words_of({swaying}), R"("-0.3","reference","–")"));
     const auto figure = figure_of({sample_precision()}, "precision-base-T1-vibration-mm");
     EXPECT_EQ(figure.at("x").at("scale"), "log");
     EXPECT_EQ(figure.at("series")[0].at("points").dump(), "[[480000.0,0.2],[4800000.0,0.063]]");
@@ -113,34 +76,22 @@ TEST(Report, DrawsEachSeedOfEachTaskAndALineThroughTheMedians)
     EXPECT_EQ(stiffness.at("scatter").dump(), "[[120.0,0.5],[120.0,0.7]]")
         << "not the one of the coarse scan";
     EXPECT_EQ(stiffness.at("points").dump(), "[[120.0,0.6]]");
-    const std::string_view unmeasured = "no session can have failed by it: stiffness.";
-    EXPECT_FALSE(holds(words_of({curves}), unmeasured));
-    EXPECT_TRUE(holds(words_of({sample_curves()}), unmeasured));
 }
 
-TEST(Report, DrawsABoundOpenAndWritesIt)
+TEST(Report, DrawsABoundOpen)
 {
-    const std::string page = words_of({sample_limits()});
-    EXPECT_TRUE(holds(page, R"({"text":"> 320 ms","style":"ours"})"));
-    EXPECT_TRUE(holds(page, R"({"text":"145 ms","style":"ours"},"143.0 … 147.0","140.0","40",)"
-                            R"({"text":"150 ms","style":"paper"},)"
-                            R"({"text":"130 to 155, less than base","style":"band"})"));
-    EXPECT_TRUE(holds(words_of({sample_loss_limits()}), "> 95 of 100"));
     const auto bar = figure_of({sample_limits()}, "limit-delay-by-task").at("series")[0];
     EXPECT_EQ(bar.at("bars")[0].at("text"), "> 320");
     EXPECT_EQ(bar.at("bars")[0].at("open"), true);
 }
 
-TEST(Report, IsGreenForPredictionsAloneAndDrawsIntervals)
+TEST(Report, DrawsIntervalsAndThePaperWhereItStatesANumber)
 {
     results::File limits = sample_limits();
     limits.text +=
         "dead-reckoning,random-loss,worst,66,=,percent,80,selected-met,selected,66,64,65,"
         "67,40\n"
         "base,jitter,worst,20,>,ms,,,predicted,20,,20,,40\n";
-    const std::string page = words_of({limits});
-    EXPECT_TRUE(holds(page, R"({"badge":"predicted-met","style":"met"})"));
-    EXPECT_TRUE(holds(page, R"({"badge":"selected-met","style":"seen"})"));
     const auto delay = figure_of({limits}, "limit-delay");
     EXPECT_TRUE(holds(delay.at("caption").dump(), "40 seeds; the line is the 95 % interval"));
     EXPECT_EQ(delay.at("series")[1].at("bars")[0].at("high"), 163.0);
@@ -166,7 +117,7 @@ TEST(Report, ShowsWhatWasNotChosenAndTheSeedsOfTwoAlgorithms)
     const auto figure =
         test::figure_of(page, "axis-algorithm-dead-reckoning-velocity-delay").at("x");
     EXPECT_EQ(figure.at("categories").dump(), R"(["nominal","sender"])");
-    EXPECT_TRUE(holds(test::words_of(page), R"("0.270","0.200 … 0.300","0.002")"));
+    EXPECT_EQ(test::data_of(page).at("tables").at("paired").at("rows").size(), 1U);
 }
 
 TEST(Report, CountsThePointsThatEachAlgorithmBears)
@@ -189,21 +140,6 @@ TEST(Report, CountsThePointsThatEachAlgorithmBears)
     EXPECT_EQ(bars[2].at("value"), 50.0) << "of both at once";
 }
 
-TEST(Report, SortsWhatStandsAgainstThePaperByTheFilesAlone)
-{
-    const auto results = read_results(whole_sample());
-    ASSERT_TRUE(results);
-    const Claims main = main_claims(*results);
-    EXPECT_EQ(main.calibrated.size(), 2U); // Table 1 and the delay of base
-    EXPECT_EQ(main.by_construction.size(), 1U);
-    EXPECT_EQ(main.met.size(), 1U);
-    ASSERT_EQ(main.missed.size(), 3U);
-    EXPECT_EQ(main.missed[2].dump(),
-              R"(["Limit of jitter, ",{"b":"dead-reckoning"},", worst of the tasks: 2.5 ms )"
-              R"((paper: 5 ms), 95 %: 2.4 … 2.6, selected"])");
-    EXPECT_TRUE(holds(words_of(whole_sample()), R"({"count":3,"text":"missed","style":"missed"})"));
-}
-
 TEST(Report, EscapesWhatComesFromFiles)
 {
     std::vector<results::File> files{
@@ -222,45 +158,17 @@ TEST(Report, EscapesWhatComesFromFiles)
     const auto out = report_files(files);
     const std::string page = text_of(out, "report.html");
     EXPECT_FALSE(holds(page, "<img"));
-    EXPECT_EQ(test::data_of(page).at("head")[0].at("list")[0], "r/<b>: <img src=x>")
-        << "as data it is unchanged";
+    const auto run = test::data_of(page).at("runs")[0];
+    EXPECT_EQ(run.at("folder"), "r/<b>");
+    EXPECT_EQ(run.at("manifest").at("title"), "<img src=x>") << "as data it is unchanged";
     for (const results::File& file : out) {
         EXPECT_FALSE(holds(file.path, "<") || holds(file.path, "..")) << file.path;
     }
 }
 
-TEST(Report, SaysWhetherItIsValidAndWhyNot)
-{
-    EXPECT_TRUE(holds(words_of({sample_manifest()}), R"({"b":"Valid."})"));
-    EXPECT_TRUE(holds(words_of({sample_table1()}), "There is no manifest.json"));
-    const std::string page =
-        page_of({{"r/fig7/manifest.json", R"({"valid": false, "invalid_because": ["stopped"]})"}});
-    EXPECT_TRUE(holds(test::words_of(page), R"({"b":"Not valid."})"));
-    EXPECT_TRUE(holds(test::words_of(page), R"("list":["r/fig7: stopped"])"));
-    EXPECT_TRUE(holds(words_of({{"r/manifest.json", "{}"}}), "r: does not say why"));
-    EXPECT_TRUE(holds(words_of({{"r/manifest.json", R"({"kind": "real-time", "valid": false})"}}),
-                      "r: not every session over real UDP kept its timing"));
-}
-
 TEST(Report, ExcludesARealTimeRunThatIsNotValid)
 {
-    const std::string page = words_of({sample_real_time()});
-    EXPECT_TRUE(holds(page, R"({"text":"-4.5 %","style":"ours"})"));
-    EXPECT_TRUE(holds(page, R"({"text":"9.99","style":"excluded"})"));
-    EXPECT_TRUE(holds(page, "excluded: late ticks"));
-    EXPECT_FALSE(holds(page, "-26.6"));
     EXPECT_FALSE(holds(figure_of({sample_real_time()}, "real-time").dump(), "9.99"));
-}
-
-TEST(Report, SaysHowFarCopiesAreTurnedApartWhereABodyTurns)
-{
-    EXPECT_FALSE(holds(words_of({sample_tasks()}), R"(turned\napart)"));
-    results::File tasks = sample_tasks();
-    tasks.text.insert(tasks.text.find('\n'), ",turned_apart_deg");
-    tasks.text.insert(tasks.text.size() - 1, ",12.345");
-    const std::string page = words_of({tasks});
-    EXPECT_TRUE(holds(page, R"(turned\napart, max deg)"));
-    EXPECT_TRUE(holds(page, R"("12.35")") || holds(page, R"("12.34")"));
 }
 
 TEST(Report, MarksTheWorstOfTheTasksInThePlane)
@@ -296,7 +204,7 @@ TEST(Report, CarriesTheDataOfItsFigures)
     const auto data = test::data_of(page);
     for (const auto& figure : data.at("figures")) {
         const auto id = figure.at("id").get<std::string>();
-        EXPECT_TRUE(holds(words, R"({"figure":")" + id + R"("})")) << id << " is shown";
+        EXPECT_TRUE(holds(words, '"' + id + '"')) << id << " is in a section";
         for (const char* key : {"title", "x", "y", "series"}) EXPECT_TRUE(figure.contains(key));
         for (const char* key : {"label", "unit"}) EXPECT_TRUE(figure.at("x").contains(key));
         for (const auto& series : figure.at("series")) EXPECT_TRUE(series.contains("name"));
@@ -309,11 +217,12 @@ TEST(Report, CarriesThePlayerOnlyWhereThereIsAReplay)
         const auto modules = test::json_in(page_of(files), "modules");
         return modules.at("plain").contains(name) || modules.at("packed").contains(name);
     };
+    EXPECT_TRUE(carries({sample_curves()}, "report/sections.js"));
     for (const char* name : {"report/player.js", "paint/space.js", "pane.js"}) {
         EXPECT_TRUE(carries({sample_replay()}, name)) << name;
         EXPECT_FALSE(carries({sample_curves()}, name)) << name;
     }
-    const auto assets = player_assets();
+    const auto assets = lab_assets();
     const bool has_library = std::ranges::any_of(
         assets, [](const Asset& asset) { return asset.name == "three.module.min.js"; });
     EXPECT_EQ(carries({sample_replay()}, "three.module.min.js"), has_library);
@@ -324,9 +233,11 @@ TEST(Report, CarriesThePlayerOnlyWhereThereIsAReplay)
 TEST(Report, LinksEachFigureToTheRowsBehindIt)
 {
     const std::vector<results::File> rows{sample_limits(), sample_curves(), sample_trajectories()};
-    auto results = read_results(rows);
+    auto results = read_results(as_written(rows));
     ASSERT_TRUE(results);
-    results->files = {"fig 6a/limits.csv", "curves.csv", "fig7/trajectories.csv"};
+    results->files = {{"limits", "fig 6a/limits.csv"},
+                      {"curves", "curves.csv"},
+                      {"trajectories", "fig7/trajectories.csv"}};
     const auto files = report_of(*results, "r");
     const std::string page = text_of(files, "report.html");
     const auto sources = [](std::string_view of, const char* id) {

@@ -4,6 +4,7 @@
 
 #include "lab/report/report.hpp"
 #include "tests/support/page_data.hpp"
+#include "tests/support/tables.hpp"
 
 #include <gtest/gtest.h>
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace hapnet::lab::report {
 
-// A small result folder "r" as experiments write it.
+// A small result folder "r", its tables as CSV.
 
 inline results::File sample_manifest()
 {
@@ -28,13 +29,13 @@ inline results::File sample_table1()
 {
     return {"r/table1/table1.csv",
             "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,"
-            "verdict,class,max_class\n"
+            "verdict,class,max_class,max_low_mm,max_high_mm\n"
             "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated,calibrated,"
-            "calibrated\n"
+            "calibrated,41.4,50.6\n"
             "sep,13.620,0.000,47.200,10.690,13.991,50.120,10.808,met,by-construction,"
-            "by-construction\n"
+            "by-construction,45.8,48.7\n"
             "dead-reckoning,3.402,0.000,66.610,4.190,3.341,58.850,3.840,missed,selected,"
-            "predicted\n"};
+            "predicted,40,65\n"};
 }
 
 inline results::File sample_tasks()
@@ -167,10 +168,28 @@ inline std::vector<results::File> whole_sample()
             sample_claims_quantiles(), sample_precision()};
 }
 
+/// The files with each table in JSON, as experiments write it.
+inline std::vector<results::File> as_written(const std::vector<results::File>& files)
+{
+    std::vector<results::File> written;
+    for (const results::File& file : files) {
+        if (!file.path.ends_with(".csv")) {
+            written.push_back(file);
+            continue;
+        }
+        const auto replay = file.path.rfind("/replay/");
+        const auto slash = std::min(replay, file.path.rfind('/'));
+        const auto name = file.path.substr(slash + 1, file.path.size() - slash - 5);
+        written.push_back({file.path.substr(0, slash) + "/results.json",
+                           results::json_text(std::vector{test::table_from_csv(name, file.text)})});
+    }
+    return written;
+}
+
 /// The files of the report of these; must be readable.
 inline std::vector<results::File> report_files(const std::vector<results::File>& files)
 {
-    const auto results = read_results(files);
+    const auto results = read_results(as_written(files));
     EXPECT_TRUE(results) << results.error().message;
     return results ? report_of(*results, "r") : std::vector<results::File>{};
 }

@@ -3,6 +3,7 @@
 #include "lab/results/real_time.hpp"
 
 #include "emulator/core/profile/text.hpp"
+#include "lab/results/table_text.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "peer/core/sync/text.hpp"
 
@@ -147,7 +148,7 @@ TEST(RealTime, ThatIsNotValidSaysWhyAndIsExcluded)
     EXPECT_FALSE(result.valid());
     EXPECT_FALSE(result.difference_percent());
     const std::array results{measured(), result};
-    EXPECT_EQ(real_time_csv(results),
+    EXPECT_EQ(csv_text(real_time_rows(results)),
               "algorithm,where,mean_mm,std_mm,max_mm,virtual_mean_mm,virtual_std_mm,"
               "virtual_max_mm,difference_percent,valid,invalid_because\n"
               "base,loopback,13.5000,10.5000,44.0000,13.6000,10.7000,47.0000,-1.87,true,\n"

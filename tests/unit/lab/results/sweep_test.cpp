@@ -4,6 +4,7 @@
 
 #include "lab/experiment/daemons.hpp"
 #include "lab/experiment/text.hpp"
+#include "lab/results/table_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +71,7 @@ TEST_F(Swept, SessionThatIsNotValidIsMarkedAndLeftOut)
     EXPECT_EQ(mean.sessions, 1U);
     EXPECT_EQ(mean.left_out, 1U);
     EXPECT_NEAR(mean.real.value(), 2.0, 1e-9);
-    const auto csv = sweep_csv(rows);
+    const auto csv = csv_text(sweep_table(rows));
     EXPECT_NE(csv.find(",,,0,0.0,false,peer 2: late; and late again\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find(",0.00,,0,0.0,true,\n"), std::string::npos) << csv;
 }

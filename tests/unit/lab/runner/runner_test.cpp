@@ -3,7 +3,8 @@
 // What a run keeps, reuses and finds, on however many threads.
 #include "lab/experiment/claims.hpp"
 #include "lab/experiment/text.hpp"
-#include "lab/results/result_files.hpp"
+#include "lab/results/found.hpp"
+#include "lab/results/table_text.hpp"
 #include "lab/runner/checksums.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/result_tables.hpp"
@@ -94,9 +95,8 @@ Runner runner_of(SessionStore& store, unsigned jobs)
 std::string limits_of(const experiment::Experiment& experiment,
                       const std::vector<experiment::JobResult>& findings)
 {
-    return results::make_result_files(experiment, experiment::known_criteria(), findings)
-        ->front()
-        .text;
+    return csv_text(
+        results::find_results(experiment, experiment::known_criteria(), findings)->tables.front());
 }
 
 } // namespace
@@ -365,14 +365,26 @@ TEST(ResultTables, JoinTheLinesOfPartsWhoseColumnsDiffer)
     const std::filesystem::path folder = testing::TempDir();
     ResultTables tables{folder};
     std::filesystem::create_symlink(folder / "victim", folder / "t.csv.part");
-    const std::vector<LeadingCell> first{{"value", "1ms"}}, second{{"value", "2,ms"}};
-    tables.add({"t.csv", "a,b\n1,2\n"}, first);
-    tables.add({"t.csv", "a,c\n3,\"4,5\"\n"}, second);
-    tables.add({"t.csv", "a,b\n6,7\n"}, first);
-    EXPECT_EQ(tables.commit(), std::vector<std::string>{"t.csv"});
-    std::ostringstream out;
-    out << std::ifstream{folder / "t.csv"}.rdbuf();
-    EXPECT_EQ(out.str(), "value,a,b,c\n1ms,1,2,\n\"2,ms\",3,,\"4,5\"\n1ms,6,7,\n");
+    results::Table first{"t", {{"value"}, {"a", 1}, {"b"}, {"d", {}, results::Stands::if_filled}}};
+    first.add("1ms", 1.25, 2U, std::optional<double>{});
+    results::Table second{"t",
+                          {{"value"}, {"a", 1}, {"in_json", {}, results::Stands::in_json}, {"c"}}};
+    second.add("2,ms", 3.0, 9U, "4,5");
+    for (const results::Table& part : {first, second, first}) tables.add(part);
+    const results::Table session{"sessions_by_axis", {{"seed"}}};
+    tables.add(session);
+    EXPECT_EQ(tables.commit(), (std::vector<std::string>{"t.csv", "sessions_by_axis.csv",
+                                                         "results.json", "sessions.json"}));
+    const auto text_of = [&](const char* name) {
+        std::ostringstream out;
+        out << std::ifstream{folder / name}.rdbuf();
+        return out.str();
+    };
+    EXPECT_EQ(text_of("t.csv"), "value,a,b,c\n1ms,1.2,2,\n\"2,ms\",3.0,,\"4,5\"\n1ms,1.2,2,\n");
+    results::Table all{"t", {}};
+    for (const results::Table& part : {first, second, first}) append(all, part);
+    EXPECT_EQ(text_of("results.json"), results::json_text(std::vector{all}));
+    EXPECT_EQ(text_of("sessions.json"), results::json_text(std::vector{session}));
     EXPECT_FALSE(std::filesystem::exists(folder / "victim")) << "lines waited where a link leads";
     std::filesystem::remove(folder / "t.csv.part");
 }

@@ -10,21 +10,10 @@ namespace {
 TEST(Blocks, HaveOneKeyThatSaysWhatTheyAre)
 {
     EXPECT_EQ(paragraph("a").dump(), R"({"p":"a"})");
-    EXPECT_EQ(heading("a").dump(), R"({"heading":"a"})");
     EXPECT_EQ(preformatted("a\n b").dump(), R"({"pre":"a\n b"})");
     EXPECT_EQ(banner("met", "a", {"b"}).dump(), R"({"banner":"a","style":"met","list":["b"]})");
-    EXPECT_EQ(folded("a", Json::array({heading("b")})).dump(),
-              R"({"folded":"a","blocks":[{"heading":"b"}]})");
+    EXPECT_EQ(bold("a").dump(), R"({"b":"a"})");
     EXPECT_EQ(panels("small", Json::array()).dump(), R"({"panels":"small","blocks":[]})");
-    EXPECT_EQ(zoomed(Json::array()).dump(), R"({"zoomed":true,"blocks":[]})");
-}
-
-TEST(Blocks, TextsAreListsOfPiecesWithoutListsInside)
-{
-    const Json inner = text_of({"b ", bold("c")});
-    EXPECT_EQ(text_of({"a ", inner, code("d"), link("e", "f"), badge("g", "met")}).dump(),
-              R"(["a ","b ",{"b":"c"},{"code":"d"},{"a":"e","href":"f"},)"
-              R"({"badge":"g","style":"met"}])");
 }
 
 TEST(Blocks, TablesStyleOnlyTheCellsThatHaveAStyle)

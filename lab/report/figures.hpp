@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/results.hpp"
+#include "proto/page/figure.hpp"
+
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+/// Figures of a section that stand together, below a heading or behind a line of text; empty: they
+/// have none.
+struct FigureGroup {
+    std::string title;
+    std::vector<page::Figure> figures;
+};
+using FigureGroups = std::vector<FigureGroup>;
+
+// The figures of each section; none where the folder lacks their tables.
+
+[[nodiscard]] FigureGroups table1_figures(const results::Results& results);
+/// Each seed of the closed-loop tasks.
+[[nodiscard]] FigureGroups tasks_figures(const results::Results& results);
+/// Limits of delay and jitter.
+[[nodiscard]] FigureGroups fig6a_figures(const results::Results& results);
+/// Limits of random loss and burst loss.
+[[nodiscard]] FigureGroups fig6b_figures(const results::Results& results);
+[[nodiscard]] FigureGroups curves_figures(const results::Results& results);
+/// Limits by filter and hands.
+[[nodiscard]] FigureGroups trust_figures(const results::Results& results);
+/// Limits by the values of a parameter.
+[[nodiscard]] FigureGroups axis_figures(const results::Results& results);
+/// Errors against cost: a group for each parameter and algorithm.
+[[nodiscard]] FigureGroups precision_figures(const results::Results& results);
+/// How much of what several parameters were varied over each algorithm bears.
+[[nodiscard]] FigureGroups points_figures(const results::Results& results);
+[[nodiscard]] FigureGroups fig7_figures(const results::Results& results);
+[[nodiscard]] FigureGroups qos_figures(const results::Results& results);
+[[nodiscard]] FigureGroups real_time_figures(const results::Results& results);
+/// A group for each recorded session.
+[[nodiscard]] FigureGroups session_figures(const results::Results& results);
+
+} // namespace hapnet::lab::report

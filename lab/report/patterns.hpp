@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/table.hpp"
+#include "proto/page/figure.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+// From the rows of a table to figures: selections of rows, words about a row, bars and curves.
+
+using results::Rows;
+using results::Table;
+using results::TableRow;
+
+/// The texts in a column, each once, in the order in which they come.
+[[nodiscard]] std::vector<std::string> distinct(const Rows& rows, std::string_view key);
+/// The rows with this text in the column.
+[[nodiscard]] Rows where(const Rows& rows, std::string_view key, std::string_view text);
+/// The rows apart by the texts in some columns.
+[[nodiscard]] std::vector<Rows> split(const Rows& rows, std::span<const std::string_view> keys);
+/// The table with a further column.
+[[nodiscard]] Table with_column(Table table, std::string key,
+                                const std::function<results::Cell(const TableRow&)>& cell_of);
+
+/// With so many decimals; "–" for none.
+[[nodiscard]] std::string shown(std::optional<double> value, int decimals);
+
+/// A text in which {key} stands for a cell: {key:.2} for a number with two decimals, {key:g} for
+/// one with as many digits as it takes, {key:limit} for one with as many digits as a limit is
+/// worth. What programs call otherwise than people is in people's words: "burst loss", "%".
+[[nodiscard]] std::string in_words(std::string_view pattern, const TableRow& row);
+
+/// The colour of an algorithm, the same all over the page; of what a person need not tell apart
+/// the same.
+[[nodiscard]] std::string_view colour_of(std::string_view algorithm);
+
+/// One bar of each row: its value stands in a column, the rest are patterns. The columns bound,
+/// missed, ci_low and ci_high say more about a bar that is not outlined.
+struct BarPattern {
+    std::string series;
+    std::string value; // a key; a row without this number has no such bar
+    std::string text;
+    std::string tip;
+    bool is_outlined = false; // for what others measured
+};
+/// A group for each text that the pattern of groups gives.
+[[nodiscard]] page::Bars bars_of(const Rows& rows, std::string_view group,
+                                 std::span<const BarPattern> bars);
+
+/// What of several values at one x belongs to a curve: each; the median, beside which all are dots;
+/// or the mean.
+enum class Together : std::uint8_t { each, median, mean };
+
+/// A curve of each algorithm through what stands in two columns.
+struct CurvePattern {
+    std::string_view x; // keys
+    std::string_view y;
+    Together together = Together::each;
+    bool is_line = true; // else only points
+    bool shows_points = false;
+};
+[[nodiscard]] std::vector<page::Curve> curves_of(const Rows& rows, const CurvePattern& pattern);
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/results.hpp"
+#include "proto/page/blocks.hpp"
+
+namespace hapnet::lab::report {
+
+/// The replays as the player takes them: columns of 16 bits a value.
+[[nodiscard]] page::Json replays_of(const results::Results& results);
+
+} // namespace hapnet::lab::report

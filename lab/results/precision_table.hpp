@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/jobs.hpp"
+#include "lab/metrics/criteria.hpp"
+#include "lab/results/table.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::results {
+
+/// What came of all jobs of an experiment at one value of its axis.
+struct AxisFindings {
+    std::string value;
+    const experiment::Experiment* experiment = nullptr;
+    std::vector<experiment::JobResult> results;
+};
+
+/// What figures by so many seeds, at one value of a parameter, are off from the same figures by all
+/// seeds at the reference, and what they cost: the table precision, of every figure that all seeds
+/// have at the reference, at each value, by 1, 2, 5, 10, ... and all seeds. The axis has a
+/// reference, which is among the values.
+///
+/// `figure` has its unit: "mean_mm", a mean over the seeds; "p50 of delay, ms". `ticks` are of all
+/// players, in the whole length of the sessions behind the figure, those on perfect networks
+/// included. `found` is the figure by all seeds; `difference`, by all seeds, from the reference's,
+/// with the 95 % interval of resampling them in pairs; `error` the root mean square over draws of
+/// so many seeds, empty where some of them find no limit; `order` that in which the figure
+/// converges.
+[[nodiscard]] Table precision_table(const experiment::Axis& axis,
+                                    std::span<const AxisFindings> values,
+                                    const metrics::Criteria& criteria);
+
+} // namespace hapnet::lab::results

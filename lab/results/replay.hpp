@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/table.hpp"
+#include "lab/virtual_time/trace.hpp"
+#include "scene/description.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::results {
+
+// What sides did over time.
+
+/// Samples of a trace of two, `rows_per_s` a second or all when there are fewer: the table
+/// replay/ALGORITHM-TASK. It has of each side, L and R, the places of the cube and of the hand in
+/// mm and the force on the hand along x in N.
+[[nodiscard]] Table replay_table(const virtual_time::Trace& trace, std::uint32_t rows_per_s);
+/// The rows as a session keeps them: CSV without a header.
+[[nodiscard]] std::string kept_lines(const Table& replay);
+[[nodiscard]] Table from_kept_lines(std::string name, std::string_view lines);
+
+/// One of those who played, with its copy of what is shared, in equal steps of time.
+struct ReplaySide {
+    std::string name; // "L", or "peer 3"
+    bool is_left = true;
+    std::vector<glm::dvec3> hand_mm{};
+    std::vector<glm::dvec3> force_n{}; // on the hand
+    /// Of each shared body the steps.
+    std::vector<std::vector<virtual_time::Pose>> bodies{};
+};
+
+/// What all sides did, in equal steps of time.
+struct Replay {
+    std::string algorithm;
+    std::string task;
+    double start_s = 0.0;
+    double step_s = 0.01;
+    std::vector<ReplaySide> sides{};                 // two or more, of at least two steps
+    scene::Description scene = scene::paper_scene(); // in which it was played
+    std::vector<std::size_t> shared{};               // which of its bodies; they stand there
+
+    [[nodiscard]] std::size_t steps() const { return sides.front().hand_mm.size(); }
+};
+
+/// The number of the first movable body.
+[[nodiscard]] std::size_t first_movable(const scene::Description& scene);
+
+/// Every so many ticks of a trace; `names` are those of its sides.
+[[nodiscard]] std::vector<ReplaySide> replay_sides(const virtual_time::Trace& trace,
+                                                   std::span<const std::string> names,
+                                                   std::size_t every);
+
+/// Of the table replay/ALGORITHM-TASK. The error: it has not two rows.
+[[nodiscard]] base::Result<Replay> replay_of(const Table& table);
+
+} // namespace hapnet::lab::results

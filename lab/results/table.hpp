@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/fields.hpp"
+#include "proto/base/result.hpp"
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace hapnet::lab::results {
+
+// Tables of results: what an experiment found, in rows of cells. A result folder has each of them
+// as CSV, for people and other programs, and in results.json, from which reports and comparisons
+// are made: docs/formats/experiment.md.
+
+/// A flag, a whole number, a number or a text; std::monostate: there is none.
+using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
+
+/// Where a column stands: in each file; only where a row has something in it; in JSON and not in
+/// CSV.
+enum class Stands : std::uint8_t { always, if_filled, in_json };
+
+struct Column {
+    std::string key;               // with its unit: "mean_mm"
+    std::optional<int> decimals{}; // of a number in CSV; nullopt: as many as it takes
+    Stands stands = Stands::always;
+};
+
+/// Columns in a line, as the CSV has them: "mean_mm:3" has three decimals; "scene?" stands only
+/// where a row fills it, "band+" in JSON alone.
+[[nodiscard]] std::vector<Column> columns_in(std::string_view line);
+
+/// The unit at the end of a key: "mm" of "mean_mm"; empty: it has none.
+[[nodiscard]] std::string_view unit_of(std::string_view key);
+/// The words of a key without its unit: "paper mean" of "paper_mean_mm".
+[[nodiscard]] std::string label_of(std::string_view key);
+
+/// The cell of a value: of an optional, of a name of an enum, of a number. What is not finite is
+/// none.
+template <typename Value>
+[[nodiscard]] Cell to_cell(const Value& value)
+{
+    if constexpr (requires { value.has_value(); }) {
+        return value ? to_cell(*value) : Cell{};
+    } else if constexpr (base::Named<Value>) {
+        return std::string{base::name_of(value)};
+    } else if constexpr (std::same_as<Value, bool>) {
+        return value;
+    } else if constexpr (std::integral<Value>) {
+        return static_cast<std::uint64_t>(value);
+    } else if constexpr (std::floating_point<Value>) {
+        return std::isfinite(value) ? Cell{value} : Cell{};
+    } else {
+        return std::string{value};
+    }
+}
+
+struct Table {
+    std::string name; // "limits": that of limits.csv
+    std::vector<Column> columns;
+    std::vector<std::vector<Cell>> rows{};
+
+    /// Appends a row of one value for each column.
+    template <typename... Values>
+    void add(const Values&... values)
+    {
+        rows.push_back({to_cell(values)...});
+    }
+    /// Where a column stands; nullopt: there is none.
+    [[nodiscard]] std::optional<std::size_t> place_of(std::string_view key) const;
+    [[nodiscard]] bool is_empty() const { return rows.empty(); }
+};
+
+/// A row of a table that outlives it, by the keys of its columns.
+class TableRow {
+public:
+    TableRow(const Table& table, std::size_t index) : table_{&table}, cells_{&table.rows[index]} {}
+
+    /// std::monostate where there is no such column.
+    [[nodiscard]] const Cell& operator[](std::string_view key) const;
+    [[nodiscard]] std::optional<double> number(std::string_view key) const;
+    /// With as many digits as a number takes; empty for nothing.
+    [[nodiscard]] std::string text(std::string_view key) const;
+
+private:
+    const Table* table_;
+    const std::vector<Cell>* cells_;
+};
+
+using Rows = std::vector<TableRow>;
+[[nodiscard]] Rows rows_of(const Table& table);
+
+/// A cell as a text: a number with as many digits as it takes, nothing as "".
+[[nodiscard]] std::string to_text(const Cell& cell);
+
+/// What all rows of a part of a table have before their own cells.
+struct LeadingCell {
+    std::string key;
+    Cell cell;
+};
+[[nodiscard]] Table with_leading(const std::vector<LeadingCell>& leading, Table table);
+
+/// Appends the rows of a part. Columns that the table has not yet are added, but for those
+/// that stand only where a row fills them and none does; a row has nothing in those that it lacks.
+void append(Table& table, const Table& part);
+/// The table without the columns that stand only where a row fills them and none does.
+[[nodiscard]] Table filled(const Table& table);
+
+/// The rows of structs whose fields are described.
+[[nodiscard]] Table table_of(std::string name, const base::FieldTable& fields,
+                             std::span<const void* const> values);
+template <base::Described T>
+[[nodiscard]] Table table_of(std::string name, const std::vector<T>& values)
+{
+    std::vector<const void*> places;
+    places.reserve(values.size());
+    for (const T& value : values) places.push_back(&value);
+    return table_of(std::move(name), base::field_table<T>(), places);
+}
+
+} // namespace hapnet::lab::results

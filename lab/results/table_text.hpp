@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/table.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::results {
+
+// Tables as the texts of files: CSV, and the JSON of docs/formats/experiment.md,
+//     {"version": 1, "tables": {"limits": {"columns": [...], "rows": [[...], ...]}, ...}}
+
+inline constexpr const char* tables_name = "results.json";
+/// The sessions of an experiment one by one: there can be a million of them.
+inline constexpr const char* sessions_name = "sessions.json";
+/// What was played in real time beside the results of an experiment.
+inline constexpr const char* real_time_name = "real_time.json";
+
+// The parts of the texts, which come one after the other.
+
+[[nodiscard]] std::string csv_header(const std::vector<Column>& columns);
+/// `1,2.500,"a, b"`, without a line's end.
+[[nodiscard]] std::string csv_line(const Table& table, std::size_t row);
+/// `1,2.5,"a, b"`, without the brackets.
+[[nodiscard]] std::string json_line(const Table& table, std::size_t row);
+
+inline constexpr std::string_view json_begin = "{\"version\":1,\"tables\":{";
+inline constexpr std::string_view json_end = "}}\n";
+/// `"limits":{"columns":[...],"rows":[`, which `]}` ends.
+[[nodiscard]] std::string json_head(const std::string& name, const std::vector<Column>& columns);
+
+// The texts of files, without the columns that stand only where a row fills them and none does.
+
+[[nodiscard]] std::string csv_text(const Table& table);
+[[nodiscard]] std::string json_text(std::span<const Table> tables);
+/// The cells of the CSV in columns of equal width, for people.
+[[nodiscard]] std::string aligned_text(const Table& table);
+
+/// The rows as objects by the keys of the columns.
+[[nodiscard]] nlohmann::ordered_json json_objects(const Table& table);
+
+/// The tables of a file of JSON. The error names the file, and what is wrong in it.
+[[nodiscard]] base::Result<std::vector<Table>> read_tables(std::string_view text,
+                                                           const std::string& path);
+
+} // namespace hapnet::lab::results
