@@ -41,8 +41,8 @@ void Journal::on_tick()
 
 void Journal::note(std::size_t other, base::TimePoint now)
 {
-    const peer::Member& member = player_.peer().others()[other];
-    const auto& session = member.session();
+    const peer::Remote& remote = player_.peer().others()[other];
+    const auto& session = remote.session();
     const auto clock = player_.peer().clock(other);
     if (!session || !clock) return;
     auto& noted = noted_[other];
@@ -55,7 +55,7 @@ void Journal::note(std::size_t other, base::TimePoint now)
                                .offset_uncertainty = clock->uncertainty,
                                .session = session->number,
                                .seed = session->seed,
-                               .other = member.id(),
+                               .other = remote.id(),
                                .noted_at = now,
                                .remote_skew_ppm = clock->skew_ppm};
     sink_(*noted);

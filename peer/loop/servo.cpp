@@ -17,7 +17,7 @@ constexpr int servo_priority = 45;    // above the emulator's, below the kernel'
 constexpr int receive_rounds_max = 8; // of up to 64 datagrams
 constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
-OtherStatus describe_other(const Member& other, const line::Line& line, base::TimePoint now)
+OtherStatus describe_other(const Remote& other, const line::Line& line, base::TimePoint now)
 {
     const ClockSync& clock = other.handshake().clock_sync();
     return {.id = other.id(),
@@ -26,7 +26,7 @@ OtherStatus describe_other(const Member& other, const line::Line& line, base::Ti
             .clock_jumps = clock.jumps(),
             .paths = other.paths(),
             .session = other.session() ? other.session()->number : 0,
-            .is_heard = other.freshness(now) > 0.0,
+            .is_heard = other.freshness_at(now) > 0.0,
             .is_gone = other.is_gone(),
             .line = line::status_of(line, now)};
 }
@@ -267,8 +267,8 @@ void Servo::send_to(std::size_t other, std::span<const std::byte> bytes, const s
 void Servo::note_session(std::size_t other, base::TimePoint now)
 {
     const Peer& peer = parts_.side.peer();
-    const Member& member = peer.others()[other];
-    const auto& session = member.session();
+    const Remote& remote = peer.others()[other];
+    const auto& session = remote.session();
     if (!session) return;
     // A side that was restarted has a clock unknown to us until it has answered.
     const auto clock = peer.clock(other);
@@ -283,7 +283,7 @@ void Servo::note_session(std::size_t other, base::TimePoint now)
                                .offset_uncertainty = clock->uncertainty,
                                .session = session->number,
                                .seed = session->seed,
-                               .other = member.id(),
+                               .other = remote.id(),
                                .noted_at = now,
                                .remote_skew_ppm = clock->skew_ppm};
     parts_.journal.put(*noted);
