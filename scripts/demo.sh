@@ -84,19 +84,17 @@ why_invalid() {
 
 # run_session FOLDER TASK SECONDS: two hands at one cube, 160 ms apart; or so many, 40 ms apart.
 run_session() {
-    local folder=$1 delay=160ms records=() id
+    local folder=$1 delay=160ms
     [[ -z $circle ]] || delay=40ms
     printf 'demo: task %s with %d hands for %s s, %s each way; what peer 1 says:\n' \
         "$2" "$peers" "$3" "$delay"
     if [[ -n $circle ]]; then
         start_links "$folder" "$peers" --delay "$delay" --seed 42
-        play_circle "$folder" "$3" "$peers" --task "$2" || return
     else
         start_emulator "$folder" --delay "$delay" --seed 42
-        play_session "$folder" "$3" --task "$2" || return
     fi
-    for ((id = 1; id <= peers; id++)); do records+=("$folder/peer-$id.rec"); done
-    "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
+    play_session "$folder" "$3" --task "$2" || return
+    analyse "$folder"
 }
 
 # play_quietly TASK SECONDS: plays a session and analyses it; once more when the machine was too

@@ -106,34 +106,32 @@ scene_of() { if [[ $1 == T8 ]]; then echo turning; else echo carry; fi; }
 
 # play_many: one session of so many peers.
 play_many() {
-    local folder=$out/real-time/loopback/${task,,}-$peers id records=()
+    local folder=$out/real-time/loopback/${task,,}-$peers
     mkdir -p "$folder"
     printf '\nreal-time: %s with %d peers for %s s, %s each way; what peer 1 says:\n' \
         "$task" "$peers" "$seconds" "$delay"
     start_links "$folder" "$peers" --delay "$delay" --seed 42
-    play_circle "$folder" "$seconds" "$peers" --task "$task" --scene "$(scene_of "$task")"
-    for ((id = 1; id <= peers; id++)); do records+=("$folder/peer-$id.rec"); done
-    "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
+    play_session "$folder" "$seconds" --task "$task" --scene "$(scene_of "$task")"
+    analyse "$folder"
 }
 
 # play_cell FOLDER PEERS TASK SECONDS SEED: the session whose files are in the folder.
 play_cell() {
-    local folder=$1 peers=$2 id records=()
+    local folder=$1 peers=$2 id
     local network=(--profile "$folder/profile.toml" --seed "$5")
     local play=(--task "$3" --algorithm "$folder/algorithm.toml" --scene "$folder/scene.toml")
     hands_seed=$5
     for ((id = 1; id <= peers; id++)); do
         operators[$id]=$folder/$( ((id % 2)) && echo left || echo right).toml
-        records+=("$folder/peer-$id.rec")
     done
     if ((peers == 2)); then
         start_emulator "$folder" "${network[@]}"
-        play_session "$folder" "$4" "${play[@]}" --insecure
+        play+=(--insecure)
     else
         start_links "$folder" "$peers" "${network[@]}"
-        play_circle "$folder" "$4" "$peers" "${play[@]}"
     fi
-    "$bin/hapnet-lab" analyse "${records[@]}" --json >"$folder/analysis.json"
+    play_session "$folder" "$4" "${play[@]}"
+    analyse "$folder"
 }
 
 # play_experiment: session by session, as hapnet-lab asks for them.

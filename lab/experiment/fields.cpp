@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/experiment/fields.hpp"
 
-#include "peer/core/circle.hpp"
+#include "peer/core/others.hpp"
 #include "proto/base/fields.hpp"
 #include "scene/text/text.hpp"
 
@@ -20,7 +20,7 @@ using base::Node;
 using base::Reading;
 
 constexpr std::int64_t search_levels_max = 1000;
-constexpr base::Count peers_format{2, peer::circle_max};
+constexpr base::Count peers_format{2, peer::peers_max};
 
 /// A list of different texts, at least one; or one text alone.
 std::vector<std::string> read_texts(const Node& node, Reading& reading)

@@ -75,7 +75,7 @@ constexpr auto fields_of(base::Tag<WrittenConfig>)
 bool can_play(std::span<const std::uint16_t> others, std::uint16_t self)
 {
     if (others.size() == 1) return others.front() != self;
-    return !others.empty() && others.size() < peer::circle_max && others.front() != 0 &&
+    return !others.empty() && others.size() < peer::peers_max && others.front() != 0 &&
            std::ranges::adjacent_find(others, std::greater_equal{}) == others.end() &&
            std::ranges::find(others, self) == others.end();
 }

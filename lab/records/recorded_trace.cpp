@@ -117,11 +117,6 @@ std::vector<virtual_time::Settled> settled_in(std::span<const Session> sessions,
     return settled;
 }
 
-base::Duration hands_on(base::Duration length)
-{
-    return length - std::min(peer::Peer::hands_off_length, length / 2);
-}
-
 /// One of a session: what it has recorded, and its clock against A's.
 struct Party {
     const Side* side = nullptr;
@@ -188,7 +183,7 @@ virtual_time::Trace trace_of(std::span<const Session> sessions)
     trace.begin = begin - parties.front().clock.to_a(parties.front().side->terms.start);
     if (bodies.front().has_rows) trace.settled = settled_in(sessions, bodies);
     const auto samples = static_cast<base::Duration::rep>(trace.sides[0].size());
-    const base::Duration length = hands_on(session.a.terms.length);
+    const base::Duration length = peer::Peer::hands_on_of(session.a.terms.length);
     if (length > base::Duration{0}) {
         trace.overlap = std::min(1.0, base::to_seconds((samples - bridged) * session.tick) /
                                           base::to_seconds(length));

@@ -2,15 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/virtual_time/journal.hpp"
 
-#include <chrono>
-
 namespace hapnet::lab::virtual_time {
-
-namespace {
-
-constexpr base::Duration noted_every{std::chrono::seconds{1}}; // what two have agreed on
-
-} // namespace
 
 Journal::Journal(const VirtualPlayer& player, Sink sink)
     : player_{player},
@@ -34,31 +26,8 @@ void Journal::on_tick()
         for (const peer::SharedBody& body : player_.peer().shared())
             sink_(player_.side->body_row(tick_, body));
     }
-    noted_.resize(player_.peer().others().size());
-    for (std::size_t other = 0; other < noted_.size(); ++other) note(other, now);
+    notes_.after_tick(player_.peer(), now, sink_);
     ++tick_;
-}
-
-void Journal::note(std::size_t other, base::TimePoint now)
-{
-    const peer::Member& member = player_.peer().others()[other];
-    const auto& session = member.session();
-    const auto clock = player_.peer().clock(other);
-    if (!session || !clock) return;
-    auto& noted = noted_[other];
-    const bool is_new =
-        !noted || noted->session != session->number || noted->start != session->start;
-    if (!is_new && now - noted->noted_at < noted_every) return;
-    noted = record::SessionRow{.start = session->start,
-                               .length = player_.peer().length(),
-                               .remote_offset = clock->offset,
-                               .offset_uncertainty = clock->uncertainty,
-                               .session = session->number,
-                               .seed = session->seed,
-                               .other = member.id(),
-                               .noted_at = now,
-                               .remote_skew_ppm = clock->skew_ppm};
-    sink_(*noted);
 }
 
 } // namespace hapnet::lab::virtual_time

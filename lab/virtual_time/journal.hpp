@@ -3,13 +3,12 @@
 #pragma once
 
 #include "lab/virtual_time/world.hpp"
+#include "peer/core/session_notes.hpp"
 #include "proto/record/rows.hpp"
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace hapnet::lab::virtual_time {
 
@@ -33,13 +32,11 @@ public:
     [[nodiscard]] bool has_bodies() const { return has_bodies_; }
 
 private:
-    void note(std::size_t other, base::TimePoint now);
-
     const VirtualPlayer& player_;
     Sink sink_;
     bool has_bodies_;
     std::uint64_t tick_ = 0;
-    std::vector<std::optional<record::SessionRow>> noted_;
+    peer::SessionNotes notes_;
 };
 
 } // namespace hapnet::lab::virtual_time

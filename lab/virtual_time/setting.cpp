@@ -4,7 +4,7 @@
 
 #include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/paths.hpp"
-#include "peer/core/circle.hpp"
+#include "peer/core/others.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
 #include "scene/world.hpp"
@@ -21,9 +21,8 @@ namespace {
 base::Result<void> validate_number(const Setting& setting)
 {
     const std::size_t count = setting.players.size();
-    if (count < 2 || count > peer::circle_max) {
-        return base::fail(
-            fmt::format("{} players: a session has 2 to {}", count, peer::circle_max));
+    if (count < 2 || count > peer::peers_max) {
+        return base::fail(fmt::format("{} players: a session has 2 to {}", count, peer::peers_max));
     }
     if (setting.wait_for > count) {
         return base::fail(fmt::format("{} are waited for, and {} play", setting.wait_for, count));

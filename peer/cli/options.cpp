@@ -210,10 +210,10 @@ base::Result<void> check_circle(const Options& options)
     }
     if (options.is_pair()) return {};
     constexpr std::uint16_t id_max = secure::KeyFile::id_max;
-    if (all > circle_max) {
+    if (all > peers_max) {
         return base::fail(fmt::format("{} peers are named, this one counted: a session has {} at "
                                       "most; name those that play with --peer",
-                                      all, circle_max));
+                                      all, peers_max));
     }
     if (options.id > id_max) {
         return base::fail(fmt::format("--id {}: among more than two peers ids are from 1 to {}",
@@ -225,9 +225,9 @@ base::Result<void> check_circle(const Options& options)
 base::Result<std::size_t> parse_wait_for(const std::string& text)
 {
     if (text == "all") return std::size_t{0};
-    const auto count = base::parse_count(text, circle_max);
+    const auto count = base::parse_count(text, peers_max);
     if (count && *count >= 2) return static_cast<std::size_t>(*count);
-    return base::fail(fmt::format("'{}': write all, or a number from 2 to {}", text, circle_max));
+    return base::fail(fmt::format("'{}': write all, or a number from 2 to {}", text, peers_max));
 }
 
 void add_results(cli::Command& program, Options& options)

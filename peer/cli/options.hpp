@@ -5,7 +5,7 @@
 #include "device/simulated/task.hpp"
 #include "peer/cli/device_options.hpp"
 #include "peer/cli/key_options.hpp"
-#include "peer/core/circle.hpp"
+#include "peer/core/others.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/ensure.hpp"
 #include "proto/base/random.hpp"

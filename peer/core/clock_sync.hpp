@@ -11,7 +11,7 @@
 
 namespace hapnet::peer {
 
-/// A measurement of the other side's clock by one echoed message.
+/// A measurement of the remote's clock by one echoed message.
 struct ClockSample {
     base::TimePoint sent;         // by us, our clock
     base::TimePoint heard;        // by them, their clock
@@ -19,7 +19,7 @@ struct ClockSample {
     base::TimePoint answer_heard; // by us, our clock
 };
 
-/// How the other side's clock stands to ours.
+/// How the remote's clock stands to ours.
 struct ClockEstimate {
     base::Duration offset{};      // their clock minus ours, now
     base::Duration uncertainty{}; // half the least round trip, which bounds what asymmetry can
@@ -27,7 +27,7 @@ struct ClockEstimate {
     double skew_ppm = 0.0;        // by how much theirs runs faster
 };
 
-/// Estimates the other side's clock from echoes (NTP's offset, RFC 5905 section 8). Queueing delays
+/// Estimates the remote's clock from echoes (NTP's offset, RFC 5905 section 8). Queueing delays
 /// both lengthen a round trip and spoil its offset, so of each second only the sample with the
 /// shortest round trip is kept, 64 seconds of them, and of these only those that are about as short
 /// as the shortest. A straight line through them, the shorter the weightier, gives offset and skew.
@@ -59,7 +59,7 @@ public:
 
     /// nullopt before the first sample.
     [[nodiscard]] std::optional<ClockEstimate> estimate() const;
-    /// How often the other side's clock has jumped.
+    /// How often the remote's clock has jumped.
     [[nodiscard]] std::uint32_t jumps() const { return jumps_; }
     /// From a sample that no queue explains, or a jump, until enough samples agree: nothing should
     /// be predicted from the estimate.

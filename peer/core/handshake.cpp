@@ -77,7 +77,7 @@ void Handshake::meet(const wire::Hello& hello)
     earlier_.reset();
     acknowledged_ = false;
     if (!session_) return;
-    // The other side was restarted: this one goes on and lets it join.
+    // The remote was restarted: this one goes on and lets it join.
     session_->number = number();
     session_->is_left = is_left();
     session_->joined_late = false;
@@ -95,7 +95,7 @@ std::uint32_t Handshake::number() const
 
 void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
 {
-    if (set_by_ == StartSetBy::circle) return agree_in_circle(hello, arrived);
+    if (set_by_ == StartSetBy::session) return agree_with_all(hello, arrived);
     const bool ours_to_decide = owns_start_ || (is_left() && !hello.in_session);
     if (ours_to_decide) {
         if (!session_) propose(arrived + start_after);
@@ -108,7 +108,7 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
 }
 
 /// Both may know the start from others and tell it; each says that it has heard the other's.
-void Handshake::agree_in_circle(const wire::Hello& hello, base::TimePoint arrived)
+void Handshake::agree_with_all(const wire::Hello& hello, base::TimePoint arrived)
 {
     if (!session_) {
         if (hello.start) adopt(hello, arrived);
@@ -121,7 +121,7 @@ void Handshake::agree_in_circle(const wire::Hello& hello, base::TimePoint arrive
     asked_ = !owns_start_ || !acknowledged_ || knows_a_former_one;
 }
 
-/// Two circles that began apart have met when the starts are not the same one.
+/// Two sessions that began apart have met when the starts are not the same one.
 void Handshake::compare_starts(const wire::Hello& hello, base::TimePoint arrived)
 {
     start_heard_ = hello.start;
@@ -134,7 +134,7 @@ void Handshake::compare_starts(const wire::Hello& hello, base::TimePoint arrived
     if (!is_over) earlier_ = Session{number(), start, hello.seed, length(), is_left(), true};
 }
 
-/// By how much the start that the other side tells is later than the one known here; nullopt when
+/// By how much the start that the remote tells is later than the one known here; nullopt when
 /// they are the same, or cannot be compared.
 std::optional<base::Duration> Handshake::later_there() const
 {
@@ -190,7 +190,7 @@ bool Handshake::may_replace_start(base::TimePoint start, base::TimePoint arrived
     return !has_begun && has_come_often(start);
 }
 
-/// Whether the other side has told this start so often, one time after the other.
+/// Whether the remote has told this start so often, one time after the other.
 bool Handshake::has_come_often(base::TimePoint start)
 {
     if (other_start_ != start) {

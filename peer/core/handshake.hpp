@@ -32,14 +32,14 @@ struct Session {
     std::uint64_t seed = 0;
     base::Duration length{};  // the shorter one of those that the two were asked for
     bool is_left = false;     // the lower id
-    bool joined_late = false; // the other side was there before: take its cube
+    bool joined_late = false; // the remote was there before: take its cube
 };
 
 /// Lets two peers find each other and agree on a start: hellos every 20 ms until both know it.
 /// The lower id sets the start one second after it learns that it was heard, and keeps saying so
-/// until that is acknowledged; the other side joins when it hears of it, if need be late. A peer
+/// until that is acknowledged; the remote joins when it hears of it, if need be late. A peer
 /// that restarts meets one that is in session already and joins that session. Feed with on_hello(),
-/// drain with hello(), and read session() after either. Among more than two the circle decides when
+/// drain with hello(), and read session() after either. Among more than two Others decides when
 /// to start, and every peer that knows the start tells it to those that it meets.
 class Handshake {
 public:
@@ -50,8 +50,8 @@ public:
     static constexpr base::Duration answer_within{std::chrono::milliseconds{500}};
     static constexpr base::Duration hello_every_unanswered{std::chrono::milliseconds{2}};
 
-    /// Who sets the start: the lower id of the two, or their circle by tell().
-    enum class StartSetBy : std::uint8_t { lower_id, circle };
+    /// Who sets the start: the lower id of the two, or all of the session by tell().
+    enum class StartSetBy : std::uint8_t { lower_id, session };
     explicit Handshake(const Introduction& introduction, StartSetBy by = StartSetBy::lower_id)
         : self_{introduction}, set_by_{by}
     {}
@@ -67,13 +67,13 @@ public:
     [[nodiscard]] std::optional<wire::ByeReason>
     on_hello(const wire::Hello& hello, base::TimePoint arrived, Known known = Known::silent);
 
-    /// Takes the clock echo of any message of the other side.
+    /// Takes the clock echo of any message of the remote.
     void on_echo(const std::optional<wire::Echo>& echo, base::TimePoint sent,
                  base::TimePoint arrived);
 
-    /// A state of this session arrived: the other side knows the start.
+    /// A state of this session arrived: the remote knows the start.
     void on_state() { acknowledged_ = true; }
-    /// Says hello once more although all seems to be settled; the other side answers where it knows
+    /// Says hello once more although all seems to be settled; the remote answers where it knows
     /// better.
     void ask() { asked_ = true; }
 
@@ -87,11 +87,11 @@ public:
     /// The hello that is due, if one is. `heard`: the peers that this one hears, bit i for id i.
     [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now, std::uint32_t heard);
 
-    /// Takes over the start, seed and length that its circle has agreed on, and tells them to the
-    /// other side, which must have been met. One that is met `late` is told that it joins. Another
-    /// start than before is told until the other side tells it, too.
+    /// Takes over the start, seed and length that all have agreed on, and tells them to the
+    /// remote, which must have been met. One that is met `late` is told that it joins. Another
+    /// start than before is told until the remote tells it, too.
     void tell(const Session& agreed, bool late);
-    /// Among more than two: the session that the other side is in, when it has told `starts_needed`
+    /// Among more than two: the session that the remote is in, when it has told `starts_needed`
     /// times that this began earlier than the one known here, and it is not over. See `is_same()`.
     [[nodiscard]] const std::optional<Session>& earlier() const { return earlier_; }
     /// Two starts are one when they are at most so far apart on clocks of such an uncertainty: a
@@ -101,15 +101,15 @@ public:
         return std::chrono::abs(apart) <= std::chrono::milliseconds{20} + 4 * uncertainty;
     }
 
-    /// The clock echo for the next message to the other side.
+    /// The clock echo for the next message to the remote.
     [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
 
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
-    /// The other side's clock, to predict from: nullopt before the first echo, and while in doubt.
+    /// The remote's clock, to predict from: nullopt before the first echo, and while in doubt.
     [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.trusted(); }
     /// How it was found.
     [[nodiscard]] const ClockSync& clock_sync() const { return clock_; }
-    /// Whether the other side has been heard in this run of it.
+    /// Whether the remote has been heard in this run of it.
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
     /// Its id; 0 before it was met.
     [[nodiscard]] std::uint16_t id() const { return remote_ ? remote_->id : std::uint16_t{0}; }
@@ -136,7 +136,7 @@ private:
     };
 
     [[nodiscard]] std::optional<wire::ByeReason> refusal_of(const wire::Hello& hello) const;
-    /// Whether the other side should long have known the start, and does not seem to.
+    /// Whether the remote should long have known the start, and does not seem to.
     [[nodiscard]] bool is_unanswered(base::TimePoint now) const
     {
         return session_ && owns_start_ && !acknowledged_ &&
@@ -146,7 +146,7 @@ private:
     [[nodiscard]] bool is_left() const;
     [[nodiscard]] std::uint32_t number() const;
     void agree(const wire::Hello& hello, base::TimePoint arrived);
-    void agree_in_circle(const wire::Hello& hello, base::TimePoint arrived);
+    void agree_with_all(const wire::Hello& hello, base::TimePoint arrived);
     void compare_starts(const wire::Hello& hello, base::TimePoint arrived);
     [[nodiscard]] std::optional<base::Duration> later_there() const;
     [[nodiscard]] bool has_come_often(base::TimePoint start);
@@ -162,15 +162,15 @@ private:
     std::optional<wire::Echo> last_heard_; // `age` unused: its arrival is below
     base::TimePoint last_heard_at_;
     std::optional<Session> session_;
-    bool owns_start_ = false;   // this side decides the start
-    bool stayed_ = false;       // it was in session when the other side was restarted
-    bool acknowledged_ = false; // the other side knows the start
-    bool asked_ = true;         // a hello is wanted although all is settled
-    std::optional<base::TimePoint> start_heard_; // the other side's start, on its clock
+    bool owns_start_ = false;                    // this side decides the start
+    bool stayed_ = false;                        // it was in session when the remote was restarted
+    bool acknowledged_ = false;                  // the remote knows the start
+    bool asked_ = true;                          // a hello is wanted although all is settled
+    std::optional<base::TimePoint> start_heard_; // the remote's start, on its clock
     std::optional<base::TimePoint> other_start_; // that was heard instead, and how often
     int times_other_start_ = 0;
     bool starts_differ_ = false;     // among more than two: this side and the other tell two starts
-    std::optional<Session> earlier_; // that the other side is in
+    std::optional<Session> earlier_; // that the remote is in
     std::optional<base::TimePoint> last_hello_;
 };
 

@@ -58,7 +58,7 @@ private:
     [[nodiscard]] glm::dvec3 within_friction(const glm::dvec3& raw) const;
 
     /// Removes the grain of the device's positions from the velocity, and the steps that 97 % loss
-    /// leaves in the other side's pushes from the intention.
+    /// leaves in the remote's pushes from the intention.
     static constexpr double velocity_filter_s = 0.015;
     static constexpr double filter_s = 0.020;
     /// Slower than this, friction may hold the hand.

@@ -17,7 +17,7 @@
 
 namespace hapnet::peer {
 
-/// What the path did to the states of one direction. Delays and ages need the other side's clock:
+/// What the path did to the states of one direction. Delays and ages need the remote's clock:
 /// while it is unknown or in doubt nothing is added to them. nullopt: nothing was measured.
 struct PathReport {
     std::optional<base::Quantiles> delay;
@@ -42,7 +42,7 @@ public:
     /// A duplicate that comes after so many newer ones counts as received.
     static constexpr std::size_t looks_back = 1024;
 
-    /// A state of the session arrived, whether it is used or not. `clock`: the other side's, as far
+    /// A state of the session arrived, whether it is used or not. `clock`: the remote's, as far
     /// as it is known.
     void on_state(const wire::State& state, base::TimePoint arrived,
                   const std::optional<ClockEstimate>& clock);

@@ -2,18 +2,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/handshake.hpp"
+#include "peer/core/outbox.hpp"
+#include "peer/core/path_meter.hpp"
+#include "peer/core/sequence_guard.hpp"
 #include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
 #include "proto/wire/message.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace hapnet::peer {
 
-/// Times for which the newest state of the other side holds and fades, from its arrival.
+/// Times for which the newest state of a remote holds and fades, from its arrival.
 struct Staleness {
     base::Duration hold{std::chrono::milliseconds{250}};
     base::Duration fade{std::chrono::milliseconds{50}};
@@ -23,17 +29,82 @@ struct Staleness {
 enum class Stale : std::uint8_t { drop, take };
 constexpr auto names_of(base::Tag<Stale> /*enum*/) { return base::names("drop", "take"); }
 
-/// The other side as of its newest state, or of the last to arrive when stale ones are taken.
-/// Between states everything is held.
+/// Another peer of the session, as this one knows it: the handshake with it, its newest state (or
+/// the last to arrive when stale ones are taken), what was heard of its leaving, and the datagrams
+/// that wait to be sent to it. Between states everything is held. Between any two peers the
+/// messages are numbered anew.
 class Remote {
 public:
-    explicit Remote(Staleness staleness, Stale stale = Stale::drop)
-        : staleness_{staleness}, stale_{stale}
-    {}
+    /// It counts as silent when no state came for this long after the start.
+    static constexpr base::Duration first_word_within{std::chrono::seconds{1}};
+    /// In ticks. A path that is slower one way than the other shifts the two starts by half the
+    /// difference, which nobody can see: as much as the slowest path that is believed.
+    static constexpr base::Duration::rep sequence_slack = 5000;
+    static constexpr std::uint32_t body_every = 64; // messages
+    /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
+    /// damaged. Those that it overtook on its way do not count.
+    static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
+    /// So many states without a body, and for a second, are no chance: every 64th has it.
+    static constexpr std::uint32_t states_without_body_max = 10 * body_every;
+    static constexpr base::Duration body_missed_after{std::chrono::seconds{1}};
 
-    /// False when the state is stale and dropped.
+    struct Config {
+        Introduction introduction{}; // of this peer
+        std::uint16_t id = 0;        // of the remote; 0: whoever answers
+        Handshake::StartSetBy start_set_by = Handshake::StartSetBy::lower_id;
+        Staleness staleness{};
+        Stale stale = Stale::drop;
+        base::Duration tick{std::chrono::milliseconds{1}};
+        bool measures_path = false;
+    };
+    explicit Remote(const Config& config);
+
+    /// What a hello has changed.
+    struct Greeting {
+        std::optional<wire::ByeReason> refused;
+        bool met = false;         // heard for the first time
+        bool in_session = false;  // with this run of it, from now on
+        bool had_session = false; // with another run, until now
+    };
+    [[nodiscard]] Greeting on_hello(const wire::Hello& hello, base::TimePoint arrived);
+    /// Whether its hello may be listened to: the one that is expected here.
+    [[nodiscard]] bool is_expected(std::uint16_t id) const { return id_ == 0 || id == id_; }
+
+    /// A state that is plausible in itself: whether its number can be true.
+    [[nodiscard]] bool can_be_numbered(const wire::State& state, base::TimePoint arrived) const;
+    /// Whether it goes on although it has said goodbye; then the goodbye is forgotten.
+    [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
+    struct Heard {
+        bool taken = false;        // newer than what was known
+        bool body_missed = false;  // from now on: the first time in this run
+        bool clock_jumped = false; // its clock, against this one
+    };
+    [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint arrived);
+    /// The part of it that algorithms see: the newest state. False when it is stale and dropped.
     bool update(const wire::State& state, base::TimePoint arrived);
-    void forget();
+    /// A state of another session. Where nothing is heard in this one, a late hello of a former run
+    /// may have made this peer change back to that: it says hello, so that the present run does.
+    void on_state_of_another(base::TimePoint arrived)
+    {
+        if (session() && freshness_at(arrived) <= 0.0) handshake_.ask();
+    }
+    /// True the first time in a session.
+    [[nodiscard]] bool on_goodbye(const wire::Bye& bye, base::TimePoint arrived);
+
+    /// Begins the session that all have agreed on; see Handshake::tell().
+    void join(const Session& agreed, bool late, base::TimePoint now);
+    /// Its newest state counts no more, as between two sessions.
+    void forget_state();
+
+    /// Begins a tick, in which freshness() stays what it is now.
+    void look(base::TimePoint now) { freshness_ = freshness_at(now); }
+    /// Of its state in this tick: 1 while fresh, falling to 0 over the fade, 0 when stale or
+    /// unknown, or when it is gone.
+    [[nodiscard]] double freshness() const { return freshness_; }
+    [[nodiscard]] double freshness_at(base::TimePoint now) const;
+    /// Whether its forces have just faded to zero, or it is heard again. To be asked once a tick.
+    enum class Change : std::uint8_t { none, lost, back };
+    [[nodiscard]] Change change(base::TimePoint now);
 
     /// nullopt before the first state of the session.
     [[nodiscard]] const std::optional<wire::State>& state() const { return state_; }
@@ -50,19 +121,81 @@ public:
     [[nodiscard]] const wire::BodyState* touched() const;
     [[nodiscard]] std::optional<base::TimePoint> arrived() const { return arrived_; }
 
-    /// 1 while fresh, falling to 0 over the fade, 0 when stale or unknown.
-    [[nodiscard]] double freshness(base::TimePoint now) const;
+    [[nodiscard]] const Handshake& handshake() const { return handshake_; }
+    [[nodiscard]] Handshake& handshake() { return handshake_; }
+    [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
+    /// What the path to it and back has done since the session with it began; nothing was measured
+    /// where that was not asked for.
+    [[nodiscard]] PathsReport paths() const { return meter_ ? meter_->report() : PathsReport{}; }
+    /// Its id: as it was named, or as it has said; 0: neither.
+    [[nodiscard]] std::uint16_t id() const { return id_ != 0 ? id_ : handshake_.id(); }
+    [[nodiscard]] bool is_gone() const { return gone_; } // it said goodbye
+    /// Heard by hellos or states within `length` before now.
+    [[nodiscard]] bool is_heard_within(base::Duration length, base::TimePoint now) const
+    {
+        return last_heard_ && now - *last_heard_ <= length;
+    }
+    /// So long silent, or gone: it does not hold the others up any more.
+    [[nodiscard]] bool counts_as_gone(base::Duration silence, base::TimePoint now) const;
+
+    /// The number of the pair's session and of the last state to it.
+    struct Numbering {
+        std::uint32_t number = 0;
+        std::uint32_t sequence = 0;
+    };
+    [[nodiscard]] const Numbering& numbering() const { return current_; }
+    std::uint32_t next_sequence() { return ++current_.sequence; }
+    /// Whether its next state has the body although nothing moves: the first, and every 64th.
+    [[nodiscard]] bool is_body_due() const { return current_.sequence % body_every == 1; }
+
+    void post(const auto& message)
+    {
+        outbox_.put([&message] { return wire::encode(message); });
+    }
+    /// The next datagram to be sent to it, valid until something is posted; nullptr: none.
+    [[nodiscard]] const wire::Datagram* poll() { return outbox_.take(); }
 
 private:
-    void take(const wire::State& state);
+    void begin_session(base::TimePoint now);
+    void take_bodies(const wire::State& state);
+    [[nodiscard]] bool misses_body(const wire::State& state, base::TimePoint arrived);
+    [[nodiscard]] base::TimePoint first_word_awaited_since() const
+    {
+        return std::max(session()->start, agreed_at_);
+    }
 
-    Staleness staleness_;
-    Stale stale_;
+    // What algorithms ask for in each tick stands first.
     std::optional<wire::State> state_;
     std::array<wire::BodyState, wire::bodies_max> bodies_; // the first count_, as they were told of
     std::size_t count_ = 0;
     std::size_t touched_ = 0; // of these
     std::optional<base::TimePoint> arrived_;
+    double freshness_ = 0.0;
+    Staleness staleness_;
+    Stale stale_;
+
+    std::uint16_t id_;
+    Handshake handshake_;
+    SequenceGuard sequences_;
+    std::unique_ptr<PathMeter> meter_; // large, and only where asked for
+    base::Duration tick_;
+    Outbox<wire::Datagram, 8> outbox_;
+    Numbering current_;
+    Numbering former_; // the session before
+    base::TimePoint agreed_at_;
+    std::optional<base::TimePoint> last_heard_; // a hello or a state
+
+    bool gone_ = false;
+    struct Goodbye {
+        base::TimePoint heard;
+        std::optional<base::TimePoint> last_sent; // of its states until then, on its clock
+    };
+    Goodbye goodbye_;
+    base::TimePoint last_body_; // that it told of, or the session's agreement
+    std::uint32_t states_without_body_ = 0;
+    bool body_missed_ = false;     // and a person has been told
+    bool lost_ = false;            // it fell silent
+    std::uint32_t jumps_told_ = 0; // of its clock, in this run
 };
 
 } // namespace hapnet::peer

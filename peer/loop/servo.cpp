@@ -15,9 +15,8 @@ namespace {
 
 constexpr int servo_priority = 45;    // above the emulator's, below the kernel's own threads
 constexpr int receive_rounds_max = 8; // of up to 64 datagrams
-constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
-OtherStatus describe_other(const Member& other, const line::Line& line, base::TimePoint now)
+OtherStatus describe_other(const Remote& other, const line::Line& line, base::TimePoint now)
 {
     const ClockSync& clock = other.handshake().clock_sync();
     return {.id = other.id(),
@@ -26,7 +25,7 @@ OtherStatus describe_other(const Member& other, const line::Line& line, base::Ti
             .clock_jumps = clock.jumps(),
             .paths = other.paths(),
             .session = other.session() ? other.session()->number : 0,
-            .is_heard = other.freshness(now) > 0.0,
+            .is_heard = other.freshness_at(now) > 0.0,
             .is_gone = other.is_gone(),
             .line = line::status_of(line, now)};
 }
@@ -39,7 +38,6 @@ Servo::Servo(const Parts& parts)
     base::ensure(parts.lines.size() == parts.side.peer().others().size() &&
                  parts.remotes.size() == parts.lines.size());
     for (const net::Endpoint& remote : parts.remotes) places_.push_back(remote.packed());
-    noted_.resize(parts.remotes.size());
 }
 
 void Servo::run()
@@ -137,7 +135,8 @@ void Servo::play(base::TimePoint now)
     while (const auto notice = parts_.side.notice())
         parts_.journal.put(TimedEvent{notice->event, now, notice->about});
     report_device(now);
-    for (std::size_t other = 0; other < noted_.size(); ++other) note_session(other, now);
+    notes_.after_tick(parts_.side.peer(), now,
+                      [this](const record::SessionRow& row) { parts_.journal.put(row); });
 }
 
 ServoStatus Servo::status() const
@@ -262,31 +261,6 @@ void Servo::send_to(std::size_t other, std::span<const std::byte> bytes, const s
     if (outcome != net::SendOutcome::sent) ++counters_.send_failures;
     counters_.last_send = outcome;
     sending_.store(outcome, std::memory_order_relaxed);
-}
-
-void Servo::note_session(std::size_t other, base::TimePoint now)
-{
-    const Peer& peer = parts_.side.peer();
-    const Member& member = peer.others()[other];
-    const auto& session = member.session();
-    if (!session) return;
-    // A side that was restarted has a clock unknown to us until it has answered.
-    const auto clock = peer.clock(other);
-    if (!clock) return;
-    auto& noted = noted_[other];
-    const bool is_new =
-        !noted || noted->session != session->number || noted->start != session->start;
-    if (!is_new && now - noted->noted_at < session_noted_every) return;
-    noted = record::SessionRow{.start = session->start,
-                               .length = peer.length(),
-                               .remote_offset = clock->offset,
-                               .offset_uncertainty = clock->uncertainty,
-                               .session = session->number,
-                               .seed = session->seed,
-                               .other = member.id(),
-                               .noted_at = now,
-                               .remote_skew_ppm = clock->skew_ppm};
-    parts_.journal.put(*noted);
 }
 
 } // namespace hapnet::peer::loop

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/rig.hpp"
+#include "peer/core/session_notes.hpp"
 #include "peer/core/side.hpp"
 #include "peer/line/lines.hpp"
 #include "peer/loop/force_gate.hpp"
@@ -89,7 +90,6 @@ private:
     void tend_lines(base::TimePoint now);
     void send(base::TimePoint now);
     void send_to(std::size_t other, std::span<const std::byte> bytes, const secure::Place& to);
-    void note_session(std::size_t other, base::TimePoint now);
     void describe(ServoStatus& status) const;
 
     Parts parts_;
@@ -102,8 +102,8 @@ private:
     net::RealTime real_time_;
     /// 2000 a second, and a second of them at once: a true path duplicates no more than all.
     monitor::RateLimit without_effect_{2000, std::chrono::microseconds{500}};
-    std::vector<std::optional<record::SessionRow>> noted_; // the newest with each of the others
-    Withheld withheld_ = Withheld::no;                     // in the last tick
+    SessionNotes notes_;
+    Withheld withheld_ = Withheld::no; // in the last tick
     std::atomic<net::SendOutcome> sending_{net::SendOutcome::sent};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};

@@ -54,7 +54,7 @@ struct ServoStatus {
     Counters messages;
     std::optional<Session> session;
     bool is_left = false; // acts as L
-    std::array<OtherStatus, circle_max - 1> others{};
+    std::array<OtherStatus, peers_max - 1> others{};
     std::size_t others_count = 0;
     [[nodiscard]] bool is_pair() const { return others_count <= 1; }
     std::optional<wire::ByeReason> refusal;

@@ -119,6 +119,8 @@ class Daemon:
         self._threads: List[threading.Thread] = []
         self.ready: Dict[str, str] = {}
         """What its line "ready" said, by its keys."""
+        self.control_path = ""
+        """Where its control socket is while it runs, for other clients."""
 
     # Life
 
@@ -126,10 +128,10 @@ class Daemon:
         """Starts it and waits until it is ready."""
         program = find_program(self.program)
         self._folder = tempfile.TemporaryDirectory(prefix="hapnet-")
-        socket_path = os.path.join(self._folder.name, "control.sock")
+        self.control_path = os.path.join(self._folder.name, "control.sock")
         self._lifeline = Lifeline()
         self._process = subprocess.Popen(
-            [program, *self._words, "--control", socket_path],
+            [program, *self._words, "--control", self.control_path],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -139,7 +141,7 @@ class Daemon:
         self._read(self._process.stderr, self._keep_err)
         try:
             self._await_ready()
-            self._control = ControlSocket(socket_path)
+            self._control = ControlSocket(self.control_path)
         except BaseException:
             self.kill()
             raise

@@ -4,7 +4,7 @@
 #
 # Sessions of daemons of which one after the other is killed and started again, for scripts/soak.sh.
 # To be sourced after scripts/lib/session.sh, by a script that has set out (a folder) and task.
-# shellcheck disable=SC2154 # program
+# shellcheck disable=SC2154 # program, remotes
 
 # Of the round that plays.
 round_folder=
@@ -16,13 +16,11 @@ loopback=127.$((1 + RANDOM % 250)).$((1 + RANDOM % 250))
 
 # start_daemon ID: a run of its own, with a record of its own.
 start_daemon() {
-    local id=$1 run=$((${round_runs[$1]:-0} + 1)) other others=()
-    for ((other = 1; other <= ${peers:?}; other++)); do
-        ((other == id)) || others+=(--peer "$other=${places[$id-$other]}")
-    done
+    local id=$1 run=$((${round_runs[$1]:-0} + 1))
     round_runs[id]=$run
+    # shellcheck disable=SC2086 # words
     with_script "${bin:?}/hapnet-peer" --key "${out:?}/keys/peer-$id.key" --listen "$loopback.$id:7000" \
-        "${others[@]}" --task "${task:?}" --duration "${round_seconds:?}s" --seed 1 \
+        ${remotes[id]} --task "${task:?}" --duration "${round_seconds:?}s" --seed 1 \
         --record "$round_folder/peer-$id.$run.rec" --stats "$round_folder/peer-$id.json" \
         >"$round_folder/peer-$id.$run.out" 2>"$round_folder/peer-$id.$run.log" &
     round_processes[id]=$!
@@ -54,7 +52,7 @@ kill_one() {
 play_round() {
     local away=$1 when id code started
     round_runs=() round_processes=()
-    for ((id = 1; id <= peers; id++)); do start_daemon "$id"; done
+    for ((id = 1; id <= ${peers:?}; id++)); do start_daemon "$id"; done
     for ((id = 1; id <= peers; id++)); do await_words "$id" 'session started'; done
     started=${EPOCHREALTIME/[.,]/}
     for when in "${@:2}"; do

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Sessions of two peers through the emulator, for the scripts that play some. To be sourced by a
+# Sessions through the emulator, for the scripts that play some. To be sourced by a
 # script that has set program (its name, for messages) and bin (the folder of the programs). Whatever
 # ends the script, its sessions end too.
 
@@ -77,7 +77,10 @@ await_ready() {
     done
 }
 
-# start_emulator FOLDER OPTION...: sets emulator, address_a and address_b.
+# By the id of each peer of the session: the options that name its remotes.
+remotes=()
+
+# start_emulator FOLDER OPTION...: between peers 1 and 2. Sets emulator and remotes.
 start_emulator() {
     local folder=$1 ready=
     within emulator "${bin:?}/hapnet-emulator" --listen-a "$(socket_of a)" \
@@ -87,8 +90,30 @@ start_emulator() {
     await_ready "$folder"
     [[ $ready =~ a=([^ ]+)\ b=([^ ]+) ]] ||
         fail "the emulator did not start:" "$folder/emulator.log"
-    address_a=${BASH_REMATCH[1]}
-    address_b=${BASH_REMATCH[2]}
+    remotes=([1]="--remote ${BASH_REMATCH[1]}" [2]="--remote ${BASH_REMATCH[2]}")
+}
+
+# start_links FOLDER PEERS OPTION...: the same with a link for every two of PEERS peers.
+start_links() {
+    local folder=$1 peers=$2 links=() ready='' i j word
+    for ((i = 1; i < peers; i++)); do
+        for ((j = i + 1; j <= peers; j++)); do
+            links+=(--link "$i-$j=127.0.0.1:0,127.0.0.1:0")
+        done
+    done
+    with_script "${bin:?}/hapnet-emulator" "${links[@]}" "${@:3}" --stats "$folder/emulator.json" \
+        >"$folder/emulator.out" 2>"$folder/emulator.log" &
+    emulator=$!
+    children+=("$emulator")
+    await_ready "$folder"
+    [[ -n $ready ]] || fail "the emulator did not start:" "$folder/emulator.log"
+    remotes=()
+    for word in $ready; do
+        [[ $word =~ ^([0-9]+)-([0-9]+)=([^,]+),(.+)$ ]] || continue
+        i=${BASH_REMATCH[1]} j=${BASH_REMATCH[2]}
+        remotes[i]+=" --peer $j=${BASH_REMATCH[3]}"
+        remotes[j]+=" --peer $i=${BASH_REMATCH[4]}"
+    done
 }
 
 # What a session may have of its own: the seed of the hands, and the files of the operators by the
@@ -96,19 +121,14 @@ start_emulator() {
 hands_seed=1
 declare -A operators=()
 
-# own_words ID FOLDER SECONDS: sets own to the options that each peer has for itself.
-own_words() {
-    own=(--id "$1" --duration "$3s" --seed "$hands_seed" --record "$2/peer-$1.rec"
-        --stats "$2/peer-$1.json")
-    [[ -z ${operators[$1]:-} ]] || own+=(--operator "${operators[$1]}")
-}
-
-# peer ID ADDRESS SECONDS FOLDER OPTION...: becomes a peer until its end.
+# peer ID SECONDS FOLDER OPTION...: becomes a peer until its end.
 peer() {
-    local own
-    own_words "$1" "$4" "$3"
-    within "$1" timeout --kill-after 5 $(($3 + 30)) "$bin/hapnet-peer" "${own[@]}" \
-        --listen "$(socket_of "$1")" --remote "$2" "${@:5}" >"$4/peer-$1.out"
+    local words=(--id "$1" --duration "$2s" --seed "$hands_seed" --record "$3/peer-$1.rec"
+        --stats "$3/peer-$1.json" --listen "$(socket_of "$1")")
+    [[ -z ${operators[$1]:-} ]] || words+=(--operator "${operators[$1]}")
+    # shellcheck disable=SC2086 # words
+    within "$1" timeout --kill-after 5 $(($2 + 30)) "$bin/hapnet-peer" "${words[@]}" \
+        ${remotes[$1]} "${@:4}" >"$3/peer-$1.out"
 }
 
 # wait_for_peers FOLDER EMULATOR PEER...: until all of them have ended, and ends the emulator then.
@@ -133,53 +153,12 @@ wait_for_peers() {
 # play_session FOLDER SECONDS PEER-OPTION...: a session through the started emulator, which then
 # ends too. What peer 1 says is shown. Fails when a program fails.
 play_session() {
-    local folder=$1 seconds=$2
-    peer 2 "$address_b" "$seconds" "$folder" "${@:3}" 2>"$folder/peer-2.log" &
-    local peer_2=$!
-    peer 1 "$address_a" "$seconds" "$folder" "${@:3}" &
-    wait_for_peers "$folder" "$emulator" "$!" "$peer_2"
-}
-
-# start_links FOLDER PEERS OPTION...: an emulator with a link for every two of PEERS peers. Sets
-# emulator, and places: peer 1 sends to ${places[1-2]} what is for peer 2.
-declare -A places=()
-start_links() {
-    local folder=$1 peers=$2 links=() ready='' i j word
-    for ((i = 1; i < peers; i++)); do
-        for ((j = i + 1; j <= peers; j++)); do
-            links+=(--link "$i-$j=127.0.0.1:0,127.0.0.1:0")
-        done
-    done
-    with_script "${bin:?}/hapnet-emulator" "${links[@]}" "${@:3}" --stats "$folder/emulator.json" \
-        >"$folder/emulator.out" 2>"$folder/emulator.log" &
-    emulator=$!
-    children+=("$emulator")
-    await_ready "$folder"
-    [[ -n $ready ]] || fail "the emulator did not start:" "$folder/emulator.log"
-    for word in $ready; do
-        [[ $word =~ ^([0-9]+)-([0-9]+)=([^,]+),(.+)$ ]] || continue
-        places[${BASH_REMATCH[1]}-${BASH_REMATCH[2]}]=${BASH_REMATCH[3]}
-        places[${BASH_REMATCH[2]}-${BASH_REMATCH[1]}]=${BASH_REMATCH[4]}
-    done
-}
-
-# play_circle FOLDER SECONDS PEERS PEER-OPTION...: a session of PEERS through the started links,
-# which then end too. What peer 1 says is shown. Fails when a program fails.
-play_circle() {
-    local folder=$1 seconds=$2 peers=$3 i j own others running=()
-    for ((i = peers; i >= 1; i--)); do
-        others=()
-        for ((j = 1; j <= peers; j++)); do
-            ((i == j)) || others+=(--peer "$j=${places[$i-$j]}")
-        done
-        own_words "$i" "$folder" "$seconds"
-        local words=("$bin/hapnet-peer" "${own[@]}" "${others[@]}" "${@:4}")
-        if ((i == 1)); then
-            with_script timeout --kill-after 5 $((seconds + 30)) "${words[@]}" \
-                >"$folder/peer-$i.out" &
+    local folder=$1 seconds=$2 id running=()
+    for id in "${!remotes[@]}"; do
+        if ((id == 1)); then
+            peer 1 "$seconds" "$folder" "${@:3}" &
         else
-            with_script timeout --kill-after 5 $((seconds + 30)) "${words[@]}" \
-                >"$folder/peer-$i.out" 2>"$folder/peer-$i.log" &
+            peer "$id" "$seconds" "$folder" "${@:3}" 2>"$folder/peer-$id.log" &
         fi
         running+=("$!")
     done
@@ -188,5 +167,5 @@ play_circle() {
 
 # analyse FOLDER: metrics of the records in it.
 analyse() {
-    "$bin/hapnet-lab" analyse "$1/peer-1.rec" "$1/peer-2.rec" --json >"$1/analysis.json"
+    "$bin/hapnet-lab" analyse "$1"/peer-[1-8].rec --json >"$1/analysis.json"
 }

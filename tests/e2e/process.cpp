@@ -57,6 +57,12 @@ std::optional<std::string> line_with(std::string_view text, std::string_view wor
     return std::nullopt;
 }
 
+/// As a shell has it.
+int exit_code_of(int status)
+{
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
 } // namespace
 
 Process::Process(std::string_view name, const std::vector<std::string>& arguments)
@@ -94,6 +100,14 @@ Process::~Process()
 void Process::signal(int number) const
 {
     if (!exit_) kill(pid_, number);
+}
+
+void Process::pause()
+{
+    signal(SIGSTOP);
+    int status = 0;
+    if (!exit_ && waitpid(pid_, &status, WUNTRACED) == pid_ && !WIFSTOPPED(status))
+        exit_ = exit_code_of(status);
 }
 
 void Process::collect(Clock::time_point deadline)
@@ -144,7 +158,7 @@ std::optional<int> Process::wait_exit(std::chrono::milliseconds timeout)
     while (!exit_) {
         int status = 0;
         if (waitpid(pid_, &status, WNOHANG) == pid_) {
-            exit_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+            exit_ = exit_code_of(status);
             break;
         }
         const auto now = Clock::now();

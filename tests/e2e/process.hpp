@@ -34,8 +34,11 @@ public:
     /// runs after `timeout`.
     std::optional<int> wait_exit(std::chrono::milliseconds timeout);
 
-    /// Sends SIGTERM, SIGKILL, SIGSTOP, ...; nothing when it has been reaped.
+    /// Sends SIGTERM, SIGKILL, SIGCONT, ...; nothing when it has been reaped.
     void signal(int number) const;
+    /// SIGSTOP, and waits until all threads stand still. The signal waits for a thread that takes
+    /// it, and until then the others go on: on a busy machine for tens of milliseconds.
+    void pause();
 
     [[nodiscard]] pid_t pid() const { return pid_; }
 

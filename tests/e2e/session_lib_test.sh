@@ -12,9 +12,9 @@ set -euo pipefail
 program=test bin=$programs
 source $script
 start_emulator $out --delay 1ms
-peer 1 "\$address_a" 60 $out --task P1 2>$out/peer-1.log &
+peer 1 60 $out --task P1 2>$out/peer-1.log &
 peers=(\$!)
-peer 2 "\$address_b" 60 $out --task P1 2>$out/peer-2.log &
+peer 2 60 $out --task P1 2>$out/peer-2.log &
 peers+=(\$!)
 echo "\$emulator \${peers[*]}" >$out/started
 wait

@@ -21,6 +21,9 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+from hapnet import Emulator, Peer  # noqa: E402
+
 TIME_MAX_S = 20
 MEMORY_MAX = 4 << 30
 TOKENS = [b"0", b"-1", b"1e309", b"nan", b"null", b"{}", b"[]", b'""', b"true", b"\n", b"\x00",
@@ -123,36 +126,24 @@ def soak(kind: Kind, count: int, first: int, out: pathlib.Path) -> int:
     return count - fine
 
 
-def make_run(bin_dir: pathlib.Path, folder: pathlib.Path):
+def make_run(folder: pathlib.Path):
     """Statistics, fates and a capture of a short run of the emulator."""
-    emulator = subprocess.Popen(
-        [bin_dir / "hapnet-emulator", "--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0",
-         "--delay", "5ms", "--loss", "10%", "--duration", "1s", "--stats", folder / "stats.json",
-         "--fates", folder / "fates.csv", "--pcap", folder / "run.pcapng"],
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    ready = dict(word.split("=", 1) for word in emulator.stdout.readline().split()[1:])
-    host, port = ready["a"].rsplit(":", 1)
+    emulator = Emulator(delay="5ms", loss="10%", duration="1s", stats=folder / "stats.json",
+                        fates=folder / "fates.csv", pcap=folder / "run.pcapng").start()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         for number in range(200):
-            sender.sendto(number.to_bytes(4, "little") * 8, (host, int(port)))
+            sender.sendto(number.to_bytes(4, "little") * 8, emulator.address_a)
             time.sleep(0.002)
-    emulator.wait()
+    emulator.join()
 
 
-def make_records(bin_dir: pathlib.Path, folder: pathlib.Path):
+def make_records(folder: pathlib.Path):
     """Records of both peers of a short session on this machine."""
-    ports = []
-    for _ in range(2):
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
-            one.bind(("127.0.0.1", 0))
-            ports.append(one.getsockname()[1])
-    peers = [subprocess.Popen(
-        [bin_dir / "hapnet-peer", "--id", str(i + 1), "--listen", f"127.0.0.1:{ports[i]}",
-         "--remote", f"127.0.0.1:{ports[1 - i]}", "--duration", "4s", "--record",
-         folder / f"{i + 1}.rec"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        for i in range(2)]
-    for peer in peers:
-        peer.wait()
+    with Emulator() as emulator:
+        peers = [Peer(id=i + 1, remote=emulator.ready[side], duration="4s",
+                      record=folder / f"{i + 1}.rec").start() for i, side in enumerate("ab")]
+        for peer in peers:
+            peer.join()
 
 
 def kinds(source: pathlib.Path, bin_dir: pathlib.Path, made: pathlib.Path):
@@ -164,8 +155,8 @@ def kinds(source: pathlib.Path, bin_dir: pathlib.Path, made: pathlib.Path):
                        **options)
 
     made.mkdir(parents=True)
-    make_run(bin_dir, made)
-    make_records(bin_dir, made)
+    make_run(made)
+    make_records(made)
     (made / "delays.csv").write_text("time,delay\n0s,10ms\n100ms,20ms\n1s,12.5ms\n")
     (made / "losses.txt").write_text("0 1 0 0 1 # lost\n0110\n")
     (made / "pings.txt").write_text("".join(
@@ -229,6 +220,7 @@ def kinds(source: pathlib.Path, bin_dir: pathlib.Path, made: pathlib.Path):
 
 def main() -> int:
     source, bin_dir, out = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+    os.environ["HAPNET_BIN"] = str(bin_dir)
     count = int(sys.argv[4]) if len(sys.argv) > 4 else 2000
     first = int(sys.argv[5]) if len(sys.argv) > 5 else 0
     shutil.rmtree(out, ignore_errors=True)

@@ -25,7 +25,7 @@ constexpr base::Duration holds = 250ms;
 constexpr base::Duration fades = 50ms;
 constexpr int fade_ticks = 50;
 constexpr base::Duration tick = 1ms;
-// As peer::Peer::gone_after: then the others play on, and the governor needs 50 ms to let them.
+// As peer::Others::gone_after: then the others play on, and the governor needs 50 ms to let them.
 constexpr base::Duration gone = 1s;
 constexpr base::Duration ramped = gone + 100ms;
 // Longer than any run of lost states: the peer has died.

@@ -48,14 +48,14 @@ hapnet_clock clock_of(const std::optional<ClockEstimate>& clock)
     return result;
 }
 
-void put_other(const Other& other, hapnet_other& to)
+void put_other(const Remote& other, hapnet_other& to)
 {
-    const auto& state = other.remote->state();
-    to.freshness = other.freshness;
-    to.id = other.id;
+    const auto& state = other.state();
+    to.freshness = other.freshness();
+    to.id = other.id();
     to.heard = flag(state.has_value());
-    if (state) put_state(*state, *other.remote->arrived(), to.state);
-    put_body(other.remote->body(), to.state);
+    if (state) put_state(*state, *other.arrived(), to.state);
+    put_body(other.body(), to.state);
 }
 
 /// This peer's copy of the scene for the length of a call.
@@ -161,11 +161,11 @@ Outcome SharedObject::tick(scene::World& world, const Situation& situation)
     std::array<hapnet_other, HAPNET_OTHERS_MAX> others; // NOLINT(*-member-init): filled below
     base::ensure(situation.others.size() <= others.size());
     hapnet_situation told{};
-    for (const Other& other : situation.others) {
+    for (const Remote& other : situation.others) {
         hapnet_other& to = others.at(told.others_count);
         to = {};
         put_other(other, to);
-        if (other.remote == &situation.remote) told.leader = told.others_count;
+        if (&other == &situation.remote) told.leader = told.others_count;
         ++told.others_count;
     }
     told.now_ns = count_of(situation.now);

@@ -23,7 +23,7 @@ namespace hapnet::peer {
 
 /// The algorithms that keep two copies of the shared body together: a closed set, by name. Each is
 /// a small value that is told of every state that arrives (hear()), moves the world (tick()), and
-/// forgets a run of the other side that has ended (forget()). docs/design/algorithms.md describes
+/// forgets a run of the remote that has ended (forget()). docs/design/algorithms.md describes
 /// them. SharedObject comes last: it stands for those that are no part of the program.
 using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor, RemoteProxy,
                                BaseTdpa, Wave, Couple, Lag, Rollback, SharedObject>;

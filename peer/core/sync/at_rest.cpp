@@ -4,12 +4,12 @@
 
 namespace hapnet::peer {
 
-std::optional<Presence::Pose> AtRest::pose(base::Position body, const Presence& remote,
-                                           const Situation& situation, const Times& times)
+std::optional<CombinedRemote::Pose> AtRest::pose(base::Position body, const CombinedRemote& remote,
+                                                 const Situation& situation, const Times& times)
 {
     if (!untouched_since_) untouched_since_ = situation.now;
     const bool waited = has_waited(situation.now, times);
-    if (!situation.yields || !waited || !remote.pose || situation.freshness <= 0.0) {
+    if (!situation.yields || !waited || !remote.pose || situation.remote.freshness() <= 0.0) {
         blend_.reset();
         return std::nullopt;
     }
@@ -17,8 +17,8 @@ std::optional<Presence::Pose> AtRest::pose(base::Position body, const Presence& 
     const base::Duration since = situation.now - blend_->start;
     const double share =
         since < times.within ? base::to_seconds(since) / base::to_seconds(times.within) : 1.0;
-    return Presence::Pose{blend_->from + share * (remote.pose->position - blend_->from),
-                          remote.pose->velocity};
+    return CombinedRemote::Pose{blend_->from + share * (remote.pose->position - blend_->from),
+                                remote.pose->velocity};
 }
 
 } // namespace hapnet::peer

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/sync/presence.hpp"
+#include "peer/core/sync/combined_remote.hpp"
 
 #include <optional>
 
 namespace hapnet::peer {
 
 /// How copies agree again once no hand touches the body: some time later, the copy that yields goes
-/// on a straight line to where the other side has it.
+/// on a straight line to where the remote has it.
 class AtRest {
 public:
     struct Times {
@@ -35,9 +35,10 @@ public:
         return untouched_since_ && times.after && now - *untouched_since_ >= *times.after;
     }
     /// To where a body that no hand touches is to be put; nullopt: it is to be left alone.
-    [[nodiscard]] std::optional<Presence::Pose> pose(base::Position body, const Presence& remote,
-                                                     const Situation& situation,
-                                                     const Times& times = usual());
+    [[nodiscard]] std::optional<CombinedRemote::Pose> pose(base::Position body,
+                                                           const CombinedRemote& remote,
+                                                           const Situation& situation,
+                                                           const Times& times = usual());
 
 private:
     struct Blend {

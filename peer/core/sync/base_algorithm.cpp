@@ -28,10 +28,11 @@ void BaseAlgorithm::forget()
 Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation)
 {
     if (situation.poses != nullptr) return tick_bodies(world, situation, options_);
-    return tick(world, situation, presence_of(situation, options_));
+    return tick(world, situation, combined_remote(situation, options_));
 }
 
-Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, const Presence& remote)
+Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation,
+                            const CombinedRemote& remote)
 {
     Outcome outcome;
     outcome.remote_touching = remote.touching;
@@ -68,7 +69,7 @@ Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, con
     return outcome;
 }
 
-bool BaseAlgorithm::remote_leads(const Situation& situation, const Presence& remote)
+bool BaseAlgorithm::remote_leads(const Situation& situation, const CombinedRemote& remote)
 {
     if (!remote.touching) {
         lead_.reset();
@@ -86,7 +87,7 @@ bool BaseAlgorithm::remote_leads(const Situation& situation, const Presence& rem
     return lead_->is_remote;
 }
 
-base::Displacement BaseAlgorithm::remote_displacement(const Presence& remote)
+base::Displacement BaseAlgorithm::remote_displacement(const CombinedRemote& remote)
 {
     const base::Displacement increments = increments_;
     increments_ = {};
@@ -98,7 +99,8 @@ base::Displacement BaseAlgorithm::remote_displacement(const Presence& remote)
     return options_.displacement_from == DisplacementFrom::increments ? increments : between;
 }
 
-void BaseAlgorithm::follow(scene::World& world, const Situation& situation, const Presence& remote)
+void BaseAlgorithm::follow(scene::World& world, const Situation& situation,
+                           const CombinedRemote& remote)
 {
     if (options_.follow == Follow::absolute) {
         return put_there(world, situation.body, *remote.pose);
@@ -116,14 +118,16 @@ void BaseAlgorithm::follow(scene::World& world, const Situation& situation, cons
     put_there(world, situation.body, {position, sign * remote.pose->velocity});
 }
 
-void BaseAlgorithm::settle(scene::World& world, const Situation& situation, const Presence& remote)
+void BaseAlgorithm::settle(scene::World& world, const Situation& situation,
+                           const CombinedRemote& remote)
 {
     const auto pose = at_rest_.pose(world.position(situation.body), remote, situation,
                                     {options_.settle_after, options_.settle_within});
     if (pose) put_there(world, situation.body, *pose);
 }
 
-void BaseAlgorithm::put_there(scene::World& world, scene::BodyId body, Presence::Pose there) const
+void BaseAlgorithm::put_there(scene::World& world, scene::BodyId body,
+                              CombinedRemote::Pose there) const
 {
     if (options_.axes == Axes::x) {
         const scene::BodyState own = world.body(body);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "peer/core/sync/at_rest.hpp"
+#include "peer/core/sync/combined_remote.hpp"
 #include "peer/core/sync/energy_at_an_omni.hpp"
-#include "peer/core/sync/presence.hpp"
 
 #include <optional>
 
@@ -14,7 +14,7 @@ namespace hapnet::peer {
 /// - this hand touches at some time of the tick: the body moves by this copy's own dynamics under
 ///   the sum of the local contact force and the remote one as last received (the stronger decides
 ///   the direction);
-/// - only the other hand touches: the body is where the other side last said (absolute, so that
+/// - only the other hand touches: the body is where the remote last said (absolute, so that
 ///   nothing accumulates);
 /// - no hand touches: the body coasts; 200 ms later the higher id blends to the lower id's pose
 ///   within 100 ms, so that the copies agree again.
@@ -30,20 +30,20 @@ public:
     void hear(const ReceivedState& received);
     /// Moves the world by one tick.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
-    /// The same with the other side as `remote` shows it.
+    /// The same with the remote as `remote` shows it.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation,
-                               const Presence& remote);
-    /// The other side's run has ended; its next state is of another.
+                               const CombinedRemote& remote);
+    /// The remote's run has ended; its next state is of another.
     void forget();
 
     [[nodiscard]] const BaseOptions& options() const { return options_; }
 
 private:
-    [[nodiscard]] bool remote_leads(const Situation& situation, const Presence& remote);
-    [[nodiscard]] base::Displacement remote_displacement(const Presence& remote);
-    void follow(scene::World& world, const Situation& situation, const Presence& remote);
-    void settle(scene::World& world, const Situation& situation, const Presence& remote);
-    void put_there(scene::World& world, scene::BodyId body, Presence::Pose there) const;
+    [[nodiscard]] bool remote_leads(const Situation& situation, const CombinedRemote& remote);
+    [[nodiscard]] base::Displacement remote_displacement(const CombinedRemote& remote);
+    void follow(scene::World& world, const Situation& situation, const CombinedRemote& remote);
+    void settle(scene::World& world, const Situation& situation, const CombinedRemote& remote);
+    void put_there(scene::World& world, scene::BodyId body, CombinedRemote::Pose there) const;
 
     struct Lead {
         bool is_remote = false;
@@ -53,7 +53,7 @@ private:
     AtRest at_rest_;
     std::optional<Lead> lead_;                    // the stronger of two hands
     double own_force_n_ = 0.0;                    // of the last tick, on the body
-    std::optional<base::Position> remote_before_; // where the other side had the body a tick ago
+    std::optional<base::Position> remote_before_; // where the remote had the body a tick ago
     base::Displacement increments_;               // heard since the last tick
     base::Displacement remote_moved_;             // since the last tick
     base::Position place_before_;                 // of the body, before this tick

@@ -17,7 +17,7 @@ SharedPoses::Touchers touchers_of(const Situation& situation, const BaseOptions&
     if (!options.let_go_after) return touchers;
     std::size_t kept = 0;
     for (const SharedPoses::Toucher& toucher : touchers.list())
-        if (situation.now - *toucher.other->remote->arrived() <= *options.let_go_after)
+        if (situation.now - *toucher.other->arrived() <= *options.let_go_after)
             touchers.all[kept++] = toucher;
     touchers.count = kept;
     return touchers;
@@ -29,10 +29,10 @@ void push(scene::World& world, const Situation& situation, const SharedPoses::To
           Outcome& outcome)
 {
     for (const SharedPoses::Toucher& toucher : touchers.list()) {
-        const wire::State& state = *toucher.other->remote->state();
-        const wire::BodyState& body = *toucher.other->remote->touched();
+        const wire::State& state = *toucher.other->state();
+        const wire::BodyState& body = *toucher.other->touched();
         const base::Force force =
-            toucher.other->freshness * base::limited(state.contact_force, situation.force_max_n);
+            toucher.other->freshness() * base::limited(state.contact_force, situation.force_max_n);
         world.push(body.body, force);
         outcome.remote_force += force;
         outcome.remote_touching = true;
@@ -61,7 +61,7 @@ Outcome tick_bodies(scene::World& world, const Situation& situation, const BaseO
     for (std::size_t i = 0; i < poses.bodies().size(); ++i) {
         if (poses.mover(i) == SharedPoses::Mover::none) poses.settle(world, situation, i);
         if (poses.mover(i) == SharedPoses::Mover::others)
-            poses.follow(world, situation, i, *poses.mover_among(touchers, i)->other->remote);
+            poses.follow(world, situation, i, *poses.mover_among(touchers, i)->other);
     }
     return outcome;
 }

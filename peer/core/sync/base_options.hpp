@@ -30,7 +30,7 @@ constexpr auto names_of(base::Tag<DisplacementFrom> /*enum*/)
     return base::names("positions", "increments");
 }
 
-/// When a body that this hand does not touch is where the other side has it.
+/// When a body that this hand does not touch is where the remote has it.
 enum class FollowWhile : std::uint8_t { touching, always };
 constexpr auto names_of(base::Tag<FollowWhile> /*enum*/)
 {

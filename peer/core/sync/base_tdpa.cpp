@@ -39,7 +39,7 @@ base::Force BaseTdpa::damping_force(base::Force remote, base::Velocity velocity,
 
 Outcome BaseTdpa::tick(scene::World& world, const Situation& situation)
 {
-    Presence remote = presence_of(situation, options_.base);
+    CombinedRemote remote = combined_remote(situation, options_.base);
     const base::Position before = world.position(situation.body);
     const base::Velocity velocity = world.velocity(situation.body);
     const scene::Bodies& bodies = world.state().bodies;

@@ -39,15 +39,15 @@ void Couple::hear(const ReceivedState& received)
     spring.ages.add(base::to_seconds(delay));
 }
 
-/// Draws a spring to where its owner has the body, as far as the tank allows.
-void Couple::draw(Spring& spring, const Other& other, const Situation& situation,
+/// Draws a spring to where its owner has the body, as far as the tank allows; nullptr: to nowhere.
+void Couple::draw(Spring& spring, const Remote* owner, const Situation& situation,
                   const scene::World& world)
 {
     const double tick_s = base::to_seconds(situation.tick);
     spring.force = {};
     spring.ages.fade(tick_s);
-    const wire::BodyState* const there = other.remote->body();
-    const bool acts = spring.sent_at && there != nullptr && other.freshness > 0.0;
+    const wire::BodyState* const there = owner != nullptr ? owner->body() : nullptr;
+    const bool acts = spring.sent_at && there != nullptr && owner->freshness() > 0.0;
     if (spring.sent_at) {
         const base::Duration age = situation.now - *spring.sent_at;
         spring.ages.add(std::max(0.0, base::to_seconds(age)));
@@ -56,7 +56,7 @@ void Couple::draw(Spring& spring, const Other& other, const Situation& situation
     const double share = drag_of(world, situation.body) / static_cast<double>(springs_.size());
     const double stiffest =
         std::min(options_.stiffness_max_n_per_m, share / (spring.ages.seconds() + tick_s));
-    spring.stiffness_n_per_m = acts ? other.freshness * stiffest : 0.0;
+    spring.stiffness_n_per_m = acts ? owner->freshness() * stiffest : 0.0;
     if (acts) spring.stretch = (there->position - world.position(situation.body)).value;
     const double wanted_j = spring.stored_j();
     if (wanted_j > held_j + spring.tank_j) {
@@ -86,10 +86,10 @@ void Couple::settle_accounts(const glm::dvec3& moved, double drag, double tick_s
 
 Outcome Couple::tick(scene::World& world, const Situation& situation)
 {
-    const Presence remote = presence_of(situation, BaseOptions{});
+    const CombinedRemote remote = combined_remote(situation, BaseOptions{});
     const base::Position before = world.position(situation.body);
     // Once all hands are off one copy goes to the other, and no spring draws that one meanwhile.
-    std::optional<Presence::Pose> rest;
+    std::optional<CombinedRemote::Pose> rest;
     if (world.touch(own_hand).touching || remote.touching) {
         at_rest_.interrupt();
     } else {
@@ -99,9 +99,7 @@ Outcome Couple::tick(scene::World& world, const Situation& situation)
     }
     glm::dvec3 sum{0.0};
     for (std::size_t i = 0; i < springs_.size(); ++i) {
-        Other other = situation.others[i];
-        if (rest) other.freshness = 0.0;
-        draw(springs_[i], other, situation, world);
+        draw(springs_[i], rest ? nullptr : &situation.others[i], situation, world);
         sum += springs_[i].force;
     }
     if (sum != glm::dvec3{0.0}) world.push(situation.body, {sum});

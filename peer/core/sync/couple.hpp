@@ -66,7 +66,7 @@ public:
     [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
 private:
-    void draw(Spring& spring, const Other& other, const Situation& situation,
+    void draw(Spring& spring, const Remote* owner, const Situation& situation,
               const scene::World& world);
     void settle_accounts(const glm::dvec3& moved, double drag, double tick_s);
 

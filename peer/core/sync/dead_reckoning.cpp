@@ -109,7 +109,7 @@ std::optional<base::Position> DeadReckoning::predicted(base::TimePoint now) cons
 
 Outcome DeadReckoning::tick(scene::World& world, const Situation& situation)
 {
-    Presence remote = presence_of(situation, options_.base);
+    CombinedRemote remote = combined_remote(situation, options_.base);
     if (const auto place = predicted(situation.now); place && remote.pose) {
         remote.pose->position = *place;
         if (options_.blend_within) remote.pose->position = blended(*place, world, situation);

@@ -86,7 +86,7 @@ constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
         base::part(&Options::base));
 }
 
-/// The paper's dead reckoning: the base algorithm, with the other side's body where it should be by
+/// The paper's dead reckoning: the base algorithm, with the remote's body where it should be by
 /// now, from its last two places by a first-order prediction,
 ///     x^ = x_k + v (t - t_arrived,k + H),  v = (x_k - x_k-1) / dt.
 /// It stands for the received place wherever that is used: while only the other hand touches, and
@@ -104,7 +104,7 @@ public:
     void forget();
 
     [[nodiscard]] const DeadReckoningOptions& options() const { return options_; }
-    /// The other side's body extrapolated to `now`; nullopt before its first state.
+    /// The remote's body extrapolated to `now`; nullopt before its first state.
     [[nodiscard]] std::optional<base::Position> predicted(base::TimePoint now) const;
     /// H for the newest message.
     [[nodiscard]] base::Duration horizon() const;

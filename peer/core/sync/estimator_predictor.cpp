@@ -64,10 +64,10 @@ void EstimatorPredictor::forget()
 
 Outcome EstimatorPredictor::tick(scene::World& world, const Situation& situation)
 {
-    Presence remote = presence_of(situation, options_.base);
+    CombinedRemote remote = combined_remote(situation, options_.base);
     const Ahead by = ahead(situation);
     if (remote.touching && has_heard_) {
-        remote.force = situation.freshness * force(situation, by.force_s);
+        remote.force = situation.remote.freshness() * force(situation, by.force_s);
     } else {
         force_shown_.reset();
     }
@@ -79,7 +79,7 @@ Outcome EstimatorPredictor::tick(scene::World& world, const Situation& situation
 EstimatorPredictor::Ahead EstimatorPredictor::ahead(const Situation& situation) const
 {
     if (!has_heard_) return {};
-    // How old the last sample is; from its arrival when the other side's clock is unknown.
+    // How old the last sample is; from its arrival when the remote's clock is unknown.
     const auto clock = situation.clock.estimate();
     const base::Duration age =
         clock ? (situation.now - hip_.at()) + clock->offset : situation.now - arrived_;

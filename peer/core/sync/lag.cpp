@@ -9,30 +9,30 @@ namespace hapnet::peer {
 
 void Lag::hear(const ReceivedState& received)
 {
-    Other& other = others_[received.from];
-    const auto tick = other.heard.hear(received);
+    RemoteHand& hand = hands_[received.from];
+    const auto tick = hand.heard.hear(received);
     if (!tick) return;
     // What was overtaken is as good as any: it tells of another tick.
-    if (!other.heard.history.add(*tick, HandSample::of(received.state))) return;
+    if (!hand.heard.history.add(*tick, HandSample::of(received.state))) return;
     if (!received.taken) return;
-    if (const auto answered = answered_tick(received)) other.ages_there.add(*tick - *answered);
+    if (const auto answered = answered_tick(received)) hand.ages_there.add(*tick - *answered);
 }
 
 void Lag::forget(std::size_t of)
 {
-    others_[of].heard.forget();
-    others_[of].ages.forget();
-    others_[of].ages_there.forget();
+    hands_[of].heard.forget();
+    hands_[of].ages.forget();
+    hands_[of].ages_there.forget();
 }
 
 void Lag::note_ages(const Situation& situation, std::int64_t now)
 {
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-        Other& other = others_[i];
-        if (situation.others[i].freshness > 0.0 && !other.heard.history.is_empty())
-            other.ages.add(now - other.heard.history.newest());
-        other.ages.pass(situation.tick, options_.memory);
-        other.ages_there.pass(situation.tick, options_.memory);
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+        RemoteHand& hand = hands_[i];
+        if (situation.others[i].freshness() > 0.0 && !hand.heard.history.is_empty())
+            hand.ages.add(now - hand.heard.history.newest());
+        hand.ages.pass(situation.tick, options_.memory);
+        hand.ages_there.pass(situation.tick, options_.memory);
     }
 }
 
@@ -42,9 +42,9 @@ void Lag::follow(const Situation& situation)
     constexpr std::int64_t looks_every = 10; // ticks
     if (has_begun_ && situation.number % looks_every != 0) return;
     std::int64_t wanted = 0;
-    for (const Other& other : others_) {
-        wanted = std::max(wanted, other.ages.value(options_.quantile));
-        wanted = std::max(wanted, other.ages_there.value(options_.quantile));
+    for (const RemoteHand& hand : hands_) {
+        wanted = std::max(wanted, hand.ages.value(options_.quantile));
+        wanted = std::max(wanted, hand.ages_there.value(options_.quantile));
     }
     constexpr double most = HandHistory::ticks_max - 24;
     const double lag_max =
@@ -57,8 +57,8 @@ void Lag::follow(const Situation& situation)
 bool Lag::is_ready(const Situation& situation) const
 {
     if (has_begun_ || situation.now - situation.start > waits_for) return true;
-    return std::ranges::none_of(others_,
-                                [](const Other& other) { return other.heard.history.is_empty(); });
+    return std::ranges::none_of(
+        hands_, [](const RemoteHand& hand) { return hand.heard.history.is_empty(); });
 }
 
 /// One tick of the session.
@@ -66,9 +66,9 @@ void Lag::play(scene::World& world, const Situation& situation)
 {
     ++played_;
     world.set_hand(own_hand_by_rank(situation), own_.at(played_, situation.tick).input());
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-        const bool is_there = situation.others[i].freshness > 0.0;
-        const HandSample sample = others_[i].heard.history.at(played_, situation.tick);
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+        const bool is_there = situation.others[i].freshness() > 0.0;
+        const HandSample sample = hands_[i].heard.history.at(played_, situation.tick);
         world.set_hand(hand_by_rank(i, situation),
                        is_there ? sample.input() : scene::HandInput{.present = false});
     }
@@ -85,11 +85,11 @@ void Lag::play(scene::World& world, const Situation& situation)
 void Lag::rest(const Situation& situation)
 {
     const auto leader = yields_to(situation);
-    if (!leader || !others_[*leader].heard.told) return;
-    RestAgreement::Word word = *others_[*leader].heard.told;
+    if (!leader || !hands_[*leader].heard.told) return;
+    RestAgreement::Word word = *hands_[*leader].heard.told;
     // Of two, both know the same ages, and so have about the same lag.
     constexpr std::int64_t about = 10; // ticks
-    const bool is_pair = others_.size() == 1;
+    const bool is_pair = hands_.size() == 1;
     word.knows = word.tick - (is_pair ? lag_ticks() + about : HandHistory::ticks_max);
     rest_.hear(word);
     const auto ticks = BaseOptions{}.settle_within / situation.tick;
@@ -127,7 +127,7 @@ Outcome Lag::outcome_of(scene::World& world, const Situation& situation, std::in
     outcome.on_hand = outcome.touched.on_hand;
     outcome.late = has_begun_ ? (now - played_) * situation.tick : base::Duration{0};
     says_grip(outcome.touched, own_.at(now, situation.tick));
-    for (std::size_t i = 0; i < others_.size(); ++i) {
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
         const scene::HandTouch& touch = world.touch(hand_by_rank(i, situation));
         outcome.remote_touching = outcome.remote_touching || touch.touching;
         outcome.remote_force += touch.on_body;

@@ -50,7 +50,7 @@ public:
     explicit Lag(const LagOptions& options) : options_{options} {}
 
     /// Takes the memory for so many others.
-    void prepare(std::size_t others) { others_.resize(others); }
+    void prepare(std::size_t others) { hands_.resize(others); }
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
@@ -67,7 +67,7 @@ public:
     static constexpr int together_max = 2;
 
 private:
-    struct Other {
+    struct RemoteHand {
         HeardHand heard;
         AgeQuantile ages;       // of its newest word, here
         AgeQuantile ages_there; // of this peer's newest word, there
@@ -86,7 +86,7 @@ private:
                                      std::int64_t now);
 
     LagOptions options_;
-    std::vector<Other> others_;
+    std::vector<RemoteHand> hands_;
     HandHistory own_;
     SessionTicks ticks_;
     double lag_ = 0.0; // ticks

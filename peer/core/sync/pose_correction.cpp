@@ -23,9 +23,9 @@ glm::dvec3 weight_of(const scene::World& world, scene::BodyId id)
     return bodies.properties[bodies.slot_of[id]].mass * world.frozen().gravity;
 }
 
-const wire::BodyState* body_of(const Other& other, scene::BodyId id)
+const wire::BodyState* body_of(const Remote& other, scene::BodyId id)
 {
-    return other.remote->body(static_cast<std::uint16_t>(id));
+    return other.body(static_cast<std::uint16_t>(id));
 }
 
 } // namespace
@@ -112,8 +112,8 @@ std::optional<PoseCorrection::Motion> PoseCorrection::error_in_past(const Copy& 
 {
     const Situation& situation = copy.situation;
     const SharedPoses& poses = *situation.poses;
-    const auto owner = std::ranges::find(situation.others, poses.owner(body), &Other::id);
-    if (owner == situation.others.end() || !(owner->freshness > 0.0)) return std::nullopt;
+    const auto owner = std::ranges::find(situation.others, poses.owner(body), &Remote::id);
+    if (owner == situation.others.end() || !(owner->freshness() > 0.0)) return std::nullopt;
     const wire::BodyState* const there = body_of(*owner, poses.bodies()[body].id);
     const auto index = static_cast<std::size_t>(owner - situation.others.begin());
     const auto ago =

@@ -145,18 +145,19 @@ void ProxyHand::enter(const View& view)
 {
     is_there_ = true;
     trust_ = 1.0;
-    const base::Position hip = view.other.remote->state()->hip;
+    const scene::BodyState body = view.world.body(view.there->body);
+    const base::Position hip = view.other.state()->hip;
     glm::dvec3 lever = (hip - view.there->position).value;
     glm::dvec3 pull = intention_ - hip.value;
-    motion_.speed = view.body.velocity.value;
+    motion_.speed = body.velocity.value;
     if (view.there->turning) {
         const glm::dquat turn =
-            view.body.orientation * glm::conjugate(view.there->turning->orientation.quaternion());
+            body.orientation * glm::conjugate(view.there->turning->orientation.quaternion());
         lever = turn * lever;
         pull = turn * pull;
-        motion_.speed += glm::cross(view.body.angular_velocity, lever);
+        motion_.speed += glm::cross(body.angular_velocity, lever);
     }
-    motion_.place = view.body.position.value + lever;
+    motion_.place = body.position.value + lever;
     anchor_ = motion_.place + pull;
 }
 
@@ -166,9 +167,9 @@ void ProxyHand::look(const View& view)
     const double age_s = base::to_seconds(age(view.now));
     ages_.fade(tick_s);
     ages_.add(age_s);
-    const auto& state = view.other.remote->state();
+    const auto& state = view.other.state();
     const bool acts = has_heard_ && state && view.there && (state->touching || state->holding) &&
-                      view.other.freshness > 0.0;
+                      view.other.freshness() > 0.0;
     if (!acts) {
         is_there_ = false;
         return;
@@ -210,17 +211,17 @@ double ProxyHand::drive_energy_j() const
                   (1.0 - trust_) * glm::dot(contact_force_, contact_force_) / k);
 }
 
-double ProxyHand::step(base::Force on_hand, const Drive& drive)
+double ProxyHand::step(base::Force on_hand, double share, base::Duration tick)
 {
     if (!is_there_) return 0.0;
-    const double seconds = base::to_seconds(drive.tick) / hand_steps_per_tick;
+    const double seconds = base::to_seconds(tick) / hand_steps_per_tick;
     const glm::dvec3 before = motion_.place;
     const glm::dvec3 steady =
         (1.0 - trust_) * (contact_force_ + (eta_ * hand_.damping_ns_per_m) * velocity_);
     for (int part = 0; part < hand_steps_per_tick; ++part) {
         const glm::dvec3 spring = (trust_ * hand_.stiffness_n_per_m) * (anchor_ - motion_.place);
-        motion_.step(hand_, trust_ * hand_.friction_n,
-                     drive.share * (spring + steady) + on_hand.value, seconds);
+        motion_.step(hand_, trust_ * hand_.friction_n, share * (spring + steady) + on_hand.value,
+                     seconds);
     }
     return glm::dot(on_hand.value, motion_.place - before);
 }

@@ -95,13 +95,6 @@ inline constexpr int hand_steps_per_tick = 4;
 /// spring, and not a mere force, from what it would have missed by (g).
 class ProxyHand {
 public:
-    /// What it may do in a tick, and what comes of it.
-    struct Drive {
-        double share = 1.0; // of its spring and force: what the account and freshness allow
-        base::Duration tick{};
-        double force_max_n = 0.0;
-    };
-
     explicit ProxyHand(const ProxyHandOptions& options);
 
     /// A state that was taken. Returns the work that its owner has put in since the one before, J:
@@ -125,9 +118,9 @@ public:
 
     /// Comes, stays or goes as its owner's hand does, and looks where to be drawn to.
     struct View {
-        const Other& other;
+        const Remote& other;
         const wire::BodyState* there = nullptr; // the body that its hand is on, as last heard
-        scene::BodyState body;                  // the same in this copy
+        const scene::World& world;              // this copy, with the same body
         base::TimePoint now;
         base::Duration tick{};
         bool own_hand_touches = false;
@@ -140,9 +133,10 @@ public:
     [[nodiscard]] double kinetic_energy_j() const;
     /// Of what drives it, at full share.
     [[nodiscard]] double drive_energy_j() const;
-    /// Moves on by a tick against the force on it. Returns the work of that force, J: negative when
-    /// it has given the copy energy.
-    [[nodiscard]] double step(base::Force on_hand, const Drive& drive);
+    /// Moves on by a tick against the force on it, with a share of its spring and force: what the
+    /// account and freshness allow. Returns the work of that force, J: negative when it has given
+    /// the copy energy.
+    [[nodiscard]] double step(base::Force on_hand, double share, base::Duration tick);
 
     /// Dry friction of its finger on the body, where the scene's hands have any.
     std::optional<FingerFriction> finger;

@@ -68,11 +68,10 @@ void RemoteProxy::look(const scene::World& world, const Situation& situation)
             proxies_[i].look(view_of(i, world, situation));
         return;
     }
-    const scene::BodyState body = world.body(situation.body);
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
         proxies_[i].look({.other = situation.others[i],
-                          .there = situation.others[i].remote->body(),
-                          .body = body,
+                          .there = situation.others[i].body(),
+                          .world = world,
                           .now = situation.now,
                           .tick = situation.tick,
                           .own_hand_touches = own_hand_touches_});
@@ -84,8 +83,8 @@ ProxyHand::View RemoteProxy::view_of(std::size_t other, const scene::World& worl
                                      const Situation& situation) const
 {
     ProxyHand::View view{.other = situation.others[other],
-                         .there = situation.others[other].remote->touched(),
-                         .body = {},
+                         .there = situation.others[other].touched(),
+                         .world = world,
                          .now = situation.now,
                          .tick = situation.tick};
     if (view.there == nullptr) return view;
@@ -95,7 +94,6 @@ ProxyHand::View RemoteProxy::view_of(std::size_t other, const scene::World& worl
         view.there = nullptr;
         return view;
     }
-    view.body = world.body(view.there->body);
     view.own_hand_touches = poses.mover(*index) == SharedPoses::Mover::own;
     return view;
 }
@@ -160,9 +158,8 @@ void RemoteProxy::move_proxies(const scene::World& world, const Situation& situa
         if (!proxy.is_there()) continue;
         const scene::HandTouch& touch = world.touch(hand_of(i));
         if (proxy.finger) proxy.finger->on_touch(touch);
-        const ProxyHand::Drive drive{.share = share * situation.others[i].freshness,
-                                     .tick = situation.tick};
-        account_j_ += proxy.step(touch.on_hand - rubbing_[i], drive);
+        account_j_ += proxy.step(touch.on_hand - rubbing_[i],
+                                 share * situation.others[i].freshness(), situation.tick);
         const base::Force on_body = touch.on_body + rubbing_[i];
         outcome.remote_touching = true;
         outcome.remote_force = outcome.remote_force + on_body;
@@ -177,9 +174,8 @@ void RemoteProxy::move_proxies(const scene::World& world, const Situation& situa
 
 bool RemoteProxy::is_anyone_touching(const Situation& situation) const
 {
-    return own_hand_touches_ || std::ranges::any_of(situation.others, [](const Other& other) {
-               return other.freshness > 0.0 && other.remote->state() &&
-                      other.remote->state()->touching;
+    return own_hand_touches_ || std::ranges::any_of(situation.others, [](const Remote& other) {
+               return other.freshness() > 0.0 && other.state() && other.state()->touching;
            });
 }
 
@@ -187,7 +183,7 @@ bool RemoteProxy::is_anyone_touching(const Situation& situation) const
 std::optional<std::size_t> RemoteProxy::lowest(const Situation& situation)
 {
     for (std::size_t i = 0; i < situation.lower_ids; ++i)
-        if (situation.others[i].freshness > 0.0) return i;
+        if (situation.others[i].freshness() > 0.0) return i;
     return std::nullopt;
 }
 
@@ -220,7 +216,7 @@ glm::dvec3 RemoteProxy::error_against(std::size_t leader, const Situation& situa
                                       const scene::BodyState& body) const
 {
     const ProxyHand& proxy = proxies_[leader];
-    const Remote& remote = *situation.others[leader].remote;
+    const Remote& remote = situation.others[leader];
     const wire::BodyState& there = *remote.body();
     const base::Duration age = proxy.age(situation.now);
     if (remote.state()->touching) {
@@ -238,8 +234,8 @@ void RemoteProxy::correct(scene::World& world, const Situation& situation)
 {
     const auto index = leader(situation);
     if (!index) return;
-    const Other& other = situation.others[*index];
-    if (!(other.freshness > 0.0) || !other.remote->state() || !other.remote->body()) return;
+    const Remote& other = situation.others[*index];
+    if (!(other.freshness() > 0.0) || !other.state() || !other.body()) return;
     const scene::BodyState body = world.body(situation.body);
     const glm::dvec3 error = error_against(*index, situation, body);
     const double tick_s = base::to_seconds(situation.tick);

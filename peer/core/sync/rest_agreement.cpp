@@ -62,9 +62,9 @@ std::optional<base::Displacement> RestAgreement::take_way(std::int64_t rest)
 
 std::optional<std::size_t> yields_to(const Situation& situation)
 {
-    if (!situation.yields || situation.freshness <= 0.0) return std::nullopt;
+    if (!situation.yields || situation.remote.freshness() <= 0.0) return std::nullopt;
     for (std::size_t i = 0; i < situation.others.size(); ++i)
-        if (situation.others[i].remote == &situation.remote) return i;
+        if (&situation.others[i] == &situation.remote) return i;
     return std::nullopt;
 }
 

@@ -13,30 +13,30 @@ void Rollback::prepare(std::size_t others, const scene::World& world)
                                     .velocity_filter_min = options_.velocity_filter_min,
                                     .believed_above_m_per_s = options_.believed_above_m_per_s,
                                     .memory = options_.memory};
-    others_.assign(others, Other{learning});
+    hands_.assign(others, RemoteHand{learning});
     past_ = world;
     present_ = world;
 }
 
 void Rollback::hear(const ReceivedState& received)
 {
-    Other& other = others_[received.from];
-    const auto tick = other.heard.hear(received);
+    RemoteHand& hand = hands_[received.from];
+    const auto tick = hand.heard.hear(received);
     if (!tick) return;
     // What was overtaken fills a gap, unless the past is beyond it.
-    if (*tick > confirmed_ && other.heard.history.add(*tick, HandSample::of(received.state)))
+    if (*tick > confirmed_ && hand.heard.history.add(*tick, HandSample::of(received.state)))
         has_news_ = true;
     if (!received.taken) return;
-    static_cast<void>(other.learnt.hear(received));
-    other.touches = received.state.touching;
+    static_cast<void>(hand.learnt.hear(received));
+    hand.touches = received.state.touching;
 }
 
 void Rollback::forget(std::size_t of)
 {
-    others_[of].heard.forget();
-    others_[of].learnt.forget();
-    others_[of].touches = false;
-    others_[of].whole = confirmed_;
+    hands_[of].heard.forget();
+    hands_[of].learnt.forget();
+    hands_[of].touches = false;
+    hands_[of].whole = confirmed_;
 }
 
 /// From the copy as it is, at the beginning and when it was changed from outside.
@@ -45,21 +45,21 @@ void Rollback::begin(const scene::World& world, std::int64_t now)
     past_->restore(world);
     present_->restore(world);
     confirmed_ = now - 1;
-    for (Other& other : others_) other.whole = confirmed_;
+    for (RemoteHand& hand : hands_) hand.whole = confirmed_;
     offset_ = offset_speed_ = glm::dvec3{0.0};
 }
 
-bool Rollback::is_modelled(const Other& other, std::int64_t tick)
+bool Rollback::is_modelled(const RemoteHand& hand, std::int64_t tick)
 {
-    return !other.heard.history.is_empty() && tick > other.heard.history.newest();
+    return !hand.heard.history.is_empty() && tick > hand.heard.history.newest();
 }
 
 void Rollback::set_past_hands(scene::World& world, const Situation& situation,
                               std::int64_t tick) const
 {
     world.set_hand(own_hand_by_rank(situation), own_.at(tick, situation.tick).input());
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-        const HandHistory& history = others_[i].heard.history;
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+        const HandHistory& history = hands_[i].heard.history;
         HandSample sample = history.at(tick, situation.tick);
         // One that has fallen silent, and for which the past has waited long enough.
         if (tick > history.newest()) sample.present = false;
@@ -70,14 +70,14 @@ void Rollback::set_past_hands(scene::World& world, const Situation& situation,
 void Rollback::set_present_hands(scene::World& world, const Situation& situation, std::int64_t tick)
 {
     set_past_hands(world, situation, tick);
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-        Other& other = others_[i];
-        if (!is_modelled(other, tick)) continue;
-        const HandSample last = other.heard.history.at(other.heard.history.newest(), {});
-        if (tick == other.heard.history.newest() + 1) other.motion = {last.place, last.velocity};
-        const bool is_there = last.present && other.touches && situation.others[i].freshness > 0.0;
-        const scene::HandInput input{.position = {other.motion.place},
-                                     .velocity = {other.motion.speed},
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+        RemoteHand& hand = hands_[i];
+        if (!is_modelled(hand, tick)) continue;
+        const HandSample last = hand.heard.history.at(hand.heard.history.newest(), {});
+        if (tick == hand.heard.history.newest() + 1) hand.motion = {last.place, last.velocity};
+        const bool is_there = last.present && hand.touches && situation.others[i].freshness() > 0.0;
+        const scene::HandInput input{.position = {hand.motion.place},
+                                     .velocity = {hand.motion.speed},
                                      .present = is_there,
                                      .gripping = last.gripping};
         world.set_hand(hand_by_rank(i, situation), input);
@@ -89,18 +89,19 @@ void Rollback::move_models(const scene::World& world, const Situation& situation
 {
     const double tick_s = base::to_seconds(situation.tick);
     const double ahead_max_s = base::to_seconds(options_.ahead_max);
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-        Other& other = others_[i];
-        if (!is_modelled(other, tick)) continue;
-        const HandDynamics& hand = other.learnt.dynamics();
-        const auto ticks = static_cast<double>(tick - other.heard.history.newest());
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+        RemoteHand& hand = hands_[i];
+        if (!is_modelled(hand, tick)) continue;
+        const HandDynamics& dynamics = hand.learnt.dynamics();
+        const auto ticks = static_cast<double>(tick - hand.heard.history.newest());
         const double ahead_s = std::min(ticks * tick_s, ahead_max_s);
-        const glm::dvec3 anchor = other.learnt.intention() + (other.learnt.eta() * ahead_s) *
-                                                                 other.learnt.intention_velocity();
+        const glm::dvec3 anchor = hand.learnt.intention() +
+                                  (hand.learnt.eta() * ahead_s) * hand.learnt.intention_velocity();
         const glm::dvec3 met = world.touch(hand_by_rank(i, situation)).on_hand.value;
         for (int step = 0; step < hand_steps_per_tick; ++step) {
-            const glm::dvec3 drive = hand.stiffness_n_per_m * (anchor - other.motion.place);
-            other.motion.step(hand, hand.friction_n, drive + met, tick_s / hand_steps_per_tick);
+            const glm::dvec3 drive = dynamics.stiffness_n_per_m * (anchor - hand.motion.place);
+            hand.motion.step(dynamics, dynamics.friction_n, drive + met,
+                             tick_s / hand_steps_per_tick);
         }
     }
 }
@@ -110,16 +111,16 @@ std::int64_t Rollback::known_until(const Situation& situation, std::int64_t now)
 {
     std::int64_t until = now;
     const auto patience = static_cast<std::int64_t>(options_.patience / situation.tick);
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-        Other& other = others_[i];
-        const HandHistory& history = other.heard.history;
-        const auto arrived = situation.others[i].remote->arrived();
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+        RemoteHand& hand = hands_[i];
+        const HandHistory& history = hand.heard.history;
+        const auto arrived = situation.others[i].arrived();
         const bool is_awaited = arrived ? situation.now - *arrived <= options_.silence_max
                                         : situation.now - situation.start <= waits_for;
-        other.whole = std::max(other.whole, confirmed_);
-        while (history.knows(other.whole + 1)) ++other.whole;
+        hand.whole = std::max(hand.whole, confirmed_);
+        while (history.knows(hand.whole + 1)) ++hand.whole;
         if (!is_awaited) continue;
-        until = std::min(until, std::max(other.whole, history.newest() - patience));
+        until = std::min(until, std::max(hand.whole, history.newest() - patience));
     }
     return std::max(until, now - resimulated_max);
 }
@@ -148,11 +149,11 @@ void Rollback::step_present(const Situation& situation, std::int64_t tick)
 void Rollback::predict(const Situation& situation, std::int64_t now)
 {
     present_->restore(*past_);
-    for (Other& other : others_) {
-        const HandHistory& history = other.heard.history;
+    for (RemoteHand& hand : hands_) {
+        const HandHistory& history = hand.heard.history;
         if (history.is_empty() || history.newest() > confirmed_) continue;
         const HandSample last = history.at(history.newest(), {});
-        other.motion = {last.place, last.velocity};
+        hand.motion = {last.place, last.velocity};
     }
     for (std::int64_t tick = confirmed_ + 1; tick <= now; ++tick) step_present(situation, tick);
 }
@@ -163,7 +164,7 @@ Outcome Rollback::feel(scene::World& world, const Situation& situation, std::int
 {
     const scene::HandInput own = world.state().hands[own_hand];
     set_present_hands(world, situation, now);
-    for (std::size_t i = 0; i < others_.size(); ++i) {
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
         const std::uint32_t hand = hand_by_rank(i, situation);
         scene::HandInput input = world.state().hands[hand];
         input.position.value += offset_;
@@ -174,11 +175,11 @@ Outcome Rollback::feel(scene::World& world, const Situation& situation, std::int
     Outcome outcome;
     outcome.touched = world.touch(own_hand_by_rank(situation));
     outcome.on_hand = outcome.touched.on_hand;
-    for (std::size_t i = 0; i < others_.size(); ++i) {
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
         const scene::HandTouch& touch = world.touch(hand_by_rank(i, situation));
         outcome.remote_touching = outcome.remote_touching || touch.touching;
         outcome.remote_force += touch.on_body;
-        if (situation.others[i].remote == &situation.remote)
+        if (&situation.others[i] == &situation.remote)
             outcome.remote_hip = world.state().hands[hand_by_rank(i, situation)].position;
     }
     return outcome;
@@ -204,12 +205,12 @@ void Rollback::smooth(const glm::dvec3& jump, double tick_s)
 base::Displacement Rollback::rest(const Situation& situation, const Outcome& outcome)
 {
     const auto leader = yields_to(situation);
-    if (!leader || !others_[*leader].heard.told) return {};
-    RestAgreement::Word word = *others_[*leader].heard.told;
+    if (!leader || !hands_[*leader].heard.told) return {};
+    RestAgreement::Word word = *hands_[*leader].heard.told;
     // Of two, the other answers this hand's messages, by the clock. Of more, the age of a message
     // between two others is not known.
-    word.knows = others_.size() == 1 ? word.knows - SessionTicks::in_time / situation.tick
-                                     : word.tick - resimulated_max;
+    word.knows = hands_.size() == 1 ? word.knows - SessionTicks::in_time / situation.tick
+                                    : word.tick - resimulated_max;
     rest_.hear(word);
     if (outcome.touched.touching || outcome.remote_touching) return {};
     const base::Duration rest = std::max(rests_for, 2 * options_.smoothing);

@@ -87,8 +87,8 @@ public:
     static constexpr base::Duration rests_for{std::chrono::milliseconds{100}};
 
 private:
-    struct Other {
-        explicit Other(const ProxyHandOptions& options) : learnt{options} {}
+    struct RemoteHand {
+        explicit RemoteHand(const ProxyHandOptions& options) : learnt{options} {}
 
         HeardHand heard;
         ProxyHand learnt;        // what its owner means to do
@@ -101,7 +101,7 @@ private:
     void set_past_hands(scene::World& world, const Situation& situation, std::int64_t tick) const;
     void set_present_hands(scene::World& world, const Situation& situation, std::int64_t tick);
     void move_models(const scene::World& world, const Situation& situation, std::int64_t tick);
-    [[nodiscard]] static bool is_modelled(const Other& other, std::int64_t tick);
+    [[nodiscard]] static bool is_modelled(const RemoteHand& hand, std::int64_t tick);
     [[nodiscard]] std::int64_t known_until(const Situation& situation, std::int64_t now);
     [[nodiscard]] bool confirm(const Situation& situation, std::int64_t now);
     void step_present(const Situation& situation, std::int64_t tick);
@@ -112,7 +112,7 @@ private:
     void show(scene::World& world, const Situation& situation);
 
     RollbackOptions options_;
-    std::vector<Other> others_;
+    std::vector<RemoteHand> hands_;
     HandHistory own_;
     SessionTicks ticks_;
     std::optional<scene::World> past_;

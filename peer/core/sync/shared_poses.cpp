@@ -80,9 +80,9 @@ SharedPoses::Touchers SharedPoses::touchers(const Situation& situation) const
 {
     Touchers touchers;
     for (std::size_t i = 0; i < situation.others.size(); ++i) {
-        const Other& other = situation.others[i];
-        const wire::BodyState* const body = other.remote->touched();
-        if (!(other.freshness > 0.0) || body == nullptr) continue;
+        const Remote& other = situation.others[i];
+        const wire::BodyState* const body = other.touched();
+        if (!(other.freshness() > 0.0) || body == nullptr) continue;
         const auto index = index_of(body->body);
         if (!index || touchers.count == touchers.all.size()) continue;
         touchers.all[touchers.count++] = {&other, i, *index};
@@ -105,12 +105,12 @@ void SharedPoses::find_movers(const scene::World& world, const Situation& situat
     const auto pushed = own.touching ? index_of(own.body) : std::nullopt;
     if (pushed) mark(*pushed, Mover::own, own_id_);
     for (const Toucher& toucher : touchers.list())
-        mark(toucher.body, Mover::others, toucher.other->id);
+        mark(toucher.body, Mover::others, toucher.other->id());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (movers_[i] == Mover::none) continue;
         untouched_since_[i].reset();
         blends_[i].reset();
-        owners_[i] = movers_[i] == Mover::own ? own_id_ : mover_among(touchers, i)->other->id;
+        owners_[i] = movers_[i] == Mover::own ? own_id_ : mover_among(touchers, i)->other->id();
     }
 }
 
@@ -176,9 +176,9 @@ SharedPoses::Present SharedPoses::present_in(const Situation& situation) const
 {
     Present present;
     present.ids[present.count++] = own_id_;
-    for (const Other& other : situation.others) {
-        if (other.freshness > 0.0 && present.count < present.ids.size())
-            present.ids[present.count++] = other.id;
+    for (const Remote& other : situation.others) {
+        if (other.freshness() > 0.0 && present.count < present.ids.size())
+            present.ids[present.count++] = other.id();
     }
     std::sort(present.ids.begin(), present.ids.begin() + present.count);
     return present;
@@ -194,11 +194,11 @@ void SharedPoses::settle(scene::World& world, const Situation& situation, std::s
     owners_[body] = owner;
     const bool waited = times_.after && situation.now - *since >= *times_.after;
     const auto found = std::ranges::find_if(
-        situation.others, [owner](const Other& each) { return each.id == owner; });
+        situation.others, [owner](const Remote& each) { return each.id() == owner; });
     const wire::BodyState* const there =
         owner == own_id_ || found == situation.others.end()
             ? nullptr
-            : found->remote->body(static_cast<std::uint16_t>(bodies_[body].id));
+            : found->body(static_cast<std::uint16_t>(bodies_[body].id));
     if (!waited || there == nullptr) {
         blend.reset();
         return;

@@ -41,7 +41,7 @@ public:
 
     /// Another whose hand touches a body.
     struct Toucher {
-        const Other* other = nullptr;
+        const Remote* other = nullptr;
         std::size_t index = 0; // of the other
         std::size_t body = 0;
     };

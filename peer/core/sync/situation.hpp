@@ -14,11 +14,11 @@ namespace hapnet::peer {
 
 class SharedPoses;
 
-/// This peer's hand among those of its copy of the scene. The other side's is none of them: it is
+/// This peer's hand among those of its copy of the scene. The remote's is none of them: it is
 /// there by its force.
 inline constexpr std::uint32_t own_hand = 0;
 
-/// The other side's clock as far as it is known. It is worked out when it is asked for, which most
+/// The remote's clock as far as it is known. It is worked out when it is asked for, which most
 /// algorithms never do.
 class RemoteClock {
 public:
@@ -38,7 +38,7 @@ private:
     std::optional<ClockEstimate> estimate_;
 };
 
-/// A state of the other side as it arrives, to be told to an algorithm once and at once: several
+/// A state of the remote as it arrives, to be told to an algorithm once and at once: several
 /// may arrive between two ticks.
 struct ReceivedState {
     const wire::State& state;
@@ -54,20 +54,12 @@ struct ReceivedState {
     base::TimePoint start{};                 // of the session, on this peer's clock
 };
 
-/// One of the others as last heard.
-struct Other {
-    const Remote* remote = nullptr;
-    double freshness = 0.0; // of its state, 0 to 1
-    std::uint16_t id = 0;
-};
-
 /// The input of one tick of an algorithm, besides this peer's hand, which is in the world.
 struct Situation {
     base::TimePoint now;
-    scene::BodyId body = 0;        // the shared one, or the first of them
-    std::span<const Other> others; // at least one, in the order of their ids
-    const Remote& remote;          // the one with the lowest id of those that are heard
-    double freshness = 0.0;        // of its state
+    scene::BodyId body = 0;         // the shared one, or the first of them
+    std::span<const Remote> others; // at least one, in the order of their ids
+    const Remote& remote;           // the one with the lowest id of those that are heard
     bool yields = false; // at rest, this peer takes the other's pose: one with a lower id is heard
     base::Duration tick{std::chrono::milliseconds{1}}; // from here on as in ReceivedState
     RemoteClock clock{};

@@ -62,7 +62,7 @@ void Wave::hear(const ReceivedState& received)
 
 Outcome Wave::tick(scene::World& world, const Situation& situation)
 {
-    const Presence remote = presence_of(situation, BaseOptions{});
+    const CombinedRemote remote = combined_remote(situation, BaseOptions{});
     const glm::dvec3 velocity = world.velocity(situation.body).value;
     // A copy that is put where another was answers no wave: that one's own past velocity would come
     // back to it and drive it on.

@@ -100,7 +100,7 @@ protected:
     {
         const std::size_t before = joystick_.pushes().size();
         const auto is_felt = [&] {
-            return joystick_.push_n() <= -0.2 && joystick_.pushes().size() > before + 50;
+            return joystick_.push_n() <= felt_n && joystick_.pushes().size() > before + 50;
         };
         ASSERT_TRUE(comes_to_be_felt(
             {socket_}, is_felt, [&](bool down) { joystick_.press(down); },
@@ -108,6 +108,19 @@ protected:
             << joystick_.push_n() << " N\n"
             << a_.process().err();
     }
+
+    /// Both programs stand still for longer than the governor tolerates; whether the joystick
+    /// pushed meanwhile.
+    [[nodiscard]] bool stands_still_under_force()
+    {
+        for (Peer* peer : {&a_, &b_}) peer->process().pause();
+        const bool pushes = joystick_.push_n() <= felt_n;
+        std::this_thread::sleep_for(150ms);
+        for (Peer* peer : {&a_, &b_}) peer->process().signal(SIGCONT);
+        return pushes;
+    }
+
+    static constexpr double felt_n = -0.2;
 
     TemporaryFolder folder_;
     std::string socket_ = folder_.file("peer.sock");
@@ -134,16 +147,14 @@ TEST_F(JoystickSession, EndsAtZeroAndItsForcesCanBeLivedThroughAgain)
     expect_the_same_forces_again(b_.record());
 }
 
-/// As a machine that has no time for them: for longer than the governor tolerates.
+/// As on a machine that has no time for them.
 TEST_F(JoystickSession, ThatStandsStillUnderForceCanBeLivedThroughAgain)
 {
     ASSERT_NO_FATAL_FAILURE(press_together());
-    for (const int number : {SIGSTOP, SIGCONT}) {
-        a_.process().signal(number);
-        b_.process().signal(number);
-        if (number == SIGSTOP) std::this_thread::sleep_for(150ms);
-    }
-    EXPECT_TRUE(comes_true([&] { return fault_at(socket_) == "timeout"; }));
+    const auto is_at_fault = [&] { return fault_at(socket_) == "timeout"; };
+    // A joystick that the machine keeps waiting is silent, and then there is no force to stop.
+    ASSERT_TRUE(comes_true([&] { return stands_still_under_force() || is_at_fault(); }));
+    EXPECT_TRUE(comes_true(is_at_fault));
     ASSERT_NO_FATAL_FAILURE(feel_each_other());
     a_.stop_on_a_busy_machine();
     b_.stop_on_a_busy_machine();

@@ -13,6 +13,7 @@ import tempfile
 import time
 import unittest
 
+from hapnet import Emulator, Lab, Peer
 from served import BIN, PROGRAM, Live, Server, children_of, is_alive
 
 
@@ -24,36 +25,24 @@ class Daemons:
     """An emulator and two peers with simulated hands, that nobody else has started."""
 
     def __init__(self, folder, seconds, *more):
-        self.sockets = [f"{folder}/{name}.sock" for name in ("emulator", "peer-1", "peer-2")]
         self.records = [f"{folder}/peer-{i}.rec" for i in (1, 2)]
-        self.emulator = subprocess.Popen(
-            [program("hapnet-emulator"), "--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0",
-             "--delay", "20ms", "--control", self.sockets[0], *more],
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        words = dict(word.split("=", 1) for word in self.emulator.stdout.readline().split()
-                     if "=" in word)
-        self.peers = [subprocess.Popen(
-            [program("hapnet-peer"), "--id", str(i), "--remote", words[side], "--duration",
-             f"{seconds}s", "--control", self.sockets[i], "--record", self.records[i - 1], *more],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            for i, side in ((1, "a"), (2, "b"))]
+        self.emulator = Emulator(delay="20ms", options=more).start()
+        self.peers = [
+            Peer(id=i + 1, remote=self.emulator.ready[side], duration=f"{seconds}s",
+                 record=self.records[i], options=more).start() for i, side in enumerate("ab")]
 
     def arguments(self):
-        return ["--emulator", self.sockets[0], "--peer", self.sockets[1], "--peer",
-                self.sockets[2]]
+        return ["--emulator", self.emulator.control_path, "--peer", self.peers[0].control_path,
+                "--peer", self.peers[1].control_path]
 
     def finish(self):
-        codes = [peer.wait(timeout=40) for peer in self.peers]
-        self.stop()
-        return codes
+        for peer in self.peers:
+            peer.join(40)
+        self.emulator.stop()
 
     def stop(self):
-        for process in self.peers + [self.emulator]:
-            if process.poll() is None:
-                process.terminate()
-        for process in self.peers + [self.emulator]:
-            process.wait(timeout=20)
-        self.emulator.stdout.close()
+        for daemon in [*self.peers, self.emulator]:
+            daemon.kill()
 
 
 class Attach(unittest.TestCase):
@@ -95,10 +84,8 @@ class Attach(unittest.TestCase):
         again.wait_for(lambda now: now["emulator"]["conditions"]
                        and now["emulator"]["conditions"]["up.delay"] == "30ms")
         again.stop(signal.SIGKILL)
-        self.assertEqual(daemons.finish(), [0, 0])
-        done = subprocess.run([program("hapnet-lab"), "analyse", *daemons.records, "--json"],
-                              capture_output=True, check=True)
-        analysis = json.loads(done.stdout)
+        daemons.finish()
+        analysis = Lab().analyse(*daemons.records)
         # A gap at the kill would be longer than a second.
         for side in ("a", "b"):
             self.assertGreater(analysis[side]["tick"]["rate_hz"], 900)
@@ -230,7 +217,7 @@ class Attach(unittest.TestCase):
     def test_records_are_sought_and_show_what_was_recorded(self):
         daemons = Daemons(self.folder, 6)
         self.addCleanup(daemons.stop)
-        self.assertEqual(daemons.finish(), [0, 0])
+        daemons.finish()
         control = f"{self.folder}/lab.sock"
         lab = subprocess.Popen([program("hapnet-lab"), "play", *daemons.records, "--control",
                                 control, "--pace", "paused"], stdout=subprocess.PIPE, text=True)

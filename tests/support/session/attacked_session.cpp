@@ -480,16 +480,17 @@ void Play::judge_others(std::size_t index)
     const VirtualPlayer& side = world_.side(index);
     const base::TimePoint here = world_.now() + side.clock_ahead;
     for (std::size_t i = 0; i < side.peer().others().size(); ++i) {
-        const peer::Member& other = side.peer().others()[i];
+        const peer::Remote& other = side.peer().others()[i];
         Watch::Heard& heard = watches_[index].others[i];
-        const auto arrived = other.remote().arrived();
+        const auto arrived = other.arrived();
         if (arrived != heard.arrived) heard = {arrived, world_.now(), heard.touches_unheard_since};
         const base::Duration silence = world_.now() - heard.at;
-        if (silence > silent_after && other.freshness(here) > 0.0)
+        if (silence > silent_after && other.freshness_at(here) > 0.0)
             complain("side {}: counts a hand unheard for {} ms", index, silence / 1ms);
-        const bool is_gone = !arrived || other.is_gone() || here - *arrived > Peer::gone_after;
+        const bool is_gone =
+            !arrived || other.is_gone() || here - *arrived > peer::Others::gone_after;
         const bool touches_unheard =
-            !is_gone && other.freshness(here) < 1.0 && other.remote().state()->touching;
+            !is_gone && other.freshness_at(here) < 1.0 && other.state()->touching;
         if (!touches_unheard) heard.touches_unheard_since.reset();
         if (!touches_unheard) continue;
         const auto since = heard.touches_unheard_since.value_or(world_.now());
@@ -510,7 +511,7 @@ bool Play::is_settled(std::size_t index) const
         const Watch::Heard& heard = watches_[index].others[i];
         if (!heard.arrived || world_.now() - heard.at >= silent_after) return false;
         const VirtualPlayer& other = world_.side(i < index ? i : i + 1);
-        const base::TimePoint sent = side.peer().others()[i].remote().state()->sent;
+        const base::TimePoint sent = side.peer().others()[i].state()->sent;
         if (sent - other.clock_ahead < VirtualWorld::start + attack_) return false;
     }
     return true;

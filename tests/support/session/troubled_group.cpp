@@ -201,10 +201,10 @@ void GroupPlay::judge_absence(const Absence& absence)
         const VirtualPlayer& player = world_.side(side);
         if (player.stepped_at != world_.now()) continue;
         const std::size_t other = absence.side < side ? absence.side : absence.side - 1;
-        if (player.peer().others()[other].freshness(world_.now() + player.clock_ahead) > 0.0)
+        if (player.peer().others()[other].freshness_at(world_.now() + player.clock_ahead) > 0.0)
             complain("peer {} counts the hand of {}, which is dead", side + 1, absence.side + 1);
         // One that died before this one met it again, or beyond a cut, was not heard to touch.
-        const auto arrived = player.peer().others()[other].remote().arrived();
+        const auto arrived = player.peer().others()[other].arrived();
         const bool was_heard =
             arrived && *arrived - player.clock_ahead >= World::start + absence.begin - touched_for;
         const bool must_be_zero =

@@ -180,7 +180,7 @@ public:
     static Score play(const DeadReckoningOptions& options, const Impairment& impairment)
     {
         DeadReckoning reckoning{options};
-        Remote remote{{}, options.base.stale};
+        Remote remote{{.stale = options.base.stale}};
         constexpr int ticks = 20'000;
         const auto draw = base::Seed{11}.stream("kinematic");
         std::array<std::vector<wire::State>, 512> arriving; // by the tick

@@ -32,7 +32,7 @@ Hand carry(std::size_t side, base::Duration since_start)
 Settings settings_for(Group& group, std::size_t side)
 {
     Settings settings = group.settings_of_group(side);
-    settings.scene.hands.count = circle_max;
+    settings.scene.hands.count = peers_max;
     settings.introduction.scene_hash = hash(settings.scene);
     settings.length = length;
     return settings;
@@ -107,7 +107,7 @@ TEST(Group, FeelsNothingOfADeadHandAfter300MsAndPlaysOnAfterASecond)
         for (std::size_t side = 0; side < 3; ++side) {
             if (side == victim) continue;
             const std::size_t place = victim < side ? victim : victim - 1;
-            EXPECT_EQ(group.peers[side]->others()[place].freshness(group.now), 0.0);
+            EXPECT_EQ(group.peers[side]->others()[place].freshness_at(group.now), 0.0);
         }
         while (group.now < killed + 1s) {
             group.step();

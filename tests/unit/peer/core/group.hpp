@@ -91,8 +91,8 @@ public:
     {
         return std::ranges::all_of(peers, [this](const auto& peer) {
             return peer && peer->session() && now >= peer->session()->start &&
-                   std::ranges::all_of(peer->others(), [this](const Member& other) {
-                       return other.freshness(now) > 0.0;
+                   std::ranges::all_of(peer->others(), [this](const Remote& other) {
+                       return other.freshness_at(now) > 0.0;
                    });
         });
     }

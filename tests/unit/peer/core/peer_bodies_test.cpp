@@ -41,7 +41,7 @@ TEST(PeerWithBodies, SaysAllOfThemInEvery64thStateAndNoneBetweenWhileNothingMove
         pair.step();
         const auto state = pair.state_sent_by(0);
         ASSERT_TRUE(state);
-        const bool is_due = state->sequence % Member::body_every == 1;
+        const bool is_due = state->sequence % Remote::body_every == 1;
         EXPECT_EQ(state->bodies.size(), is_due ? 3U : 0U) << state->sequence;
         if (is_due) ++full;
         for (const wire::BodyState& body : state->bodies) EXPECT_TRUE(body.turning);
@@ -59,7 +59,7 @@ TEST(PeerWithBodies, SaysTheOneThatItPushesAndWhatItHasDoneToIt)
     for (int ms = 0; ms < 50; ++ms) {
         pair.step();
         state = pair.state_sent_by(0).value();
-        if (state.sequence % Member::body_every != 1 && ms > 0) {
+        if (state.sequence % Remote::body_every != 1 && ms > 0) {
             EXPECT_EQ(ids_of(state), (std::vector<std::uint16_t>{1}));
         }
     }

@@ -56,7 +56,7 @@ TEST(PeerSession, SaysGoodbyeFiveTimesAndIsThenFinished)
         EXPECT_EQ(pair.ticks[0].force, base::Force{});
         EXPECT_FALSE(pair.ticks[0].permitted);
     }
-    EXPECT_EQ(byes, Peer::byes);
+    EXPECT_EQ(byes, Farewell::byes);
     EXPECT_TRUE(pair.peers[0]->finished());
 }
 
@@ -431,7 +431,7 @@ TEST(PeerState, LeavesTheBodyOutASecondAfterItsLastStirAndThenRepeatsItEvery64th
         before = position;
         const auto state = pair.state_sent_by(0);
         ASSERT_TRUE(state);
-        const bool due = pair.now - stirred < Peer::body_lingers || state->sequence % 64 == 1;
+        const bool due = pair.now - stirred < SceneCopy::body_lingers || state->sequence % 64 == 1;
         EXPECT_EQ(!state->bodies.empty(), due) << ms;
         bodies += static_cast<int>(state->bodies.size());
     }

@@ -40,7 +40,7 @@ TEST(Remote, KeepsTheNewestBodyThroughStatesWithoutOne)
     remote.update(state_number(2), start + 1ms);
     ASSERT_TRUE(remote.body());
     EXPECT_EQ(remote.body()->position.x(), 0.01);
-    remote.forget();
+    remote.forget_state();
     EXPECT_FALSE(remote.body());
     EXPECT_FALSE(remote.arrived());
     EXPECT_TRUE(remote.update(state_number(1), start + 2ms)); // numbers start anew
@@ -87,15 +87,15 @@ TEST(Remote, KeepsEachBodyAndKnowsTheOneThatWasPushedLast)
 TEST(Remote, IsFreshFor250MsAfterItsArrivalAndThenFadesIn50Ms)
 {
     Remote remote{{}};
-    EXPECT_EQ(remote.freshness(start), 0.0);
+    EXPECT_EQ(remote.freshness_at(start), 0.0);
     remote.update(state_number(1), start);
-    EXPECT_EQ(remote.freshness(start), 1.0);
-    EXPECT_EQ(remote.freshness(start + 250ms), 1.0);
-    EXPECT_LT(remote.freshness(start + 250ms + 1ns), 1.0);
-    EXPECT_DOUBLE_EQ(remote.freshness(start + 275ms), 0.5);
-    EXPECT_GT(remote.freshness(start + 300ms - 1ns), 0.0);
-    EXPECT_EQ(remote.freshness(start + 300ms), 0.0);
-    EXPECT_EQ(remote.freshness(start + 1h), 0.0);
+    EXPECT_EQ(remote.freshness_at(start), 1.0);
+    EXPECT_EQ(remote.freshness_at(start + 250ms), 1.0);
+    EXPECT_LT(remote.freshness_at(start + 250ms + 1ns), 1.0);
+    EXPECT_DOUBLE_EQ(remote.freshness_at(start + 275ms), 0.5);
+    EXPECT_GT(remote.freshness_at(start + 300ms - 1ns), 0.0);
+    EXPECT_EQ(remote.freshness_at(start + 300ms), 0.0);
+    EXPECT_EQ(remote.freshness_at(start + 1h), 0.0);
 }
 
 TEST(Remote, IsNotRefreshedByWhatIsOutdated)
@@ -103,7 +103,7 @@ TEST(Remote, IsNotRefreshedByWhatIsOutdated)
     Remote remote{{}};
     remote.update(state_number(5), start);
     remote.update(state_number(4), start + 200ms);
-    EXPECT_EQ(remote.freshness(start + 300ms), 0.0);
+    EXPECT_EQ(remote.freshness_at(start + 300ms), 0.0);
 }
 
 TEST(Remote, CountsFromArrivalsThatNeverRunBackwards)

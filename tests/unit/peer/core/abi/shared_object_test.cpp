@@ -89,9 +89,8 @@ base::Result<SharedObject> loaded(const hapnet_algorithm& algorithm, const char*
 /// A peer's copy of the paper's scene, and one other that was heard.
 struct Play {
     scene::World world = scene::World::freeze(scene::paper_scene()).value();
-    Remote remote{Staleness{}};
+    Remote remote{{.id = 7}};
     wire::State state;
-    std::array<Other, 1> others{{{&remote, 1.0, 7}}};
     base::TimePoint now{1s};
 
     Play()
@@ -104,10 +103,11 @@ struct Play {
         body.position = {{0.01, 0.0, 0.0}};
         state.bodies.add(body);
         remote.update(state, base::TimePoint{995ms});
+        remote.look(now);
     }
     [[nodiscard]] Situation situation() const
     {
-        return {.now = now, .body = 0, .others = others, .remote = remote, .freshness = 1.0};
+        return {.now = now, .body = 0, .others = {&remote, 1}, .remote = remote};
     }
 };
 

@@ -3,6 +3,7 @@
 // Every branch of the paper's hybrid algorithm, to the last bit, against a second world that is
 // driven by hand.
 #include "peer/core/sync/algorithm.hpp"
+#include "tests/support/session/fresh.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -43,12 +44,9 @@ public:
     scene::HandTouch tick(const scene::HandInput& hand, double freshness = 1.0, bool yields = true)
     {
         world.set_hand(own_hand, hand);
-        const Other other{&remote_, freshness};
-        const Situation situation{.now = now,
-                                  .others = {&other, 1},
-                                  .remote = remote_,
-                                  .freshness = freshness,
-                                  .yields = yields};
+        look_when_fresh_by(freshness, remote_);
+        const Situation situation{
+            .now = now, .others = {&remote_, 1}, .remote = remote_, .yields = yields};
         const Outcome outcome = algorithm_.tick(world, situation);
         now += 1ms;
         return outcome.touched;
@@ -132,13 +130,10 @@ TEST(BaseAlgorithm, TakesTheRemoteForceFadedWithItsAgeAndNeverMoreThanAContactEx
     Remote remote{{}};
     remote.update(heard(true, -1e30, 0.0, 0.0), start);
     const auto force_at = [&](double freshness) {
-        const Other other{&remote, freshness};
-        const Situation situation{.now = start,
-                                  .others = {&other, 1},
-                                  .remote = remote,
-                                  .freshness = freshness,
-                                  .force_max_n = 3.3};
-        return presence_of(situation, {}).force.x();
+        look_when_fresh_by(freshness, remote);
+        const Situation situation{
+            .now = start, .others = {&remote, 1}, .remote = remote, .force_max_n = 3.3};
+        return combined_remote(situation, {}).force.x();
     };
     EXPECT_NEAR(force_at(1.0), -3.3, 1e-12);
     EXPECT_NEAR(force_at(0.5), -1.65, 1e-12);

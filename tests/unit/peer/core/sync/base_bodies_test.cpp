@@ -4,6 +4,7 @@
 
 #include "peer/core/sync/shared_poses.hpp"
 #include "scene/maths/rotation.hpp"
+#include "tests/support/session/fresh.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -54,12 +55,11 @@ public:
     {
         now += 1ms;
         world.set_hand(own_hand, hand);
-        const Other other{&remote, 1.0, 1};
+        look_when_fresh_by(1.0, remote);
         return tick_bodies(world,
                            {.now = now,
-                            .others = {&other, 1},
+                            .others = {&remote, 1},
                             .remote = remote,
-                            .freshness = 1.0,
                             .yields = true,
                             .poses = &bodies},
                            BaseOptions{});
@@ -72,7 +72,7 @@ public:
     base::TimePoint now = begin;
     scene::World world;
     SharedPoses bodies;
-    Remote remote{{}};
+    Remote remote{{.id = 1}};
 
 private:
     std::uint32_t sequence_ = 0;

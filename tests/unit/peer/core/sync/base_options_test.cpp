@@ -189,10 +189,9 @@ TEST(BaseOptions, AlongXAloneTheOtherSideActsOnNothingElse)
     body.position = {{0.001, 0.002, 0.003}};
     body.velocity = {{0.1, 0.2, 0.3}};
     remote.update(state, start);
-    const Other other{&remote, 1.0};
-    const Situation situation{
-        .now = start, .others = {&other, 1}, .remote = remote, .freshness = 1.0};
-    EXPECT_EQ(presence_of(situation, options).force, (base::Force{{-0.3, 0.0, 0.0}}));
+    look_when_fresh_by(1.0, remote);
+    const Situation situation{.now = start, .others = {&remote, 1}, .remote = remote};
+    EXPECT_EQ(combined_remote(situation, options).force, (base::Force{{-0.3, 0.0, 0.0}}));
     scene::World world = paper_world();
     BaseAlgorithm algorithm{options};
     std::ignore = algorithm.tick(world, situation);
@@ -222,7 +221,7 @@ TEST(BaseOptions, AForgottenRunLeavesNoDisplacementBehind)
     Copy copy = copy_with({.follow = Follow::relative, .bleed = std::nullopt});
     copy.hear({.body_mm = 5.0}, 0.0);
     std::ignore = copy.tick(0.0);
-    copy.remote.forget();
+    copy.remote.forget_state();
     copy.algorithm.forget();
     copy.hear({.body_mm = 50.0}, 1.0); // elsewhere, as a new run may be
     std::ignore = copy.tick(1.0);

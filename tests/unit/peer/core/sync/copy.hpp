@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/sync/situation.hpp"
+#include "tests/support/session/fresh.hpp"
 
 #include <chrono>
 #include <optional>
@@ -48,7 +49,7 @@ template <typename Algorithm>
 class Copy {
 public:
     explicit Copy(const Algorithm& value, Stale stale = Stale::drop)
-        : algorithm{value}, remote{{}, stale}
+        : algorithm{value}, remote{{.stale = stale}}
     {}
 
     void hear(const Word& word, double arrived_ms)
@@ -76,11 +77,10 @@ public:
     Outcome tick(double now_ms, const scene::HandInput& hand = away, double freshness = 1.0)
     {
         world.set_hand(own_hand, hand);
-        const Other other{&remote, freshness};
+        look_when_fresh_by(freshness, remote);
         return algorithm.tick(world, {.now = at_ms(now_ms),
-                                      .others = {&other, 1},
+                                      .others = {&remote, 1},
                                       .remote = remote,
-                                      .freshness = freshness,
                                       .yields = yields,
                                       .clock = RemoteClock{clock},
                                       .force_max_n = force_max,

@@ -168,7 +168,7 @@ TEST(DeadReckoning, HasNoVelocityAfterAGapAndAfterARestart)
     copy.hear({.sequence = 503, .sent_ms = 502.0, .body_mm = 50.3}, 512.0);
     EXPECT_NEAR(predicted_mm(copy, 512.0), 50.3 + 0.3 * 10.0, nm);
 
-    copy.remote.forget();
+    copy.remote.forget_state();
     copy.algorithm.forget();
     EXPECT_FALSE(copy.algorithm.predicted(at_ms(513.0)));
     EXPECT_EQ(copy.algorithm.horizon(), 0ms);

@@ -152,7 +152,7 @@ TEST(EstimatorPredictor, IgnoresWhatIsOvertakenAndDuplicatesAndForgetsARun)
         EXPECT_NEAR(outcome.remote_hip->x(), 1e-3 * (0.2 + 0.2 * 6.0), rounding);
     }
     Copy copy = after_two(plain, 1.0, 1.1);
-    copy.remote.forget();
+    copy.remote.forget_state();
     copy.algorithm.forget();
     EXPECT_FALSE(copy.tick(7.0).remote_hip);
     copy.hear({.sequence = 1, .sent_ms = 900.0, .force_n = 0.5, .hip_mm = 4.0}, 905.0);

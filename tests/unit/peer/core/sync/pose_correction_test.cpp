@@ -60,11 +60,10 @@ public:
     Outcome tick(const scene::HandInput& hand = away)
     {
         world.set_hand(own_hand, hand);
-        const Other other{&remote, 1.0, 1};
+        look_when_fresh_by(1.0, remote);
         return algorithm.tick(world, {.now = at_ms(ms),
-                                      .others = {&other, 1},
+                                      .others = {&remote, 1},
                                       .remote = remote,
-                                      .freshness = 1.0,
                                       .yields = true,
                                       .clock = RemoteClock{clock_},
                                       .force_max_n = force_max,
@@ -79,7 +78,7 @@ public:
     double ms = 0.0;
     scene::World world;
     SharedPoses poses;
-    Remote remote{{}};
+    Remote remote{{.id = 1}};
     RemoteProxy algorithm;
 
 private:
@@ -174,11 +173,10 @@ TEST(PoseCorrection, ChargesTheAccountForWhatItStretchesInAProxysContact)
     const PoseCorrection::Rates rates;
     PoseCorrection correction{1, rates};
     copy.hear(pushing({0.0, 0.5, 0.0}));
-    const Other other{&copy.remote, 1.0, 1};
+    look_when_fresh_by(1.0, copy.remote);
     const Situation situation{.now = at_ms(copy.ms),
-                              .others = {&other, 1},
+                              .others = {&copy.remote, 1},
                               .remote = copy.remote,
-                              .freshness = 1.0,
                               .poses = &copy.poses};
     const auto given_j = [&](double torque_n_m) {
         scene::World world = copy.world;

@@ -8,7 +8,7 @@
 namespace hapnet::peer {
 
 /// The others as an algorithm shows them to the paper's law: all of them as if they were one.
-struct Presence {
+struct CombinedRemote {
     struct Pose {
         base::Position position;
         base::Velocity velocity;
@@ -22,7 +22,8 @@ struct Presence {
 };
 
 /// As they were last heard: faded with age, and each with no more force than a contact can exert.
-[[nodiscard]] Presence presence_of(const Situation& situation, const BaseOptions& options);
+[[nodiscard]] CombinedRemote combined_remote(const Situation& situation,
+                                             const BaseOptions& options);
 
 /// The part of a remote force that acts.
 [[nodiscard]] base::Force along(base::Force force, Axes axes);

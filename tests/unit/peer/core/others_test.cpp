@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/core/circle.hpp"
+#include "peer/core/others.hpp"
 
 #include "tests/unit/peer/core/group.hpp"
 
@@ -21,7 +21,7 @@ void expect_one_start(const Group& group, base::Duration at_most_apart)
     }
 }
 
-TEST(Circle, StartsAllAtTheSameTimeOneSecondAfterTheLastOneCame)
+TEST(Others, StartsAllAtTheSameTimeOneSecondAfterTheLastOneCame)
 {
     for (const std::size_t size : {2U, 3U, 5U, 8U}) {
         Group group{size};
@@ -46,7 +46,7 @@ TEST(Circle, StartsAllAtTheSameTimeOneSecondAfterTheLastOneCame)
     }
 }
 
-TEST(Circle, TakesTheSeedOfTheLowestIdAndTheShortestLength)
+TEST(Others, TakesTheSeedOfTheLowestIdAndTheShortestLength)
 {
     Group group{3};
     for (std::size_t side = 0; side < 3; ++side) {
@@ -63,7 +63,7 @@ TEST(Circle, TakesTheSeedOfTheLowestIdAndTheShortestLength)
     }
 }
 
-TEST(Circle, DoesNotStartWhileTwoOfItDoNotHearEachOther)
+TEST(Others, DoesNotStartWhileTwoOfItDoNotHearEachOther)
 {
     Group group{3};
     group.cut(1, 2, true);
@@ -75,7 +75,7 @@ TEST(Circle, DoesNotStartWhileTwoOfItDoNotHearEachOther)
     EXPECT_TRUE(group.all_play());
 }
 
-TEST(Circle, StartsWithAsManyAsAreWaitedForAndLetsTheOthersJoin)
+TEST(Others, StartsWithAsManyAsAreWaitedForAndLetsTheOthersJoin)
 {
     Group group{3};
     for (const std::size_t side : {0U, 1U}) {
@@ -93,7 +93,7 @@ TEST(Circle, StartsWithAsManyAsAreWaitedForAndLetsTheOthersJoin)
     EXPECT_FALSE(group.told(2, Event::started));
 }
 
-TEST(Circle, LetsAnyOfItBeRestartedAlsoTheOneThatSetTheStart)
+TEST(Others, LetsAnyOfItBeRestartedAlsoTheOneThatSetTheStart)
 {
     for (const std::size_t side : {0U, 1U, 2U}) {
         Group group{3};
@@ -116,7 +116,7 @@ TEST(Circle, LetsAnyOfItBeRestartedAlsoTheOneThatSetTheStart)
     }
 }
 
-TEST(Circle, ThatBeganApartFromAnotherBecomesOneWithItWhereTheEarlierStartCounts)
+TEST(Others, ThatBeganApartFromAnotherBecomesOneWithItWhereTheEarlierStartCounts)
 {
     for (const bool lower_ids_come_first : {true, false}) {
         Group group{4};
@@ -154,18 +154,18 @@ TEST(Circle, ThatBeganApartFromAnotherBecomesOneWithItWhereTheEarlierStartCounts
     }
 }
 
-TEST(Circle, HasEveryPairNumberItsMessagesForItself)
+TEST(Others, HasEveryPairNumberItsMessagesForItself)
 {
     Group group{3};
     group.start_all();
     group.run_for(3s);
     std::set<std::uint32_t> numbers;
     for (const auto& peer : group.peers)
-        for (const Member& other : peer->others()) numbers.insert(other.numbering().number);
+        for (const Remote& other : peer->others()) numbers.insert(other.numbering().number);
     EXPECT_EQ(numbers.size(), 3U); // one for each pair
 }
 
-TEST(Circle, EndsTogetherAndSaysGoodbyeToAll)
+TEST(Others, EndsTogetherAndSaysGoodbyeToAll)
 {
     Group group{3};
     for (std::size_t side = 0; side < 3; ++side) {
@@ -180,7 +180,7 @@ TEST(Circle, EndsTogetherAndSaysGoodbyeToAll)
     }
 }
 
-TEST(Circle, PlaysOnWhenOneOfItLeaves)
+TEST(Others, PlaysOnWhenOneOfItLeaves)
 {
     Group group{3};
     group.start_all();
@@ -194,7 +194,7 @@ TEST(Circle, PlaysOnWhenOneOfItLeaves)
     }
 }
 
-TEST(Circle, ListensToNobodyElseInOnesPlace)
+TEST(Others, ListensToNobodyElseInOnesPlace)
 {
     Group group{3};
     group.start_all();

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/remote.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hapnet::peer {
+
+/// Peers of one session, this one among them, at most.
+inline constexpr std::size_t peers_max = 8;
+
+/// With which peers a peer plays.
+struct Roster {
+    /// The others' ids, ascending; 0 stands for whoever answers, and then for the only one.
+    std::vector<std::uint16_t> others{0};
+    /// So many peers, this one counted, must hear each other before they start; 0: all of them.
+    std::size_t wait_for = 0;
+};
+
+/// The other peers of a session. Two agree on a start by their handshake. Among more the lowest id
+/// sets it, as soon as all that are waited for hear each other; everyone who knows it tells it to
+/// those that it meets, who join if it has begun. Where those that meet know two starts, because
+/// they began apart, the earlier one counts and the others join it.
+class Others {
+public:
+    /// With more than two peers, one whose hellos stopped so long ago is not heard any more.
+    static constexpr base::Duration hello_lasts{std::chrono::seconds{1}};
+    /// With more than two peers, one that was silent for so long counts as gone until it is heard
+    /// again: the others play on. Until then its hand may be on the body.
+    static constexpr base::Duration gone_after{std::chrono::seconds{1}};
+
+    /// The introduction's id must not be one of the others'.
+    Others(const Roster& roster, const Remote::Config& each);
+
+    [[nodiscard]] std::span<Remote> all() { return all_; }
+    [[nodiscard]] std::span<const Remote> all() const { return all_; }
+    [[nodiscard]] Remote& operator[](std::size_t index) { return all_[index]; }
+    [[nodiscard]] std::size_t size() const { return all_.size(); }
+    /// This peer plays with one other.
+    [[nodiscard]] bool is_pair() const { return all_.size() == 1; }
+
+    /// After a hello of the remote `of`: looks whether all can start, and tells a start that is
+    /// known to those who do not know it.
+    void after_hello(std::size_t of, base::TimePoint now);
+    /// Says hello to those to whom it is due.
+    void say_hello(base::TimePoint now);
+
+    /// Begins a tick; returns the freshness of the newest state of all.
+    double look(base::TimePoint now);
+    /// The one with the lowest id of those that are heard; where none is, of those that were.
+    [[nodiscard]] const Remote& leader() const;
+    /// Whether what they do is known well enough for a hand to feel it: one of them is fresh, and
+    /// so are all whose hands may be on the body.
+    [[nodiscard]] bool are_fresh(base::TimePoint now) const;
+    /// All of them said goodbye.
+    [[nodiscard]] bool are_gone() const { return std::ranges::all_of(all_, &Remote::is_gone); }
+
+    /// The start, seed and length that all have in common. Its number and side are of use in a pair
+    /// alone: among more each has its own, see Remote::session() and rank().
+    [[nodiscard]] const std::optional<Session>& session() const
+    {
+        return is_pair() ? all_.front().session() : agreed_;
+    }
+    /// The place of this peer among all in the order of their ids, from 0. In a pair with an
+    /// unknown other one: 0 until it is met.
+    [[nodiscard]] std::size_t rank() const;
+
+private:
+    [[nodiscard]] std::uint32_t heard(base::TimePoint now) const;
+    [[nodiscard]] bool can_start(base::TimePoint now) const;
+    [[nodiscard]] bool hear_each_other(const Remote& a, const Remote& b) const;
+
+    Introduction self_;
+    std::size_t wait_for_;
+    std::vector<Remote> all_;
+    std::optional<Session> agreed_; // among more than two
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/effect_sums.hpp"
+#include "peer/core/finger_friction.hpp"
+#include "peer/core/passivity.hpp"
+#include "peer/core/settings.hpp"
+#include "peer/core/shared_body.hpp"
+#include "peer/core/sync/shared_poses.hpp"
+#include "peer/core/tick.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::peer {
+
+/// A peer's own copy of the scene, with the movable bodies that all peers share, and what this
+/// peer's hand does to them. Each tick of a session calls tick(), and then
+/// say() for each message.
+class SceneCopy {
+public:
+    static constexpr double reach_max_m = 10.0; // no hand of any scene is ever farther out
+    /// For this long after a body has moved the others hear of it.
+    static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
+    /// For this long after its last touch, a hand is taken to have caused the body's motion.
+    static constexpr base::Duration push_lasts{std::chrono::milliseconds{200}};
+
+    /// The scene must be one that shared_bodies() and World::freeze() accept.
+    explicit SceneCopy(const Settings& settings);
+
+    [[nodiscard]] const scene::World& world() const { return world_; }
+    /// All of them: every movable body of the scene, by their ids.
+    [[nodiscard]] std::span<const SharedBody> shared() const { return shared_; }
+    /// The first of them.
+    [[nodiscard]] scene::BodyId body() const { return body_; }
+    /// Whose copies count; nullptr: one is shared that does not turn.
+    [[nodiscard]] SharedPoses* poses() { return poses_ ? &*poses_ : nullptr; }
+    [[nodiscard]] const SharedPoses* poses() const { return poses_ ? &*poses_ : nullptr; }
+    /// The greatest force of another hand, N.
+    [[nodiscard]] double force_max_n() const { return force_max_n_; }
+
+    /// Whether a state of another peer can be true here.
+    [[nodiscard]] bool is_plausible(const wire::State& state) const;
+
+    /// A peer that joins late starts with the bodies where one of the others has them. Until it
+    /// knows that, its copy stands still.
+    void await_bodies(bool awaited) { is_known_ = !awaited; }
+    [[nodiscard]] bool is_known() const { return is_known_; }
+    /// Places them there, once one has told of all.
+    void take_over(std::span<const Remote> others);
+
+    /// Lets the algorithm move the copy by a tick, and adds up what this hand has done.
+    void tick(Tick& tick, Algorithm& algorithm, const Situation& situation,
+              const scene::HandInput& hand);
+
+    /// The bodies of which the others must hear now: those that something touches or moves, or did
+    /// a moment ago; all of them when that is `all_due`.
+    [[nodiscard]] BodySet bodies_to_say(bool all_due, base::TimePoint now) const
+    {
+        unsigned set = 0;
+        for (std::size_t i = 0; is_known_ && i < shared_.size(); ++i) {
+            const auto& stir = effects_[i].last_stir;
+            if (all_due || (stir && now - *stir < body_lingers)) set |= 1U << i;
+        }
+        return static_cast<BodySet>(set);
+    }
+    void say(wire::State& state, BodySet bodies) const;
+
+private:
+    /// What this hand does to one of the shared bodies.
+    struct Effect {
+        EffectSums sums;
+        std::optional<base::TimePoint> last_touch; // by this hand
+        std::optional<base::TimePoint> last_stir;  // the body was touched or moved
+        base::Position place_before;               // at the start of the tick
+        glm::dquat orientation_before{1.0, 0.0, 0.0, 0.0};
+    };
+
+    [[nodiscard]] bool is_shared(const wire::BodyState& body) const;
+    void note_places();
+    void move(Tick& tick, Algorithm& algorithm, const Situation& situation,
+              const scene::HandInput& hand);
+    [[nodiscard]] double rendered_share(base::Duration late) const;
+    [[nodiscard]] base::Position keep_within_reach(scene::BodyId body);
+    void account(const Tick& tick, base::TimePoint now);
+    void account_for(std::size_t body, SharedPoses::Mover mover, const Tick& tick,
+                     base::TimePoint now);
+    void add_push(std::size_t body, const scene::HandTouch& touch);
+    [[nodiscard]] wire::BodyState body_state(std::size_t body) const;
+
+    std::vector<SharedBody> shared_;
+    scene::BodyId body_;
+    std::optional<SharedPoses> poses_; // unless they are one without turning
+    scene::World world_;
+    std::optional<FingerFriction> friction_; // where the scene's hands have any
+    base::Duration tick_;
+    VirtualWall wall_; // the hardest of the scene
+    double stiffness_max_n_per_m_;
+    double grip_damping_ns_per_m_;
+    double share_; // of the forces on the hand, that may be rendered
+    double force_max_n_;
+    double remote_reach_m_; // of what the others may claim
+    double remote_speed_m_per_s_;
+    std::vector<Effect> effects_;
+    bool is_known_ = true;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+#include "proto/record/rows.hpp"
+#include "scene/world.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::peer {
+
+/// A hand as its device reports it: the haptic interface point and whether the hand grips.
+struct Hand {
+    base::Position hip;
+    base::Velocity velocity;
+    bool gripping = false;
+    bool present = true; // a person holds the device, and its sample is valid
+    double work_j = 0.0; // of the hand on its device since the start
+    base::Force felt{};  // that the device was told in the tick before
+};
+
+/// The phase of a session. Its last 3 s (half of it, when it is shorter than 6 s) are hands off.
+using record::Phase;
+
+/// The result of one tick.
+struct Tick {
+    Phase phase = Phase::waiting;
+    bool permitted = false; // whether the hand may feel anything at all
+    base::Force force;      // on the hand, before the governor
+    scene::HandTouch touched;
+    bool remote_touching = false;             // the hand of one of the others
+    base::Force remote_force;                 // that counted, of all the others
+    std::optional<base::Position> remote_hip; // as the algorithm shows it
+    double freshness = 0.0;                   // of the others' newest state
+    std::uint32_t sequence = 0;               // of the state that was sent to the first; 0: none
+};
+
+} // namespace hapnet::peer
