@@ -103,18 +103,6 @@ std::string cell_text(const ValueKind& kind, const void* value, const CellScale&
     return std::visit([](const auto& own) { return fmt::format("{}", own); }, leaf);
 }
 
-/// What a cell has to be when it is not: "a number".
-std::string expected_in_cell(const ValueKind& plain)
-{
-    switch (plain.shape) {
-    case Shape::choice: return fmt::format("one of {}", fmt::join(plain.names, ", "));
-    case Shape::flag: return "true or false";
-    case Shape::whole:
-    case Shape::number: return "a number";
-    default: return "a text";
-    }
-}
-
 template <typename T>
 std::optional<Leaf> number_in(std::string_view cell)
 {
@@ -258,33 +246,6 @@ std::string csv_text(const FieldTable& fields, std::span<const void* const> valu
     std::string text = header_of(columns) + '\n';
     for (const void* value : values) text += line_of(columns, value) + '\n';
     return text;
-}
-
-Result<void> read_csv(const FieldTable& fields, std::string_view text, const std::string& path,
-                      const std::function<void*()>& add)
-{
-    const auto table = parse_csv(text, path);
-    if (!table) return tl::unexpected{table.error()};
-    std::vector<std::pair<const FieldRow*, std::size_t>> columns; // and where they stand
-    for (const FieldRow& row : fields.rows) {
-        const auto found = std::ranges::find(table->columns, row.key);
-        if (found != table->columns.end()) {
-            columns.emplace_back(&row, static_cast<std::size_t>(found - table->columns.begin()));
-        } else if (!row.is_spare && !table->lines.empty()) {
-            return fail_at(path, 1, fmt::format("expected a column '{}'", row.key));
-        }
-    }
-    for (const CsvTable::Line& line : table->lines) {
-        void* const value = add();
-        for (const auto& [row, column] : columns) {
-            const std::string& cell = line.cells[column];
-            if (read_cell(*row->kind, cell, row->in(value))) continue;
-            return fail_at(path, line.number,
-                           fmt::format("{}: expected {}, found '{}'", row->key,
-                                       expected_in_cell(row->kind->plain()), cell));
-        }
-    }
-    return {};
 }
 
 } // namespace hapnet::base

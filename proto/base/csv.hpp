@@ -5,7 +5,6 @@
 #include "proto/base/fields.hpp"
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,10 +75,6 @@ template <typename T>
 /// The cells of a struct, without a line's end.
 [[nodiscard]] std::string csv_line(const FieldTable& fields, const void* value);
 [[nodiscard]] std::string csv_text(const FieldTable& fields, std::span<const void* const> values);
-/// Calls add() for each line, which gives the struct that the line is read into.
-[[nodiscard]] Result<void> read_csv(const FieldTable& fields, std::string_view text,
-                                    const std::string& path, const std::function<void*()>& add);
-
 /// `a,b,c`, without a line's end.
 template <Described T>
 [[nodiscard]] std::string csv_header()
@@ -102,17 +97,6 @@ template <Described T>
     places.reserve(values.size());
     for (const T& value : values) places.push_back(&value);
     return csv_text(field_table<T>(), places);
-}
-
-/// The values of a table, found by the names of its columns: others are passed over.
-template <Described T>
-[[nodiscard]] Result<std::vector<T>> read_csv(std::string_view text, const std::string& path)
-{
-    std::vector<T> values;
-    const auto read =
-        read_csv(field_table<T>(), text, path, [&]() -> void* { return &values.emplace_back(); });
-    if (!read) return tl::unexpected{read.error()};
-    return values;
 }
 
 } // namespace hapnet::base
