@@ -62,7 +62,7 @@ void Decimator::hear(std::uint16_t from, base::TimePoint received_at,
 std::optional<Frame> Decimator::next(std::uint64_t left_out)
 {
     if (!has_tick_) return std::nullopt;
-    frame_.left_out = left_out;
+    frame_.left_out = left_out > 0 ? std::optional{left_out} : std::nullopt;
     frame_.governor = names_.governor(frame_.tick.governor);
     frame_.fault.reset();
     if (frame_.tick.fault != 0) frame_.fault = names_.fault(frame_.tick.fault);

@@ -181,6 +181,13 @@ const std::set<std::string>& without_table()
         "Search", "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques",
         "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube",
         // JSON, CSV and the settings in a record's header
+        "PeerConfiguration", "SessionReport", "ClockReport", "AgeReport", "PathTimes", "InwardPath",
+        "OtherReport", "MessagesReport", "ForceReport", "EnergyReport", "PeerStatistics",
+        "TickReport", "Counters", "GovernorFigures", "FaultCounts", "GovernorCounters",
+        "RigCounters", "EnergyFigures", "Association::Counts", "Status::Key", "RealTime",
+
+        "PeerIntroduction", "Outcome", "Capabilities", "TestedDevice", "SelfTestReport",
+        "OtherSession", "Frame", "HeardFrame", "BodyFrame", "SessionFrame", "Largest", "Range",
         "Examination", "Finding", "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics",
         "Table1Row", "TaskRow", "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow",
         "PrecisionRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow", "ClaimQuantileRow",

@@ -141,7 +141,7 @@ def session(programs, repository):
                  "2.sock")
     programs.run("hapnet-ctl 1.sock wait --until messages.states_received>100 --timeout 20s")
     watchers = [Watcher(programs.connect(f"{name}.sock"), name, schema)
-                for name, schema in (("e", "emulator-frame"), ("1", None))]
+                for name, schema in (("e", "emulator-frame"), ("1", "peer-frame"))]
     web.wait_for(lambda now: [peer["state"] for peer in now["peers"]] == ["running", "running"])
     live = LivePage(web)
     for name, output in control(programs):

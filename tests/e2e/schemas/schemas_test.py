@@ -69,7 +69,7 @@ with tempfile.TemporaryDirectory() as place:
                 schema, text = schema_of(output), output.whole or output.text
                 if schema is None or text is None:
                     continue
-                lines = schema in ("events", "sessions", "emulator-frame")
+                lines = schema in ("events", "sessions", "emulator-frame", "peer-frame")
                 for document in text.splitlines() if lines else [text]:
                     validate(schema, json.loads(document), output.label)
     finally:
