@@ -5,10 +5,10 @@
 #include "lab/records/text_table.hpp"
 #include "lab/results/compared_rows.hpp"
 #include "lab/runner/checksums.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab {
@@ -49,25 +49,6 @@ std::string to_table(const std::vector<results::ComparedRow>& rows)
     return records::to_text(table);
 }
 
-std::string to_json(const std::vector<results::ComparedRow>& rows)
-{
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const results::ComparedRow& row : rows) {
-        list.push_back({{"algorithm", row.algorithm},
-                        {"task", row.task},
-                        {"conditions", row.conditions},
-                        {"measure", row.measure},
-                        {"sessions", row.sessions},
-                        {"median_a", row.median_a},
-                        {"median_b", row.median_b},
-                        {"difference", row.difference},
-                        {"ci_low", row.ci_low},
-                        {"ci_high", row.ci_high},
-                        {"sign_test_p", row.sign_test_p}});
-    }
-    return nlohmann::ordered_json{{"compared", list}}.dump(2) + '\n';
-}
-
 } // namespace
 
 base::Result<std::string> compare_folders(const CompareCommand& command)
@@ -79,7 +60,7 @@ base::Result<std::string> compare_folders(const CompareCommand& command)
     const auto rows = results::compare_sessions(*a, *b);
     if (!rows) return tl::unexpected{rows.error()};
     if (command.csv) return base::csv_text(*rows);
-    return command.json ? to_json(*rows) : to_table(*rows);
+    return command.json ? base::json_of(Comparison{*rows}).dump(2) + '\n' : to_table(*rows);
 }
 
 } // namespace hapnet::lab

@@ -121,7 +121,9 @@ nlohmann::ordered_json configuration_json(const Options& options, std::string_vi
 
 nlohmann::ordered_json statistics_json(const Run& run, std::optional<base::Duration> elapsed)
 {
-    return base::json_of(PeerStatistics{{&run.options, run.device}, &run, elapsed});
+    PeerStatistics statistics = statistics_of(run);
+    statistics.elapsed = elapsed;
+    return base::json_of(statistics);
 }
 
 Ordered show_json(const Run& run, const Recovery& recovery)

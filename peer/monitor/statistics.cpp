@@ -2,13 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/statistics.hpp"
 
-#include "peer/core/sync/text.hpp"
-#include "proto/net/clock.hpp"
-#include "scene/text/text.hpp"
-
 #include <algorithm>
-#include <span>
-#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::peer::monitor {
 
@@ -18,74 +12,35 @@ namespace {
 constexpr base::Duration late_budget{std::chrono::milliseconds{1}};
 constexpr double missed_share_budget = 0.005;
 
-} // namespace
-
-std::span<const loop::OtherStatus> others_of(const loop::ServoStatus& status)
+TickReport tick_report(const loop::LoopCounters& loop)
 {
-    return std::span{status.others}.first(status.others_count);
+    return {.count = loop.ticks, .missed = loop.missed, .late = loop.late.quantiles()};
 }
 
-std::string PeerConfiguration::scene_toml() const { return scene::to_text(options->scene); }
-std::string PeerConfiguration::scene_hash() const
+std::optional<SessionReport> session_of(const loop::ServoStatus& status)
 {
-    return fmt::format("{:016x}", scene::hash(options->scene));
-}
-std::string PeerConfiguration::algorithm_toml() const
-{
-    return print_algorithm(options->algorithm);
-}
-
-std::optional<std::string> PeerConfiguration::operator_name() const
-{
-    if (!options->device.is_simulated()) return std::nullopt;
-    return options->device.person.name;
-}
-
-std::optional<std::string> PeerConfiguration::operator_toml() const
-{
-    if (!options->device.is_simulated()) return std::nullopt;
-    return print_operator(options->device.person);
-}
-
-/// Of the roster: 0 is whoever answers.
-std::vector<std::uint16_t> PeerConfiguration::peers() const
-{
-    return options->others.empty() ? std::vector<std::uint16_t>{} : options->roster().others;
-}
-
-std::string PeerConfiguration::boot_id() { return net::boot_id(); }
-
-std::optional<SessionReport> PeerStatistics::session() const
-{
-    const auto& session = status().session;
+    const auto& session = status.session;
     if (!session) return std::nullopt;
     SessionReport report{.number = {},
                          .seed = session->seed,
-                         .role = status().is_left ? Role::left : Role::right,
+                         .role = status.is_left ? Role::left : Role::right,
                          .has_joined_late = session->joined_late,
                          .clock_offset = {},
                          .clock_uncertainty = {}};
-    if (!status().is_pair()) return report;
+    if (!status.is_pair()) return report;
     report.number = session->number;
-    if (const auto& clock = status().others.front().clock) {
+    if (const auto& clock = status.others.front().clock) {
         report.clock_offset = clock->offset;
         report.clock_uncertainty = clock->uncertainty;
     }
     return report;
 }
 
-std::vector<OtherReport> PeerStatistics::others() const
-{
-    std::vector<OtherReport> others;
-    for (const loop::OtherStatus& other : others_of(status())) others.push_back({&other});
-    return others;
-}
-
-/// Counts are sums, and there is an agreement when there is one with each.
-std::optional<line::Status::Key> PeerStatistics::secure() const
+/// Of all keys together: counts are sums, and there is an agreement when there is one with each.
+std::optional<line::Status::Key> all_keys(const loop::ServoStatus& status)
 {
     std::optional<line::Status::Key> all;
-    for (const loop::OtherStatus& other : others_of(status())) {
+    for (const loop::OtherStatus& other : others_of(status)) {
         const auto& key = other.line.key;
         if (!key) continue;
         if (!all) {
@@ -100,56 +55,63 @@ std::optional<line::Status::Key> PeerStatistics::secure() const
     return all;
 }
 
-TickReport tick_report(const loop::LoopCounters& loop)
-{
-    return {.count = loop.ticks, .missed = loop.missed, .late = loop.late.quantiles()};
-}
-
-MessagesReport PeerStatistics::messages() const
+MessagesReport messages_of(const loop::ServoStatus& status)
 {
     std::uint64_t strangers = 0;
-    for (const loop::OtherStatus& other : others_of(status())) strangers += other.line.strangers;
-    return {.counters = status().messages,
+    for (const loop::OtherStatus& other : others_of(status)) strangers += other.line.strangers;
+    return {.counters = status.messages,
             .strangers = strangers,
-            .overflowed = status().overflowed,
-            .send_failed = status().loop.send_failures};
+            .overflowed = status.overflowed,
+            .send_failed = status.loop.send_failures};
 }
 
-ForceReport PeerStatistics::governor() const
+ForceReport governor_of(const loop::ServoStatus& status)
 {
-    return {.governor = {.state = status().governor_state,
-                         .fault = status().fault,
-                         .force_limit_n = status().force_limit_n,
-                         .motor_heat = status().motor_heat,
-                         .counters = status().governor,
-                         .device = status().device},
-            .watchdog_halts = status().watchdog_halts,
-            .withheld = status().loop.withheld,
-            .unusable_samples = status().messages.unusable_hand};
+    return {.governor = {.state = status.governor_state,
+                         .fault = status.fault,
+                         .force_limit_n = status.force_limit_n,
+                         .motor_heat = status.motor_heat,
+                         .counters = status.governor,
+                         .device = status.device},
+            .watchdog_halts = status.watchdog_halts,
+            .withheld = status.loop.withheld,
+            .unusable_samples = status.messages.unusable_hand};
 }
 
-std::optional<EnergyReport> PeerStatistics::energy() const
+} // namespace
+
+std::span<const loop::OtherStatus> others_of(const loop::ServoStatus& status)
 {
-    if (!status().energy_limits) return std::nullopt;
-    return EnergyReport{status().governor.energy_limited, *status().energy_limits, status().energy};
+    return std::span{status.others}.first(status.others_count);
 }
 
-std::uint64_t PeerStatistics::record_rows_lost() const
+PeerStatistics statistics_of(const Run& run)
 {
-    return run->rows_lost + status().loop.unrecorded + status().loop.too_long;
+    const loop::ServoStatus& status = run.status;
+    PeerStatistics all{.configuration = {&run.options, run.device},
+                       .session = session_of(status),
+                       .others = {},
+                       .secure = all_keys(status),
+                       .tick = tick_report(status.loop),
+                       .messages = messages_of(status),
+                       .governor = governor_of(status),
+                       .energy = {},
+                       .record_rows_lost =
+                           run.rows_lost + status.loop.unrecorded + status.loop.too_long,
+                       .texts_lost = run.texts_lost,
+                       .is_record_whole = {},
+                       .real_time = status.real_time,
+                       .refusal = {},
+                       .is_valid = why_not_valid(run).empty(),
+                       .elapsed = {}};
+    for (const loop::OtherStatus& other : others_of(status)) all.others.push_back({&other});
+    if (const auto& limits = status.energy_limits) {
+        all.energy = EnergyReport{status.governor.energy_limited, *limits, status.energy};
+    }
+    if (run.options.record) all.is_record_whole = run.is_record_whole;
+    if (status.refusal) all.refusal = describe(*status.refusal);
+    return all;
 }
-
-std::optional<bool> PeerStatistics::is_record_whole() const
-{
-    return run->options.record ? std::optional{run->is_record_whole} : std::nullopt;
-}
-
-std::optional<std::string_view> PeerStatistics::refusal() const
-{
-    return status().refusal ? std::optional{describe(*status().refusal)} : std::nullopt;
-}
-
-bool PeerStatistics::is_valid() const { return why_not_valid(*run).empty(); }
 
 std::string why_not_valid(const Run& run)
 {

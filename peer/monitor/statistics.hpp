@@ -4,14 +4,17 @@
 
 #include "peer/cli/options.hpp"
 #include "peer/control/statistics.hpp"
+#include "peer/core/sync/text.hpp"
 #include "peer/loop/servo_status.hpp"
-#include "peer/monitor/device_news.hpp"
 #include "proto/base/describe.hpp"
 #include "proto/base/version.hpp"
+#include "proto/net/clock.hpp"
+#include "scene/text/text.hpp"
 
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,34 +34,41 @@ struct Run {
     std::uint64_t texts_lost = 0; // messages for a person that nobody took
 };
 
+/// Which program it is.
+struct BuildReport {
+    std::string_view program = "hapnet-peer";
+    std::string_view version = base::version();
+    std::string_view commit = base::commit();
+    std::string_view compiler = base::compiler();
+};
+constexpr auto fields_of(base::Tag<BuildReport>)
+{
+    using B = BuildReport;
+    return base::fields("build", base::member("program", &B::program, "The program that ran."),
+                        base::member("version", &B::version, "Its version."),
+                        base::member("commit", &B::commit, "The commit that it was built from."),
+                        base::member("compiler", &B::compiler, "What it was built with."));
+}
+
 /// The configuration of a peer as records and statistics carry it.
 struct PeerConfiguration {
     const Options* options = nullptr;
     std::string_view device;
+    BuildReport build{};
 
-    [[nodiscard]] std::string scene_toml() const;
-    [[nodiscard]] std::string scene_hash() const;
-    [[nodiscard]] std::string algorithm_toml() const;
-    [[nodiscard]] std::optional<std::string> operator_name() const;
-    [[nodiscard]] std::optional<std::string> operator_toml() const;
-    [[nodiscard]] std::vector<std::uint16_t> peers() const;
-    [[nodiscard]] static std::string boot_id();
+    /// nullopt with a device that is not simulated.
+    template <typename Tell>
+    [[nodiscard]] std::optional<std::string> of_hand(const Tell& tell) const
+    {
+        if (!options->device.is_simulated()) return std::nullopt;
+        return tell(options->device.person);
+    }
 };
 constexpr auto fields_of(base::Tag<PeerConfiguration>)
 {
     using C = PeerConfiguration;
     return base::fields(
-        "configuration",
-        base::computed<C>(
-            "program", [](const C&) { return std::string_view{"hapnet-peer"}; },
-            "The program that ran."),
-        base::computed<C>(
-            "version", [](const C&) { return base::version(); }, "Its version."),
-        base::computed<C>(
-            "commit", [](const C&) { return base::commit(); },
-            "The commit that it was built from."),
-        base::computed<C>(
-            "compiler", [](const C&) { return base::compiler(); }, "What it was built with."),
+        "configuration", base::part(&C::build),
         base::computed<C>(
             "peer_id", [](const C& one) { return one.options->id; }, "The `--id`."),
         base::computed<C>(
@@ -67,9 +77,11 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "scene", [](const C& one) -> const auto& { return one.options->scene_name; },
             "The name of the scene."),
         base::computed<C>(
-            "scene_toml", [](const C& one) { return one.scene_toml(); }, "Its full text."),
+            "scene_toml", [](const C& one) { return scene::to_text(one.options->scene); },
+            "Its full text."),
         base::computed<C>(
-            "scene_hash", [](const C& one) { return one.scene_hash(); },
+            "scene_hash",
+            [](const C& one) { return fmt::format("{:016x}", scene::hash(one.options->scene)); },
             "Its hash as both peers compare it."),
         base::computed<C>(
             "grip_damping_ns_per_m",
@@ -82,21 +94,22 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "algorithm", [](const C& one) { return name_of(one.options->algorithm); },
             "The name of the algorithm."),
         base::computed<C>(
-            "algorithm_toml", [](const C& one) { return one.algorithm_toml(); },
+            "algorithm_toml", [](const C& one) { return print_algorithm(one.options->algorithm); },
             "All its parameters."),
         base::computed<C>(
             "seed", [](const C& one) { return one.options->seed.value(); }, "The `--seed`."),
         base::member("device", &C::device, "The device in words."),
         base::computed<C>(
-            "operator", [](const C& one) { return one.operator_name(); },
+            "operator",
+            [](const C& one) { return one.of_hand([](const auto& hand) { return hand.name; }); },
             "The name of the simulated hand; null with any other device."),
         base::computed<C>(
-            "operator_toml", [](const C& one) { return one.operator_toml(); },
+            "operator_toml", [](const C& one) { return one.of_hand(device::print_operator); },
             "Its parameters; likewise."),
         base::computed<C>(
             "duration_s", [](const C& one) { return one.options->duration; }, "The `--duration`."),
         base::computed<C>(
-            "peers", [](const C& one) { return one.peers(); },
+            "peers", [](const C& one) { return one.options->roster().others; },
             "The ids of the others as `--peer` names them, 0 in a pair."),
         base::computed<C>(
             "wait_for", [](const C& one) { return one.options->wait_for; },
@@ -107,7 +120,7 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "wire", [](const C&) { return wire::protocol_version; },
             "The version of the messages."),
         base::computed<C>(
-            "boot_id", [](const C&) { return C::boot_id(); },
+            "boot_id", [](const C&) { return net::boot_id(); },
             "The machine's start; records with the same one share a clock, [unless they show "
             "otherwise](record.md)."));
 }
@@ -343,74 +356,58 @@ constexpr auto fields_of(base::Tag<EnergyReport>)
 /// All of it.
 struct PeerStatistics {
     PeerConfiguration configuration;
-    const Run* run = nullptr;
-    std::optional<base::Duration> elapsed{}; // while it runs
-
-    [[nodiscard]] const loop::ServoStatus& status() const { return run->status; }
-    [[nodiscard]] std::optional<SessionReport> session() const;
-    [[nodiscard]] std::vector<OtherReport> others() const;
-    [[nodiscard]] std::optional<line::Status::Key> secure() const;
-    [[nodiscard]] MessagesReport messages() const;
-    [[nodiscard]] ForceReport governor() const;
-    [[nodiscard]] std::optional<EnergyReport> energy() const;
-    [[nodiscard]] std::uint64_t record_rows_lost() const;
-    [[nodiscard]] std::optional<bool> is_record_whole() const;
-    [[nodiscard]] std::optional<std::string_view> refusal() const;
-    [[nodiscard]] bool is_valid() const;
+    std::optional<SessionReport> session;
+    std::vector<OtherReport> others;
+    std::optional<line::Status::Key> secure;
+    TickReport tick;
+    MessagesReport messages;
+    ForceReport governor;
+    std::optional<EnergyReport> energy;
+    std::uint64_t record_rows_lost = 0;
+    std::uint64_t texts_lost = 0;
+    std::optional<bool> is_record_whole;
+    net::RealTime real_time;
+    std::optional<std::string_view> refusal;
+    bool is_valid = false;
+    std::optional<base::Duration> elapsed;
 };
-[[nodiscard]] TickReport tick_report(const loop::LoopCounters& loop);
 constexpr auto fields_of(base::Tag<PeerStatistics>)
 {
     using S = PeerStatistics;
     return base::fields(
         "peer", base::part(&S::configuration),
-        base::computed<S>(
-            "session", [](const S& peer) { return peer.session(); },
-            "null before the start is agreed."),
-        base::computed<S>(
-            "others", [](const S& peer) { return peer.others(); },
-            "One object for each other peer, in the order of their ids. Of a pair it has one."),
-        base::computed<S>(
-            "secure", [](const S& peer) { return peer.secure(); },
-            "null without a key; among more than two the sums of all, and of times the longest. "
-            "Datagrams that were refused here are not counted under `messages`."),
-        base::computed<S>(
-            "tick", [](const S& peer) { return tick_report(peer.status().loop); },
-            "The ticks of the haptic loop."),
-        base::computed<S>(
-            "messages", [](const S& peer) { return peer.messages(); },
-            "What came from the others, and what went."),
-        base::computed<S>(
-            "governor", [](const S& peer) { return peer.governor(); },
-            "What stands between the scene and the motors."),
-        base::computed<S>(
-            "energy", [](const S& peer) { return peer.energy(); },
-            "The energy into the hand; null where it is not limited."),
-        base::computed<S>(
-            "record_rows_lost", [](const S& peer) { return peer.record_rows_lost(); },
-            "Rows that are missing in the record: the disk was too slow or full. Also datagrams of "
-            "a flood that had no effect: beyond 2000 a second they are left out; and messages "
-            "longer than any of the scene."),
-        base::computed<S>(
-            "texts_lost", [](const S& peer) { return peer.run->texts_lost; },
-            "Messages on stdout and stderr that found no room, as the others were not read."),
-        base::computed<S>(
-            "record_whole", [](const S& peer) { return peer.is_record_whole(); },
-            "Whether the record could be written to its end; null without `--record`."),
-        base::computed<S>(
-            "real_time", [](const S& peer) -> const auto& { return peer.status().real_time; },
-            "What the system granted."),
-        base::computed<S>(
-            "refusal", [](const S& peer) { return peer.refusal(); },
-            "Why these peers cannot play together, in words; null if they can."),
-        base::computed<S>(
-            "valid", [](const S& peer) { return peer.is_valid(); },
-            "Whether the run is [valid](#what-valid-means)."),
+        base::member("session", &S::session, "null before the start is agreed."),
+        base::member("others", &S::others,
+                     "One object for each other peer, in the order of their ids. Of a pair it has "
+                     "one."),
+        base::member("secure", &S::secure,
+                     "null without a key; among more than two the sums of all, and of times the "
+                     "longest. Datagrams that were refused here are not counted under `messages`."),
+        base::member("tick", &S::tick, "The ticks of the haptic loop."),
+        base::member("messages", &S::messages, "What came from the others, and what went."),
+        base::member("governor", &S::governor, "What stands between the scene and the motors."),
+        base::member("energy", &S::energy,
+                     "The energy into the hand; null where it is not limited."),
+        base::member("record_rows_lost", &S::record_rows_lost,
+                     "Rows that are missing in the record: the disk was too slow or full. Also "
+                     "datagrams of a flood that had no effect: beyond 2000 a second they are left "
+                     "out; and messages longer than any of the scene."),
+        base::member("texts_lost", &S::texts_lost,
+                     "Messages on stdout and stderr that found no room, as the others were not "
+                     "read."),
+        base::member("record_whole", &S::is_record_whole,
+                     "Whether the record could be written to its end; null without `--record`."),
+        base::member("real_time", &S::real_time, "What the system granted."),
+        base::member("refusal", &S::refusal,
+                     "Why these peers cannot play together, in words; null if they can."),
+        base::member("valid", &S::is_valid, "Whether the run is [valid](#what-valid-means)."),
         base::member("elapsed_s", &S::elapsed,
                      "While the run lasts: the time since its first tick.")
             .gauge("hapnet_peer_elapsed")
             .left_out_if_none());
 }
+/// It refers to parts of the run.
+[[nodiscard]] PeerStatistics statistics_of(const Run& run);
 
 /// The reason why the run is not valid as a measurement; "" when it is.
 [[nodiscard]] std::string why_not_valid(const Run& run);

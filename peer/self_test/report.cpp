@@ -36,7 +36,7 @@ std::string report_text(const device::Device& device, const SelfTest& test)
 
 SelfTestReport report_of(const device::Device& device, const SelfTest& test)
 {
-    return {.device = {device.identity(), device.capabilities()},
+    return {.device = {device.identity(), {device.capabilities()}},
             .steps = test.outcomes(),
             .is_finished = test.is_finished(),
             .has_failed = has_failed(test),

@@ -12,11 +12,16 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::device {
+namespace hapnet::peer::self_test {
 
-constexpr auto fields_of(base::Tag<Capabilities>)
+/// For a person.
+[[nodiscard]] std::string report_text(const device::Device& device, const SelfTest& test);
+
+/// What the device can do.
+struct CapabilitiesReport : device::Capabilities {};
+constexpr auto fields_of(base::Tag<CapabilitiesReport>)
 {
-    using C = Capabilities;
+    using C = CapabilitiesReport;
     return base::fields(
         "capabilities", base::member("axes_in", &C::axes_in, "Axes that it measures."),
         base::member("axes_out", &C::axes_out, "Axes with a motor."),
@@ -32,17 +37,10 @@ constexpr auto fields_of(base::Tag<Capabilities>)
         base::member("rate_hz", &C::rate_hz, "The nominal rate of its reports."));
 }
 
-} // namespace hapnet::device
-
-namespace hapnet::peer::self_test {
-
-/// For a person.
-[[nodiscard]] std::string report_text(const device::Device& device, const SelfTest& test);
-
 /// The device that was tested.
 struct TestedDevice {
     device::Identity identity;
-    device::Capabilities can;
+    CapabilitiesReport can;
 };
 constexpr auto fields_of(base::Tag<TestedDevice>)
 {

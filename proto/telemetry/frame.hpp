@@ -162,12 +162,60 @@ constexpr auto fields_of(base::Tag<SessionFrame>)
         base::member("phase", &SessionFrame::phase, "As in `phase` of the frame."));
 }
 
+/// Its newest tick in a frame.
+struct TickFrame {
+    record::TickRow row;
+};
+constexpr auto fields_of(base::Tag<TickFrame>)
+{
+    using T = TickFrame;
+    return base::fields(
+        "tick",
+        base::computed<T>(
+            "hip", [](const T& frame) { return list_of(frame.row.hip.value); },
+            "The place of the hand.")
+            .rounded(si_decimals),
+        base::computed<T>(
+            "hip_v", [](const T& frame) { return list_of(frame.row.hip_velocity.value); },
+            "Its velocity.")
+            .rounded(si_decimals),
+        base::computed<T>(
+            "cube", [](const T& frame) { return list_of(frame.row.cube.value); },
+            "The place of the first shared body.")
+            .rounded(si_decimals),
+        base::computed<T>(
+            "cube_v", [](const T& frame) { return list_of(frame.row.cube_velocity.value); },
+            "Its velocity.")
+            .rounded(si_decimals),
+        base::computed<T>(
+            "hand_force", [](const T& frame) { return list_of(frame.row.device.value); },
+            "What the device was told, after the governor.")
+            .rounded(force_decimals),
+        base::computed<T>(
+            "body_force", [](const T& frame) { return list_of(frame.row.contact.value); },
+            "What the scene exerts on the hand, before it.")
+            .rounded(force_decimals),
+        base::computed<T>(
+            "remote_force", [](const T& frame) { return list_of(frame.row.remote.value); },
+            "That of the other side as this tick used it.")
+            .rounded(force_decimals),
+        base::computed<T>(
+            "touching", [](const T& frame) { return frame.row.touching; },
+            "Whether the hand touches the body."),
+        base::computed<T>(
+            "remote_touching", [](const T& frame) { return frame.row.remote_touching; },
+            "Whether another hand does."),
+        base::computed<T>(
+            "remote_fresh", [](const T& frame) { return frame.row.remote_fresh; },
+            "Whether the state of the other side is young enough to be used."));
+}
+
 /// The newest state of a peer, and the extremes since the frame before.
 struct Frame {
     std::uint64_t number = 0;
     std::optional<std::uint64_t> left_out; // frames that this one follows and that were not sent
     std::uint16_t peer = 0;
-    record::TickRow tick; // the newest
+    TickFrame newest;
     std::optional<record::SessionRow> session;
     Spread cube_x_m;
     Spread force_n; // that the device was told
@@ -181,7 +229,7 @@ struct Frame {
     [[nodiscard]] std::optional<SessionFrame> session_now() const
     {
         if (!session) return std::nullopt;
-        return SessionFrame{session->session, tick.at() - session->start, tick.phase};
+        return SessionFrame{session->session, newest.row.at() - session->start, newest.row.phase};
     }
 };
 constexpr auto fields_of(base::Tag<Frame>)
@@ -193,56 +241,22 @@ constexpr auto fields_of(base::Tag<Frame>)
             "ok", [](const F&) { return true; }, "Always true."),
         base::member("frame", &F::number, "Its number, from 0."),
         base::computed<F>(
-            "at_ns", [](const F& frame) { return frame.tick.at().time_since_epoch().count(); },
+            "at_ns",
+            [](const F& frame) { return frame.newest.row.at().time_since_epoch().count(); },
             "When the device was read in the newest tick, CLOCK_BOOTTIME; positions, velocities "
             "and "
             "forces hold then."),
         base::member("peer", &F::peer, "The id of the peer."),
         base::computed<F>(
-            "tick", [](const F& frame) { return frame.tick.tick; }, "The newest tick, from 0."),
+            "tick", [](const F& frame) { return frame.newest.row.tick; },
+            "The newest tick, from 0."),
         base::computed<F>(
             "session", [](const F& frame) { return frame.session_now(); },
             "null before one is agreed."),
         base::computed<F>(
-            "phase", [](const F& frame) { return frame.tick.phase; },
+            "phase", [](const F& frame) { return frame.newest.row.phase; },
             "The phase as in `show`; it exists without a session, too."),
-        base::computed<F>(
-            "hip", [](const F& frame) { return list_of(frame.tick.hip.value); },
-            "The place of the hand.")
-            .rounded(si_decimals),
-        base::computed<F>(
-            "hip_v", [](const F& frame) { return list_of(frame.tick.hip_velocity.value); },
-            "Its velocity.")
-            .rounded(si_decimals),
-        base::computed<F>(
-            "cube", [](const F& frame) { return list_of(frame.tick.cube.value); },
-            "The place of the first shared body.")
-            .rounded(si_decimals),
-        base::computed<F>(
-            "cube_v", [](const F& frame) { return list_of(frame.tick.cube_velocity.value); },
-            "Its velocity.")
-            .rounded(si_decimals),
-        base::computed<F>(
-            "hand_force", [](const F& frame) { return list_of(frame.tick.device.value); },
-            "What the device was told, after the governor.")
-            .rounded(force_decimals),
-        base::computed<F>(
-            "body_force", [](const F& frame) { return list_of(frame.tick.contact.value); },
-            "What the scene exerts on the hand, before it.")
-            .rounded(force_decimals),
-        base::computed<F>(
-            "remote_force", [](const F& frame) { return list_of(frame.tick.remote.value); },
-            "That of the other side as this tick used it.")
-            .rounded(force_decimals),
-        base::computed<F>(
-            "touching", [](const F& frame) { return frame.tick.touching; },
-            "Whether the hand touches the body."),
-        base::computed<F>(
-            "remote_touching", [](const F& frame) { return frame.tick.remote_touching; },
-            "Whether another hand does."),
-        base::computed<F>(
-            "remote_fresh", [](const F& frame) { return frame.tick.remote_fresh; },
-            "Whether the state of the other side is young enough to be used."),
+        base::part(&F::newest),
         base::computed<F>(
             "cube_x",
             [](const F& frame) {

@@ -181,18 +181,21 @@ const std::set<std::string>& without_table()
         "Search", "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques",
         "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube",
         // JSON, CSV and the settings in a record's header
-        "PeerConfiguration", "SessionReport", "ClockReport", "AgeReport", "PathTimes", "InwardPath",
-        "OtherReport", "MessagesReport", "ForceReport", "EnergyReport", "PeerStatistics",
-        "TickReport", "Counters", "GovernorFigures", "FaultCounts", "GovernorCounters",
-        "RigCounters", "EnergyFigures", "Association::Counts", "Status::Key", "RealTime",
-
-        "PeerIntroduction", "Outcome", "Capabilities", "TestedDevice", "SelfTestReport",
-        "OtherSession", "Frame", "HeardFrame", "BodyFrame", "SessionFrame", "Largest", "Range",
-        "Examination", "Finding", "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics",
-        "Table1Row", "TaskRow", "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow",
-        "PrecisionRow", "SensitivityRow", "Judged", "CurveRow", "ClaimRow", "ClaimQuantileRow",
-        "ClaimSessionRow", "ConditionRow", "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow",
-        "ReplayRow", "WrittenMount", "WrittenConfig"};
+        "BuildReport", "TickFrame", "PeerConfiguration", "SessionReport", "ClockReport",
+        "AgeReport", "PathTimes", "InwardPath", "OtherReport", "MessagesReport", "ForceReport",
+        "EnergyReport", "PeerStatistics", "TickReport", "Counters", "GovernorFigures",
+        "FaultCounts", "GovernorCounters", "RigCounters", "EnergyFigures", "Association::Counts",
+        "Status::Key", "RealTime", "Clock", "Loop", "LoopReport", "Path", "ForceDiscrepancy",
+        "TouchShares", "BodyAgreement", "Agreement", "Analysis", "PairReport", "AnalysisReport",
+        "Replayed", "FeatureReport", "TickBound", "CheaperTick", "MassRange", "HandsReport",
+        "Explanation", "Comparison", "PlayedSession", "PlayReport", "PeerIntroduction", "Outcome",
+        "CapabilitiesReport", "TestedDevice", "SelfTestReport", "OtherSession", "Frame",
+        "HeardFrame", "BodyFrame", "SessionFrame", "Largest", "Range", "Examination", "Finding",
+        "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "Table1Row", "TaskRow",
+        "LimitRow", "AxisLimitRow", "PointQosRow", "PairedRow", "PrecisionRow", "SensitivityRow",
+        "Judged", "CurveRow", "ClaimRow", "ClaimQuantileRow", "ClaimSessionRow", "ConditionRow",
+        "QosRow", "ComparedRow", "TrajectoryRow", "RealTimeRow", "ReplayRow", "WrittenMount",
+        "WrittenConfig"};
     return names;
 }
 

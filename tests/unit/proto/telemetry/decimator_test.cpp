@@ -62,7 +62,7 @@ TEST(Decimator, KeepsTheExtremesOfItsRows)
         EXPECT_EQ(frame->late_us.max(), late);
         EXPECT_EQ(frame->late_us.count(), static_cast<std::uint64_t>(rows));
         EXPECT_EQ(frame->missed, missed);
-        EXPECT_EQ(frame->tick.tick, static_cast<std::uint64_t>(tick - 1));
+        EXPECT_EQ(frame->newest.row.tick, static_cast<std::uint64_t>(tick - 1));
     }
 }
 
