@@ -62,14 +62,14 @@ void Governor::latch(const Latched& cause)
     to_zero();
     switch (cause.trip) {
     case Trip::none:
-    case Trip::device: ++counters_.device_faults; break;
-    case Trip::silence: ++counters_.silence_faults; break;
-    case Trip::loop: ++counters_.loop_faults; break;
-    case Trip::speed: ++counters_.speed_trips; break;
-    case Trip::jump: ++counters_.jump_trips; break;
-    case Trip::nonsense: ++counters_.nonsense_trips; break;
-    case Trip::frozen: ++counters_.frozen_trips; break;
-    case Trip::runaway: ++counters_.runaway_trips; break;
+    case Trip::device: ++counters_.faults.device; break;
+    case Trip::silence: ++counters_.faults.silence; break;
+    case Trip::loop: ++counters_.faults.loop; break;
+    case Trip::speed: ++counters_.faults.speed; break;
+    case Trip::jump: ++counters_.faults.jump; break;
+    case Trip::nonsense: ++counters_.faults.nonsense; break;
+    case Trip::frozen: ++counters_.faults.frozen; break;
+    case Trip::runaway: ++counters_.faults.runaway; break;
     }
 }
 

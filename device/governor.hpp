@@ -10,6 +10,7 @@
 #include "device/governor/motor_heat.hpp"
 #include "device/governor/sample_check.hpp"
 #include "device/governor/trip.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
@@ -18,33 +19,79 @@
 
 namespace hapnet::device {
 
+/// Faults that were latched, by what latched them: see Trip.
+struct FaultCounts {
+    std::uint64_t device = 0;
+    std::uint64_t silence = 0;
+    std::uint64_t loop = 0;
+    std::uint64_t speed = 0;
+    std::uint64_t jump = 0;
+    std::uint64_t nonsense = 0;
+    std::uint64_t frozen = 0;
+    std::uint64_t runaway = 0;
+
+    [[nodiscard]] std::uint64_t total() const
+    {
+        return device + silence + loop + speed + jump + nonsense + frozen + runaway;
+    }
+};
+constexpr auto fields_of(base::Tag<FaultCounts>)
+{
+    using F = FaultCounts;
+    return base::fields(
+        "faults", base::member("device", &F::device, "The device reported a fault."),
+        base::member("silence", &F::silence, "It said nothing new for too long."),
+        base::member("loop", &F::loop, "The loop stood still for too long."),
+        base::member("speed", &F::speed, "It moved faster than a hand that holds it."),
+        base::member("jump", &F::jump, "It was suddenly elsewhere."),
+        base::member("nonsense", &F::nonsense, "A place or a velocity was no number."),
+        base::member("frozen", &F::frozen, "Its place stayed the same, whatever pushed it."),
+        base::member("runaway", &F::runaway, "It sped up against the force."));
+}
+
 /// How often each rule acted; in ticks, unless stated otherwise.
 struct GovernorCounters {
-    std::uint64_t not_finite = 0;    // requests that were no numbers
-    std::uint64_t clamped = 0;       // to the peak
-    std::uint64_t heat_limited = 0;  // to what warm motors bear
-    std::uint64_t joint_limited = 0; // to what the joints' motors have
-    std::uint64_t flattened = 0;     // to the axes that have motors
-    std::uint64_t outside = 0;       // of the workspace, where an outward part was taken away
+    std::uint64_t not_finite = 0;
+    std::uint64_t clamped = 0;
+    std::uint64_t heat_limited = 0;
+    std::uint64_t joint_limited = 0;
+    std::uint64_t flattened = 0;
+    std::uint64_t outside = 0;
     std::uint64_t slewed = 0;
     std::uint64_t energy_limited = 0; // to what may go into the hand
-    std::uint64_t faded = 0;          // ticks at less than full strength
-    std::uint64_t stalled = 0;        // gaps between ticks that were too long
-    std::uint64_t silent = 0;         // the device said nothing new for too long
+    std::uint64_t faded = 0;
+    std::uint64_t stalled = 0;
+    std::uint64_t silent = 0;
     std::uint64_t docked = 0;
     std::uint64_t uncalibrated = 0;
-    std::uint64_t too_fast = 0; // without force: it waits until the stylus is slower
-    // Faults that were latched, by what latched them.
-    std::uint64_t device_faults = 0;
-    std::uint64_t silence_faults = 0;
-    std::uint64_t loop_faults = 0;
-    std::uint64_t speed_trips = 0;
-    std::uint64_t jump_trips = 0;
-    std::uint64_t nonsense_trips = 0;
-    std::uint64_t frozen_trips = 0;
-    std::uint64_t runaway_trips = 0;
-    std::uint64_t resets = 0; // faults that an operator ended
+    std::uint64_t too_fast = 0;
+    FaultCounts faults;
+    std::uint64_t resets = 0;
 };
+/// All but the energy, which is told with its limits.
+constexpr auto fields_of(base::Tag<GovernorCounters>)
+{
+    using C = GovernorCounters;
+    return base::fields(
+        "governor counters",
+        base::member("not_finite", &C::not_finite, "Ticks with a requested force of no numbers."),
+        base::member("clamped", &C::clamped, "Ticks with a force shortened to the peak."),
+        base::member("heat_limited", &C::heat_limited, "To what warm motors bear."),
+        base::member("joint_limited", &C::joint_limited, "To what the motors of the joints have."),
+        base::member("flattened", &C::flattened, "To the axes that have motors."),
+        base::member("outside", &C::outside,
+                     "Ticks outside the workspace in which an outward part was taken away."),
+        base::member("slewed", &C::slewed, "Ticks in which the change of the force was limited."),
+        base::member("faded", &C::faded, "Ticks at less than full strength."),
+        base::member("stalled", &C::stalled, "Gaps between ticks that were too long."),
+        base::member("silent", &C::silent, "Ticks in which the device had been silent too long."),
+        base::member("docked", &C::docked, "Ticks with the stylus in its holder."),
+        base::member("uncalibrated", &C::uncalibrated, "Ticks without a calibration."),
+        base::member("too_fast", &C::too_fast,
+                     "Ticks without force in which the stylus was faster than a hand."),
+        base::member("faults", &C::faults, "Faults that were latched, by what latched them."),
+        base::member("resets", &C::resets, "Faults that an operator ended."));
+}
 
 /// The force that the scene requests for a hand.
 struct ForceRequest {

@@ -13,9 +13,17 @@ namespace hapnet::device {
 /// Counters of a device's reports.
 struct RigCounters {
     std::uint64_t reads = 0;
-    std::uint64_t repeated = 0;      // of them without a new report from the device
-    std::uint64_t repeated_most = 0; // in a row
+    std::uint64_t repeated = 0;
+    std::uint64_t repeated_most = 0;
 };
+constexpr auto fields_of(base::Tag<RigCounters>)
+{
+    using C = RigCounters;
+    return base::fields(
+        "device counters", base::member("reads", &C::reads, "Reads of the device."),
+        base::member("repeated", &C::repeated, "Those without a new sample."),
+        base::member("repeated_most", &C::repeated_most, "The longest row of these."));
+}
 
 /// A device mounted in the scene, with the governor in front of its motors. Loops use devices only
 /// through it. Inputs and outputs are in the scene's frame.

@@ -245,6 +245,7 @@ monitor::Recorder::Setup recording_for(const Options& options, std::string_view 
                                        const device::Rig& rig, const Settings& settings)
 {
     nlohmann::json configuration = monitor::configuration_json(options, device);
+    configuration["started_unix_s"] = net::wall_clock_seconds();
     // The session's number follows from it.
     configuration["nonce"] = settings.introduction.nonce;
     configuration["grip_damping_ns_per_m"] = settings.grip_damping_ns_per_m; // as in the scene

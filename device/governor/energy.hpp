@@ -33,11 +33,22 @@ constexpr auto fields_of(base::Tag<EnergyLimits> /*struct*/)
 
 /// The work between motors and hand, all counted as positive into the hand.
 struct EnergyFigures {
-    double net_j = 0.0;         // since the start: what the hand got less what it put in
-    double net_max_j = 0.0;     // the largest value that net_j had: a passive device has 0
-    double work_5s_max_j = 0.0; // the largest net work within 5 s
-    double power_max_w = 0.0;   // the largest mean power of 5 ms
+    double net_j = 0.0;
+    double net_max_j = 0.0; // a passive device has 0
+    double work_5s_max_j = 0.0;
+    double power_max_w = 0.0;
 };
+constexpr auto fields_of(base::Tag<EnergyFigures>)
+{
+    using E = EnergyFigures;
+    return base::fields(
+        "energy figures",
+        base::member("net_j", &E::net_j,
+                     "Work of the motors on the hand since the start, less the hand's on them."),
+        base::member("net_max_j", &E::net_max_j, "The largest value that it had."),
+        base::member("work_5s_max_j", &E::work_5s_max_j, "The most net work within 5 s."),
+        base::member("power_max_w", &E::power_max_w, "The highest mean power of 5 ms."));
+}
 
 /// Observes the energy that a device gives to its hand, and takes from a force what would give too
 /// much: a passivity observer and controller in the time domain (B. Hannaford, J.-H. Ryu:

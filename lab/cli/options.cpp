@@ -533,7 +533,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     RealTimeCommand real_time;
     auto& real_time_command = program.command("real-time", "The last step of scripts/real-time.sh");
     add_real_time(real_time_command, real_time);
-    const cli::SchemaCommand schema{program, {written_schemas().begin(), written_schemas().end()}};
+    const cli::SchemaCommand schema{program, schemas()};
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (schema.is_chosen()) return net::Answer{schema.text()};
     if (list_command.is_chosen()) return net::Answer{list_of_names()};

@@ -8,10 +8,10 @@
 #include "lab/experiment/session_spec.hpp"
 #include "lab/experiment/text.hpp"
 #include "lab/live/control.hpp"
-#include "lab/metrics/json.hpp"
 #include "lab/presets.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/base/built_in.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/base/text.hpp"
 #include "proto/control/server.hpp"
 #include "proto/disk/result_file.hpp"
@@ -34,7 +34,6 @@ namespace hapnet::lab {
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::ordered_json;
 
 /// Virtual time stands still in between, while clients are served: all their frames are of one
 /// time.
@@ -90,11 +89,11 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
                            const experiment::Experiment& experiment)
 {
     while (!session.is_over()) session.play_on(1s);
-    Json json{{"task", name_of(experiment.tasks.front())},
-              {"seed", experiment.first_seed},
-              {"duration_s", base::to_seconds(experiment.duration)},
-              {"digest", fmt::format("{:016x}", session.digest())},
-              {"sessions", Json::array()}};
+    PlayReport report{.task = experiment.tasks.front(),
+                      .seed = experiment.first_seed,
+                      .duration = experiment.duration,
+                      .digest = fmt::format("{:016x}", session.digest()),
+                      .sessions = {}};
     for (const experiment::NamedAlgorithm& algorithm : experiment.algorithms) {
         const auto spec = experiment::make_session_spec(
             experiment,
@@ -103,22 +102,20 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
             experiment.path);
         const auto trace = virtual_time::play(spec.setting, nullptr, virtual_time::PlaysOn::always);
         if (!trace) return tl::unexpected{trace.error()};
-        json["sessions"].push_back(
-            {{"algorithm", algorithm.name}, {"metrics", to_json(metrics::metrics_of(*trace))}});
+        report.sessions.push_back({algorithm.name, metrics::metrics_of(*trace)});
     }
     if (command.json) {
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", base::json_of(report).dump(2));
         return 0;
     }
-    for (const Json& one : json["sessions"]) {
-        const Json& apart = one["metrics"]["discrepancy_m"];
-        net::print(fmt::format(
-            "{}, {}, seed {}: {}\n", one["algorithm"].get<std::string>(),
-            json["task"].get<std::string>(), experiment.first_seed,
-            apart.is_object()
-                ? fmt::format("copies {:.2f} mm apart in the mean, {:.2f} mm at most",
-                              apart["mean"].get<double>() * 1e3, apart["max"].get<double>() * 1e3)
-                : "no session began"));
+    for (const PlayedSession& one : report.sessions) {
+        const auto& apart = one.metrics.discrepancy_m;
+        net::print(fmt::format("{}, {}, seed {}: {}\n", one.algorithm, name_of(report.task),
+                               report.seed,
+                               apart ? fmt::format("copies {:.2f} mm apart in the mean, {:.2f} mm "
+                                                   "at most",
+                                                   apart->mean * 1e3, apart->max * 1e3)
+                                     : "no session began"));
     }
     return 0;
 }

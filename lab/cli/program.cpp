@@ -19,6 +19,7 @@
 #include "lab/scenes/explain.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/shared_object/load.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/base/visible.hpp"
 #include "proto/net/text_file.hpp"
 #include "scene/text/text.hpp"
@@ -174,7 +175,7 @@ base::Result<int> run(const ReplayCommand& command)
         for (const records::ReplayedTick& tick : replayed->ticks)
             print(csv_line(tick, zero) + '\n');
     } else {
-        print(command.json ? to_json(*replayed).dump(2) + '\n' : to_table(*replayed));
+        print(command.json ? base::json_of(*replayed).dump(2) + '\n' : to_table(*replayed));
     }
     const bool failed = replayed->differs_from && replayed->is_the_recorded_one;
     return failed ? net::exit_failed : 0;

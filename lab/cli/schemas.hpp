@@ -5,10 +5,14 @@
 #include "proto/cli/schema_command.hpp"
 
 #include <span>
+#include <vector>
 
 namespace hapnet::lab {
 
-/// The schemas in docs/formats/schemas of the documents that this program prints or writes.
+/// The schemas of all that the program prints and writes.
+[[nodiscard]] std::vector<cli::DocumentSchema> schemas();
+
+/// The part of them that is written by hand, in docs/formats/schemas.
 [[nodiscard]] std::span<const cli::DocumentSchema> written_schemas();
 
 } // namespace hapnet::lab

@@ -5,6 +5,7 @@
 #include "lab/experiment/text.hpp"
 #include "peer/control/answer.hpp"
 #include "peer/control/scene_report.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/control/core/reply.hpp"
 #include "proto/control/core/request.hpp"
 
@@ -183,6 +184,7 @@ control::Subject peer_subject(const Controlled<Played>& controlled, std::size_t 
     return peer::subject_of(
         {.show = [&session, seat] { return session.show_peer(seat); },
          .statistics = [&session, seat] { return session.peer_statistics(seat); },
+         .statistics_fields = base::field_table<PeerStatistics>(),
          .stop = controlled.stop,
          .stop_in_emergency = controlled.stop,
          .scene = [&session] { return peer::scene_json(session.scene()); },

@@ -3,7 +3,9 @@
 #include "lab/live/recording.hpp"
 
 #include "device/governor.hpp"
+#include "emulator/control/frame_report.hpp"
 #include "lab/live/pace.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/base/version.hpp"
 #include "proto/control/core/reply.hpp"
 #include "proto/control/core/request.hpp"
@@ -11,7 +13,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <spdlog/fmt/fmt.h>
 #include <utility>
 
 namespace hapnet::lab::live {
@@ -175,11 +176,10 @@ nlohmann::ordered_json Recording::statistics() const
 control::FrameSource Recording::watch()
 {
     return [this](std::string& text, std::uint64_t left_out) {
-        fmt::format_to(std::back_inserter(text),
-                       "{{\"ok\":true,\"frame\":{},\"at_ns\":{},\"elapsed_s\":{:.9f},"
-                       "\"generation\":1,{}\"paths\":[]}}",
-                       ++frames_, (begin_ + at_).time_since_epoch().count(), base::to_seconds(at_),
-                       left_out > 0 ? fmt::format("\"left_out\":{},", left_out) : "");
+        emulator::EmulatorFrame frame{
+            .number = ++frames_, .at = begin_ + at_, .elapsed = at_, .paths = {}};
+        if (left_out > 0) frame.left_out = left_out;
+        text += control::line_of(base::json_of(frame));
     };
 }
 

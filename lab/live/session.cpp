@@ -7,16 +7,12 @@
 #include "emulator/core/direction_report.hpp"
 #include "lab/experiment/session_spec.hpp"
 #include "lab/live/pace.hpp"
-#include "peer/control/statistics.hpp"
 #include "proto/base/fields_json.hpp"
-#include "proto/base/version.hpp"
+#include "proto/control/core/reply.hpp"
 #include "proto/record/rows.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
-#include <iterator>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -229,54 +225,40 @@ control::FrameSource Session::watch()
     };
 }
 
-/// How far apart the copies are in the other sessions.
 void Session::append_others(std::string& text) const
 {
     if (world_->groups() < 2 || text.empty()) return;
-    text.pop_back();
-    text += ",\"others\":[";
+    std::vector<OtherSession> others;
     for (std::size_t group = 1; group < world_->groups(); ++group) {
-        const auto a = world_->side(group * peers()).peer().position().value;
-        const auto b = world_->side(group * peers() + 1).peer().position().value;
-        fmt::format_to(std::back_inserter(text),
-                       "{}{{\"algorithm\":\"{}\",\"apart_mm\":{:.6f},\"cube_a\":[{:.9f},{:.9f},"
-                       "{:.9f}],\"cube_b\":[{:.9f},{:.9f},{:.9f}]}}",
-                       group > 1 ? "," : "", experiment_.algorithms[group].name,
-                       std::abs(a.x - b.x) * 1e3, a.x, a.y, a.z, b.x, b.y, b.z);
+        others.push_back({experiment_.algorithms[group].name,
+                          world_->side(group * peers()).peer().position(),
+                          world_->side(group * peers() + 1).peer().position()});
     }
-    text += "]}";
+    text.pop_back();
+    text += ",\"others\":" + control::line_of(base::json_of(others)) + '}';
 }
 
-/// What both replies of a peer begin with.
-nlohmann::ordered_json Session::introduce_peer(std::size_t seat) const
+PeerIntroduction Session::introduce_peer(std::size_t seat) const
 {
     const virtual_time::Setting& setting = settings_.front();
-    return {{"program", "hapnet-lab"},
-            {"version", base::version()},
-            {"peer_id", seat + 1},
-            {"task", name_of(setting.task)},
-            {"scene", setting.scene.name},
-            {"algorithm", experiment_.algorithms.front().name},
-            {"seed", setting.seed.value()},
-            {"duration_s", base::to_seconds(setting.length)},
-            {"device", "simulated Omni, in virtual time"},
-            {"force_limit_n", world_->side(seat).rig.governor().limits().force_max_n},
-            {"elapsed_s", base::to_seconds(at())}};
+    return {.peer_id = static_cast<std::int64_t>(seat + 1),
+            .task = setting.task,
+            .scene = setting.scene.name,
+            .algorithm = experiment_.algorithms.front().name,
+            .seed = setting.seed.value(),
+            .duration = setting.length,
+            .force_limit_n = world_->side(seat).rig.governor().limits().force_max_n,
+            .elapsed = at()};
 }
 
 nlohmann::ordered_json Session::peer_statistics(std::size_t seat) const
 {
     const virtual_time::VirtualPlayer& player = world_->side(seat);
-    const Json punctual{{"p50", 0.0}, {"p90", 0.0}, {"p99", 0.0}, {"p999", 0.0}, {"max", 0.0}};
-    Json statistics = introduce_peer(seat);
-    statistics["tick"] = {{"count", journals_[seat].ticks()},
-                          {"missed", 0},
-                          {"missed_share", 0.0},
-                          {"late_us", punctual}};
-    statistics["messages"] = peer::messages_json(player.peer().counters());
-    statistics["governor"] = peer::governor_json(peer::governor_figures(player.rig));
-    statistics["valid"] = true;
-    return statistics;
+    return base::json_of(PeerStatistics{
+        .introduction = introduce_peer(seat),
+        .tick = {.count = journals_[seat].ticks(), .missed = 0, .late = base::Quantiles{}},
+        .messages = player.peer().counters(),
+        .governor = peer::governor_figures(player.rig)});
 }
 
 nlohmann::ordered_json Session::show_peer(std::size_t seat) const
@@ -288,10 +270,10 @@ nlohmann::ordered_json Session::show_peer(std::size_t seat) const
     if (session) {
         const base::TimePoint start = session->start - player.clock_ahead;
         agreed = {{"number", session->number},
-                  {"role", seat % 2 == 0 ? "L" : "R"},
+                  {"role", base::name_of(seat % 2 == 0 ? peer::Role::left : peer::Role::right)},
                   {"at_s", base::to_seconds(world_->now() - start)}};
     }
-    Json shown = introduce_peer(seat);
+    Json shown = base::json_of(introduce_peer(seat));
     shown.update({{"tick_rate_hz", 1.0 / base::to_seconds(settings_.front().tick)},
                   {"boot_id", "virtual time"},
                   {"held_s", nullptr},

@@ -5,6 +5,7 @@
 #include "emulator/control/emulation.hpp"
 #include "emulator/control/frames.hpp"
 #include "lab/experiment/experiment.hpp"
+#include "lab/live/reports.hpp"
 #include "lab/virtual_time/journal.hpp"
 #include "lab/virtual_time/world.hpp"
 #include "peer/control/frame_tap.hpp"
@@ -96,7 +97,7 @@ private:
     void note(const virtual_time::VirtualPlayer& player);
     [[nodiscard]] std::string apply(const std::string& line);
     void append_others(std::string& text) const;
-    [[nodiscard]] nlohmann::ordered_json introduce_peer(std::size_t seat) const;
+    [[nodiscard]] PeerIntroduction introduce_peer(std::size_t seat) const;
 
     experiment::Experiment experiment_;
     std::vector<virtual_time::Setting> settings_; // of each algorithm

@@ -4,6 +4,7 @@
 
 #include "lab/metrics/spread.hpp"
 #include "lab/virtual_time/trace.hpp"
+#include "proto/base/describe.hpp"
 
 #include <optional>
 #include <vector>
@@ -26,6 +27,19 @@ struct BodyApart {
 
     friend bool operator==(const BodyApart&, const BodyApart&) = default;
 };
+constexpr auto fields_of(base::Tag<BodyApart>)
+{
+    using B = BodyApart;
+    return base::fields(
+        "body", base::member("discrepancy_x_m", &B::discrepancy_x_m, "|x_A - x_B|."),
+        base::member("discrepancy_m", &B::discrepancy_m, "The distance in space."),
+        base::member("turned_apart_rad", &B::turned_apart_rad,
+                     "The angle between the orientations; null: it never turned."),
+        base::member("settled_m", &B::settled_m,
+                     "The largest distance from 2 s after hands off to the end; null: it was not "
+                     "played so far."),
+        base::member("settled_rad", &B::settled_rad, "Likewise the angle."));
+}
 
 /// Of each shared body, in the order of their ids. The trace is not empty.
 [[nodiscard]] std::vector<BodyApart> bodies_apart(const virtual_time::Trace& trace);

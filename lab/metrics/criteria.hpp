@@ -68,7 +68,6 @@ struct Criteria {
 };
 
 inline constexpr base::Number ratio_format{0.0, 1.0};
-inline constexpr base::Quantity vibration_format{base::length_kind, 0.0};
 inline constexpr base::Quantity newton_format{base::force_kind, 0.0};
 inline constexpr base::Quantity turn_format{base::angle_kind, 0.0};
 inline constexpr std::string_view about_discrepancy =
@@ -76,16 +75,6 @@ inline constexpr std::string_view about_discrepancy =
 inline constexpr std::string_view about_turned_apart =
     "D of a body that turns, the mean angle between the two copies farthest apart. Without it not "
     "judged.";
-
-/// By the order of the filter, as lengths.
-constexpr auto fields_of(base::Tag<ByOrder>)
-{
-    return base::fields(
-        "by order",
-        base::field("first", &ByOrder::first, vibration_format, "with a filter of first order"),
-        base::field("second", &ByOrder::second, vibration_format, "with a filter of second order"),
-        base::field("fourth", &ByOrder::fourth, vibration_format, "with a filter of fourth order"));
-}
 
 constexpr auto fields_of(base::Tag<UsableCriteria>)
 {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +61,17 @@ struct ByOrder {
 
     friend bool operator==(const ByOrder&, const ByOrder&) = default;
 };
+
+inline constexpr base::Quantity vibration_format{base::length_kind, 0.0};
+/// In a text as lengths.
+constexpr auto fields_of(base::Tag<ByOrder>)
+{
+    return base::fields(
+        "by order",
+        base::field("first", &ByOrder::first, vibration_format, "with a filter of first order"),
+        base::field("second", &ByOrder::second, vibration_format, "with a filter of second order"),
+        base::field("fourth", &ByOrder::fourth, vibration_format, "with a filter of fourth order"));
+}
 
 /// The root mean square of what is above `cutoff` in `signal`, by Butterworth high-passes of
 /// first, second and fourth order, over the samples that `counts` marks (all when it is empty;

@@ -8,6 +8,7 @@
 #include "lab/metrics/spread.hpp"
 #include "lab/metrics/steps.hpp"
 #include "lab/virtual_time/trace.hpp"
+#include "proto/base/describe.hpp"
 
 #include <array>
 #include <cstddef>
@@ -75,6 +76,44 @@ struct Metrics {
 
     friend bool operator==(const Metrics&, const Metrics&) = default;
 };
+/// By side a list of two, null where there is no value.
+constexpr auto fields_of(base::Tag<Metrics>)
+{
+    using M = Metrics;
+    return base::fields(
+        "metrics", base::member("task", &M::task, "The task that was played."),
+        base::member("scored_s", &M::scored_s, "How long all sides were running."),
+        base::member("body_vibration_m", &M::body_vibration_m,
+                     "A: root mean square of the body's x above 20 Hz, by the order of the filter, "
+                     "for each side."),
+        base::member("stiffness_n_per_m", &M::stiffness_n_per_m,
+                     "B: stiffness by the frequency of pressing, for each side."),
+        base::member("force_discrepancy", &M::force_discrepancy,
+                     "C: mean ||F_L| - |F_R|| over the mean force."),
+        base::member("discrepancy_m", &M::discrepancy_m,
+                     "D: |x_L - x_R| of the body at equal times."),
+        base::member("turned_apart_rad", &M::turned_apart_rad,
+                     "D of a body that turns: the angle between its orientations."),
+        base::member("bodies", &M::bodies, "D of each shared body."),
+        base::member("force_vibration_n", &M::force_vibration_n,
+                     "E: root mean square of the force on the hand in x above 20 Hz."),
+        base::member("force_above_2hz_n", &M::force_above_2hz_n, "E2: the same above 2 Hz."),
+        base::member("felt_vibration_n", &M::felt_vibration_n, "E between 20 and 300 Hz."),
+        base::member("contact_lost", &M::contact_lost,
+                     "F: share of the time of commanded contact without 0.02 N of it."),
+        base::member("force_steps", &M::force_steps, "G: of the force on the hand in x."),
+        base::member("energy_taken_j", &M::energy_taken_j,
+                     "H: the most energy that the hands got out of their devices."),
+        base::member("drag_n", &M::drag_n, "I: mean force at a speed of about 0.1 m/s."),
+        base::member("path_rms_m", &M::path_rms_m,
+                     "J: root mean square of the distance from the path to follow."),
+        base::member("drops", &M::drops, "J: lifts in which a body is down by half."),
+        base::member("overshoot_m", &M::overshoot_m,
+                     "J: how far a body was beyond where the static cube stops it."),
+        base::member("response_s", &M::response_s, "K: from a tap of L to the motion of R's body."),
+        base::member("similarity", &M::similarity,
+                     "L: of what the resting hand feels to what the pressing hand does."));
+}
 
 [[nodiscard]] Metrics metrics_of(const virtual_time::Trace& trace);
 

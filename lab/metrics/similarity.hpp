@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <optional>
 #include <span>
 
@@ -14,6 +16,12 @@ struct Similarity {
 
     friend bool operator==(const Similarity&, const Similarity&) = default;
 };
+constexpr auto fields_of(base::Tag<Similarity>)
+{
+    return base::fields("similarity",
+                        base::member("share", &Similarity::share, "1: the same; may be below 0."),
+                        base::member("lag_s", &Similarity::lag_s, "The lag that was taken out."));
+}
 
 /// How alike what one hand feels is to what the other does, robust against delay, after the haptic
 /// structural similarity (HSSIM) of Sakr, Georganas and Zhao: the received force is shifted back

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <cmath>
 #include <optional>
 #include <span>
@@ -17,6 +19,19 @@ struct Spread {
 
     friend bool operator==(const Spread&, const Spread&) = default;
 };
+
+constexpr auto fields_of(base::Tag<Spread>)
+{
+    return base::fields("spread", base::member("mean", &Spread::mean),
+                        base::member("min", &Spread::min), base::member("max", &Spread::max),
+                        base::member("std", &Spread::std));
+}
+
+/// In another unit.
+[[nodiscard]] constexpr Spread operator*(double unit, const Spread& of)
+{
+    return {unit * of.mean, unit * of.min, unit * of.max, unit * of.std};
+}
 
 /// nullopt when there are no values.
 [[nodiscard]] std::optional<Spread> spread_of(std::span<const double> values);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <optional>
 #include <span>
 
@@ -16,6 +18,15 @@ struct ForceSteps {
 
     friend bool operator==(const ForceSteps&, const ForceSteps&) = default;
 };
+constexpr auto fields_of(base::Tag<ForceSteps>)
+{
+    return base::fields(
+        "force steps",
+        base::member("largest_n", &ForceSteps::largest_n, "The largest change in a millisecond."),
+        base::member("reversals", &ForceSteps::reversals,
+                     "How often a change of more than 0.5 N/ms is followed by one "
+                     "of the other sign."));
+}
 
 /// nullopt when there are less than two samples.
 [[nodiscard]] std::optional<ForceSteps> force_steps_of(std::span<const double> force,

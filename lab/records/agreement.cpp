@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace hapnet::lab::records {
@@ -181,6 +182,15 @@ Agreement agreement_of(const Session& session)
             worse(agreement.settled_turned_apart, one.settled_turned_apart);
     }
     return agreement;
+}
+
+base::Entries<BodyAgreement> numbered(const std::vector<BodyAgreement>& bodies)
+{
+    base::Entries<BodyAgreement> entries;
+    for (const BodyAgreement& one : bodies) {
+        if (one.body.number) entries.emplace_back(std::to_string(*one.body.number), one);
+    }
+    return entries;
 }
 
 } // namespace hapnet::lab::records

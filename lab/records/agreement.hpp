@@ -4,9 +4,12 @@
 
 #include "lab/metrics/spread.hpp"
 #include "lab/records/session.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
+#include "proto/base/value_kind.hpp"
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -18,6 +21,12 @@ struct ForceDiscrepancy {
     double max = 0.0;
 };
 
+constexpr auto fields_of(base::Tag<ForceDiscrepancy>)
+{
+    return base::fields("force discrepancy", base::member("mean", &ForceDiscrepancy::mean),
+                        base::member("max", &ForceDiscrepancy::max));
+}
+
 /// Shares of time, 0 to 1. A task was played only while a hand touched.
 struct TouchShares {
     double a = 0.0;
@@ -25,6 +34,24 @@ struct TouchShares {
     double either = 0.0;
     double both = 0.0;
 };
+
+constexpr auto fields_of(base::Tag<TouchShares>)
+{
+    return base::fields("touching", base::member("a", &TouchShares::a, "Only or also A."),
+                        base::member("b", &TouchShares::b, "Only or also B."),
+                        base::member("either", &TouchShares::either, "One of the two or both."),
+                        base::member("both", &TouchShares::both, "Both at a time."));
+}
+
+inline constexpr double mm_per_m = 1e3;
+inline constexpr double deg_per_rad = 180.0 / std::numbers::pi;
+
+/// In another unit.
+template <typename Figure>
+[[nodiscard]] std::optional<Figure> scaled(const std::optional<Figure>& figure, double unit)
+{
+    return figure ? std::optional<Figure>{unit * *figure} : std::nullopt;
+}
 
 /// How far the copies of one body are apart at equal times. Metres and radians.
 struct BodyAgreement {
@@ -46,6 +73,42 @@ struct BodyAgreement {
     /// hands move it, each side says its own.
     std::optional<double> same_owner{};
 };
+
+constexpr auto fields_of(base::Tag<BodyAgreement>)
+{
+    using B = BodyAgreement;
+    return base::fields(
+        "body agreement",
+        base::computed<B>(
+            "name",
+            [](const B& one) {
+                return one.body.name.empty() ? std::nullopt : std::optional{one.body.name};
+            },
+            "Its name in the scene; null: it has none."),
+        base::computed<B>(
+            "discrepancy_mm", [](const B& one) { return scaled(one.discrepancy, mm_per_m); },
+            "The distance of its two copies in all axes; null: never both running."),
+        base::computed<B>(
+            "discrepancy_x_mm", [](const B& one) { return scaled(one.discrepancy_x, mm_per_m); },
+            "Likewise in x."),
+        base::computed<B>(
+            "turned_apart_deg", [](const B& one) { return scaled(one.turned_apart, deg_per_rad); },
+            "The angle between their orientations; null, too, where it cannot turn."),
+        base::computed<B>(
+            "settled_discrepancy_mm",
+            [](const B& one) { return scaled(one.settled_discrepancy, mm_per_m); },
+            "As that of the session, of this body."),
+        base::computed<B>(
+            "settled_turned_apart_deg",
+            [](const B& one) { return scaled(one.settled_turned_apart, deg_per_rad); },
+            "As that of the session, of this body."),
+        base::member("handovers", &B::handovers,
+                     "How often its [`owner`](record.md#4-body) changed while both are running, by "
+                     "the record that has more such changes; null: the records do not say."),
+        base::member("same_owner", &B::same_owner,
+                     "Share of the time with both running in which both records name the same "
+                     "owner; while both hands move a body each names itself."));
+}
 
 /// How well both copies of the scene agree at equal times, namely at each tick of A; B's state
 /// then is interpolated linearly between its ticks.
@@ -70,6 +133,44 @@ struct Agreement {
     /// The share of the session, 0 to 1, in which both have ticks and are running or hands off.
     double overlap = 0.0;
 };
+
+/// The bodies by their numbers in the scene; records that do not say these have none.
+[[nodiscard]] base::Entries<BodyAgreement> numbered(const std::vector<BodyAgreement>& bodies);
+
+constexpr auto fields_of(base::Tag<Agreement>)
+{
+    using A = Agreement;
+    return base::fields(
+        "agreement",
+        base::computed<A>(
+            "discrepancy_x_mm", [](const A& one) { return scaled(one.discrepancy_x, mm_per_m); },
+            "|x_A - x_B| of the body while both are in phase `running`; of several bodies the one "
+            "farthest apart on average; of several peers the two. null: never both running."),
+        base::member("force_discrepancy_n", &A::force_discrepancy,
+                     "||F_A| - |F_B|| of the forces that the devices were told, after their "
+                     "governors, while both are running and touch; null: they never do."),
+        base::member("contact_force_discrepancy_n", &A::contact_force_discrepancy,
+                     "Likewise of the contact forces, before the governors."),
+        base::computed<A>(
+            "settled_discrepancy_mm",
+            [](const A& one) { return scaled(one.settled_discrepancy, mm_per_m); },
+            "Largest distance of the two copies, in all axes, from 2 s after the hands were taken "
+            "off to the end; of several bodies or pairs the largest. null: the session has 4 s or "
+            "less, or was cut off."),
+        base::computed<A>(
+            "settled_turned_apart_deg",
+            [](const A& one) { return scaled(one.settled_turned_apart, deg_per_rad); },
+            "Likewise the angle between the orientations; null, too, where no body can turn."),
+        base::member("touching", &A::touching,
+                     "Share of the time with both running in which these hands touch the body."),
+        base::computed<A>(
+            "bodies", [](const A& one) { return numbered(one.bodies); },
+            "Each shared body, by its number in the scene from 0; of several pairs each quantity "
+            "of the worst."),
+        base::member("scored_s", &A::scored, "Time with both running."),
+        base::member("overlap", &A::overlap,
+                     "Share of the session's length in which both are running or hands off."));
+}
 
 [[nodiscard]] Agreement agreement_of(const Session& session);
 

@@ -6,6 +6,7 @@
 #include "lab/records/loop.hpp"
 #include "lab/records/path.hpp"
 #include "lab/records/session.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/result.hpp"
 #include "proto/record/reader.hpp"
 
@@ -32,6 +33,24 @@ struct Analysis {
 
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
 };
+
+constexpr auto fields_of(base::Tag<Analysis>)
+{
+    using A = Analysis;
+    return base::fields("analysis", base::part(&A::agreement),
+                        base::member("a_to_b", &A::a_to_b, "The path of the messages from A to B."),
+                        base::member("b_to_a", &A::b_to_a, "That from B to A."),
+                        base::computed<A>(
+                            "a", [](const A& one) { return LoopReport{one.a}; }, "The loop of A."),
+                        base::computed<A>(
+                            "b", [](const A& one) { return LoopReport{one.b}; }, "The loop of B."),
+                        base::member("clock", &A::clock, "How both clocks were compared."),
+                        base::computed<A>(
+                            "valid", [](const A& one) { return one.valid(); },
+                            "Whether the run is [valid](#what-valid-means)."),
+                        base::member("invalid_because", &A::invalid_because,
+                                     "The reasons as a list of texts; empty when valid."));
+}
 
 /// Refuses records that cannot be compared; a run that went badly is analysed and not valid.
 [[nodiscard]] base::Result<Analysis> analyse(const record::Record& a, const record::Record& b);

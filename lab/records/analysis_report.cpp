@@ -3,9 +3,8 @@
 #include "lab/records/analysis_report.hpp"
 
 #include "lab/records/bodies.hpp"
+#include "proto/base/fields_json.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
@@ -15,94 +14,14 @@ namespace hapnet::lab::records {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr double mm = 1e3;                           // metres into millimetres
-constexpr double degrees = 180.0 / std::numbers::pi; // radians into degrees
-
 double ms(base::Duration duration) { return 1e-6 * static_cast<double>(duration.count()); }
 double us(base::Duration duration) { return 1e-3 * static_cast<double>(duration.count()); }
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
-
-Json json_of(const std::optional<metrics::Spread>& spread, double unit = mm)
-{
-    if (!spread) return nullptr;
-    return {{"mean", number(unit * spread->mean)},
-            {"min", number(unit * spread->min)},
-            {"max", number(unit * spread->max)},
-            {"std", number(unit * spread->std)}};
-}
-
-Json json_of(const std::optional<ForceDiscrepancy>& force)
-{
-    if (!force) return nullptr;
-    return {{"mean", number(force->mean)}, {"max", number(force->max)}};
-}
-
-Json json_of(const std::optional<base::Quantiles>& quantiles, double (*unit)(base::Duration))
-{
-    if (!quantiles) return nullptr;
-    return {{"p50", unit(quantiles->p50)},
-            {"p99", unit(quantiles->p99)},
-            {"max", unit(quantiles->max)}};
-}
-
-Json json_of(const Path& path)
-{
-    return {{"sent", path.arrived.sent},
-            {"received", path.arrived.received},
-            {"duplicates", path.arrived.duplicates},
-            {"reordered", path.arrived.reordered},
-            {"loss", number(path.loss)},
-            {"packets_per_s", number(path.packets_per_s)},
-            {"delay_ms", json_of(path.delay, ms)},
-            {"jitter_ms", json_of(path.jitter, ms)}};
-}
-
-Json json_of(const Loop& loop)
-{
-    return {{"tick",
-             {{"rate_hz", number(loop.rate_hz)},
-              {"missed", loop.missed},
-              {"late_us", json_of(loop.late, us)}}}};
-}
-
-constexpr std::string_view name_of(ClockMethod method)
-{
-    return method == ClockMethod::same_boot ? "same-boot" : "echo";
-}
 
 template <typename T>
 std::optional<double> part(const std::optional<T>& whole, auto member, double unit)
 {
     if (!whole) return std::nullopt;
     return unit * ((*whole).*member);
-}
-
-std::optional<double> scaled(std::optional<double> value, double unit)
-{
-    return value ? std::optional{unit * *value} : std::nullopt;
-}
-
-/// By their numbers in the scene; records that do not say these have none.
-Json json_of(const std::vector<BodyAgreement>& bodies)
-{
-    Json out = Json::object();
-    for (const BodyAgreement& one : bodies) {
-        if (!one.body.number) continue;
-        out[std::to_string(*one.body.number)] = {
-            {"name", one.body.name.empty() ? Json(nullptr) : Json(one.body.name)},
-            {"discrepancy_mm", json_of(one.discrepancy)},
-            {"discrepancy_x_mm", json_of(one.discrepancy_x)},
-            {"turned_apart_deg", json_of(one.turned_apart, degrees)},
-            {"settled_discrepancy_mm", number(scaled(one.settled_discrepancy, mm))},
-            {"settled_turned_apart_deg", number(scaled(one.settled_turned_apart, degrees))},
-            {"handovers", one.handovers ? Json(*one.handovers) : Json(nullptr)},
-            {"same_owner", number(one.same_owner)}};
-    }
-    return out;
 }
 
 /// Whether there is more to say of bodies than the distances in x.
@@ -124,12 +43,12 @@ TextTable bodies_table(const std::vector<BodyAgreement>& bodies)
         const auto& apart = one.discrepancy;
         const auto& turned = one.turned_apart;
         table.rows.push_back({name_of(one.body),
-                              {number_text(part(apart, &metrics::Spread::mean, mm), 3),
-                               number_text(part(apart, &metrics::Spread::max, mm), 3),
-                               number_text(part(turned, &metrics::Spread::mean, degrees), 3),
-                               number_text(part(turned, &metrics::Spread::max, degrees), 3),
-                               number_text(scaled(one.settled_discrepancy, mm), 4),
-                               number_text(scaled(one.settled_turned_apart, degrees), 4),
+                              {number_text(part(apart, &metrics::Spread::mean, mm_per_m), 3),
+                               number_text(part(apart, &metrics::Spread::max, mm_per_m), 3),
+                               number_text(part(turned, &metrics::Spread::mean, deg_per_rad), 3),
+                               number_text(part(turned, &metrics::Spread::max, deg_per_rad), 3),
+                               number_text(scaled(one.settled_discrepancy, mm_per_m), 4),
+                               number_text(scaled(one.settled_turned_apart, deg_per_rad), 4),
                                one.handovers ? std::to_string(*one.handovers) : "-"}});
     }
     return table;
@@ -139,7 +58,7 @@ TextTable distances_table(const Agreement& agreement)
 {
     const auto& x = agreement.discrepancy_x;
     const auto of_x = [&](double metrics::Spread::*member) {
-        return number_text(part(x, member, mm), 3);
+        return number_text(part(x, member, mm_per_m), 3);
     };
     const auto of_force = [](const std::optional<ForceDiscrepancy>& force,
                              double ForceDiscrepancy::*member) {
@@ -163,7 +82,7 @@ TextTable distances_table(const Agreement& agreement)
                of_force(contact, &ForceDiscrepancy::max), ""}},
              {agreement.settled_discrepancy ? "settled at the end, mm"
                                             : "settled at the end, mm (sessions above 4 s)",
-              {"", "", number_text(scaled(agreement.settled_discrepancy, mm), 4), ""}}}};
+              {"", "", number_text(scaled(agreement.settled_discrepancy, mm_per_m), 4), ""}}}};
 }
 
 TextTable touching_table(const Agreement& agreement)
@@ -245,12 +164,12 @@ TextTable pairs_table(const std::vector<PairAnalysis>& pairs)
     for (const PairAnalysis& pair : pairs) {
         const Agreement& agreement = pair.analysis.agreement;
         const auto x = [&](double metrics::Spread::*member) {
-            return number_text(part(agreement.discrepancy_x, member, mm), 3);
+            return number_text(part(agreement.discrepancy_x, member, mm_per_m), 3);
         };
         table.rows.push_back(
             {fmt::format("|x_{} - x_{}|", pair.id_a, pair.id_b),
              {x(&metrics::Spread::mean), x(&metrics::Spread::max), x(&metrics::Spread::std),
-              number_text(scaled(agreement.settled_discrepancy, mm), 4),
+              number_text(scaled(agreement.settled_discrepancy, mm_per_m), 4),
               number_text(1e2 * agreement.overlap, 2)}});
     }
     return table;
@@ -291,33 +210,7 @@ std::string verdict_text(const std::vector<std::string>& invalid_because)
 
 } // namespace
 
-Json to_json(const Analysis& analysis)
-{
-    const Agreement& agreement = analysis.agreement;
-    return {{"discrepancy_x_mm", json_of(agreement.discrepancy_x)},
-            {"force_discrepancy_n", json_of(agreement.force_discrepancy)},
-            {"contact_force_discrepancy_n", json_of(agreement.contact_force_discrepancy)},
-            {"settled_discrepancy_mm", number(scaled(agreement.settled_discrepancy, mm))},
-            {"settled_turned_apart_deg", number(scaled(agreement.settled_turned_apart, degrees))},
-            {"touching",
-             {{"a", agreement.touching.a},
-              {"b", agreement.touching.b},
-              {"either", agreement.touching.either},
-              {"both", agreement.touching.both}}},
-            {"bodies", json_of(agreement.bodies)},
-            {"scored_s", base::to_seconds(agreement.scored)},
-            {"overlap", agreement.overlap},
-            {"a_to_b", json_of(analysis.a_to_b)},
-            {"b_to_a", json_of(analysis.b_to_a)},
-            {"a", json_of(analysis.a)},
-            {"b", json_of(analysis.b)},
-            {"clock",
-             {{"method", name_of(analysis.clock.method)},
-              {"offset_ms", ms(analysis.clock.offset)},
-              {"uncertainty_ms", ms(analysis.clock.uncertainty)}}},
-            {"valid", analysis.valid()},
-            {"invalid_because", analysis.invalid_because}};
-}
+nlohmann::ordered_json to_json(const Analysis& analysis) { return base::json_of(analysis); }
 
 std::vector<TextTable> tables_of(const Analysis& analysis)
 {
@@ -345,28 +238,31 @@ std::string to_table(const Analysis& analysis)
     return text + verdict_text(analysis.invalid_because);
 }
 
-Json to_json(const CircleAnalysis& circle)
+nlohmann::ordered_json to_json(const CircleAnalysis& circle)
 {
-    if (circle.pairs.empty()) return Json::object();
-    Json out = to_json(circle.pairs.front().analysis);
+    if (circle.pairs.empty()) return nlohmann::ordered_json::object();
     const PairAnalysis* worst = circle.worst();
-    out["discrepancy_x_mm"] =
-        worst == nullptr ? Json(nullptr) : json_of(worst->analysis.agreement.discrepancy_x);
-    out["settled_discrepancy_mm"] = number(scaled(circle.settled_discrepancy(), mm));
-    out["settled_turned_apart_deg"] = number(scaled(circle.settled_turned_apart(), degrees));
-    out["bodies"] = json_of(circle.bodies());
-    out["valid"] = circle.valid();
-    out["invalid_because"] = circle.invalid_because;
-    out["worst_pair"] = worst == nullptr ? Json(nullptr) : Json(worst->name());
-    out["pairs"] = Json::object();
-    for (const PairAnalysis& pair : circle.pairs) {
-        Json of_pair = to_json(pair.analysis);
-        for (const char* loop : {"a", "b"}) of_pair.erase(loop); // in `peers`
-        out["pairs"][pair.name()] = std::move(of_pair);
+    AnalysisReport report{.all = circle.pairs.front().analysis};
+    Agreement& agreement = report.all.agreement;
+    agreement.discrepancy_x.reset();
+    report.worst_pair.emplace();
+    if (worst != nullptr) {
+        agreement.discrepancy_x = worst->analysis.agreement.discrepancy_x;
+        *report.worst_pair = worst->name();
     }
-    out["peers"] = Json::object();
-    for (const auto& [id, loop] : circle.loops) out["peers"][std::to_string(id)] = json_of(loop);
-    return out;
+    agreement.settled_discrepancy = circle.settled_discrepancy();
+    agreement.settled_turned_apart = circle.settled_turned_apart();
+    agreement.bodies = circle.bodies();
+    report.all.invalid_because = circle.invalid_because;
+    auto& pairs = report.pairs.emplace();
+    for (const PairAnalysis& pair : circle.pairs) {
+        pairs.emplace_back(pair.name(), PairReport{&pair.analysis});
+    }
+    auto& peers = report.peers.emplace();
+    for (const auto& [id, loop] : circle.loops) {
+        peers.emplace_back(std::to_string(id), LoopReport{loop});
+    }
+    return base::json_of(report);
 }
 
 std::vector<TextTable> tables_of(const CircleAnalysis& circle)

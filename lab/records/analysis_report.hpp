@@ -4,12 +4,68 @@
 
 #include "lab/records/analysis.hpp"
 #include "lab/records/text_table.hpp"
+#include "proto/base/describe.hpp"
+#include "proto/base/value_kind.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hapnet::lab::records {
+
+/// Two of several peers. Their loops are told once for all.
+struct PairReport {
+    const Analysis* of = nullptr;
+};
+constexpr auto fields_of(base::Tag<PairReport>)
+{
+    using P = PairReport;
+    return base::fields(
+        "pair", base::computed_part<P>([](const P& pair) -> const Agreement& {
+            return pair.of->agreement;
+        }),
+        base::computed<P>(
+            "a_to_b", [](const P& pair) -> const auto& { return pair.of->a_to_b; },
+            "The path from the lower id. `sent` is known to the sender's record for the first of "
+            "its others; for the rest it is the highest number that came."),
+        base::computed<P>(
+            "b_to_a", [](const P& pair) -> const auto& { return pair.of->b_to_a; },
+            "The path to the lower id, likewise."),
+        base::computed<P>(
+            "clock", [](const P& pair) -> const auto& { return pair.of->clock; },
+            "How both clocks were compared."),
+        base::computed<P>(
+            "valid", [](const P& pair) { return pair.of->valid(); },
+            "Whether the run of these two is [valid](#what-valid-means)."),
+        base::computed<P>(
+            "invalid_because",
+            [](const P& pair) -> const auto& { return pair.of->invalid_because; },
+            "The reasons as a list of texts; empty when valid."));
+}
+
+/// What `analyse --json` prints: docs/formats/statistics.md.
+struct AnalysisReport {
+    Analysis all; // of more than two the first two by their ids, with the worst of all pairs
+    std::optional<std::optional<std::string>> worst_pair{}; // the inner: none was ever compared
+    std::optional<base::Entries<PairReport>> pairs{};
+    std::optional<base::Entries<LoopReport>> peers{};
+};
+constexpr auto fields_of(base::Tag<AnalysisReport>)
+{
+    using R = AnalysisReport;
+    return base::fields(
+        "analysis report", base::part(&R::all),
+        base::member("worst_pair", &R::worst_pair,
+                     "Of three to eight records: the two whose copies were farthest apart on "
+                     "average, such as `\"1-3\"`.")
+            .left_out_if_none(),
+        base::member("pairs", &R::pairs,
+                     "Likewise every two, by their ids: all keys above but `a` and `b`.")
+            .left_out_if_none(),
+        base::member("peers", &R::peers, "Likewise the loop of each, as `a` and `b`, by its id.")
+            .left_out_if_none());
+}
 
 /// An analysis for programs: units in the names, null where there is nothing to say.
 [[nodiscard]] nlohmann::ordered_json to_json(const Analysis& analysis);

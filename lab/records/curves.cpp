@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/curves.hpp"
 
+#include "lab/records/agreement.hpp"
 #include "lab/records/bodies.hpp"
 #include "lab/records/moments.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace hapnet::lab::records {
 
 namespace {
-
-constexpr double mm_per_m = 1e3;
-constexpr double degrees_per_rad = 180.0 / std::numbers::pi;
 
 bool takes_part(const record::TickRow& row)
 {
@@ -64,7 +61,7 @@ SessionCurves curves_of(const Session& session)
         for_each_apart(session, body, moments, [&](double time_s, const Apart& apart) {
             of_body.apart_mm.push_back({time_s, mm_per_m * norm(apart.distance)});
             if (!body.can_turn) return;
-            of_body.turned_apart_deg.push_back({time_s, degrees_per_rad * apart.angle_rad});
+            of_body.turned_apart_deg.push_back({time_s, deg_per_rad * apart.angle_rad});
         });
     }
     return curves;

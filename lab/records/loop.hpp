@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/records/session.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/figures/quantiles.hpp"
 
 #include <cstdint>
@@ -25,6 +26,26 @@ struct Loop {
         return due > 0 ? static_cast<double>(missed) / due : 0.0;
     }
 };
+
+constexpr auto fields_of(base::Tag<Loop>)
+{
+    return base::fields(
+        "ticks", base::member("rate_hz", &Loop::rate_hz, "Ticks per second."),
+        base::member("missed", &Loop::missed, "Ticks skipped."),
+        base::computed<Loop>(
+            "late_us",
+            [](const Loop& loop) -> std::optional<base::MainQuantiles> { return loop.late; },
+            "The lateness of waking; null without ticks."));
+}
+
+/// A peer's loop, as an analysis tells it.
+struct LoopReport {
+    Loop tick;
+};
+constexpr auto fields_of(base::Tag<LoopReport>)
+{
+    return base::fields("loop", base::member("tick", &LoopReport::tick, "Of this session alone."));
+}
 
 [[nodiscard]] Loop loop_of(const Side& side);
 

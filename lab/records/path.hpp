@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/records/session.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/figures/arrivals.hpp"
 #include "proto/base/figures/quantiles.hpp"
 
@@ -26,6 +27,24 @@ struct Path {
     /// The rate at which the sender sent.
     std::optional<double> packets_per_s;
 };
+
+constexpr auto fields_of(base::Tag<Path>)
+{
+    using Times = std::optional<base::MainQuantiles>;
+    return base::fields(
+        "path", base::part(&Path::arrived),
+        base::member("loss", &Path::loss,
+                     "Share that is missing up to the highest sequence received; null when nothing "
+                     "was."),
+        base::member("packets_per_s", &Path::packets_per_s,
+                     "Rate at which the sender sent; null with fewer than two."),
+        base::computed<Path>(
+            "delay_ms", [](const Path& path) -> Times { return path.delay; },
+            "From the sender's stamp to the kernel's receive stamp."),
+        base::computed<Path>(
+            "jitter_ms", [](const Path& path) -> Times { return path.jitter; },
+            "|IPDV| in the order of arrival (RFC 3393)."));
+}
 
 [[nodiscard]] Path path_a_to_b(const Session& session);
 [[nodiscard]] Path path_b_to_a(const Session& session);

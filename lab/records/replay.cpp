@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
 #include <utility>
@@ -180,11 +179,6 @@ std::optional<std::string> gap_in(const record::Record& record)
     return std::nullopt;
 }
 
-nlohmann::json finite(double value)
-{
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json{};
-}
-
 } // namespace
 
 base::Result<Replayed> replay(const record::Record& record,
@@ -246,31 +240,6 @@ base::Result<Replayed> replay(const record::Record& record,
     return replayed;
 }
 
-nlohmann::json to_json(const Replayed& replayed)
-{
-    nlohmann::json out{{"ticks", replayed.ticks.size()},
-                       {"messages", replayed.messages},
-                       {"algorithm", replayed.algorithm},
-                       {"algorithm_is_the_recorded_one", replayed.is_the_recorded_one},
-                       {"contact_difference_max_n", finite(replayed.contact_difference_max_n)},
-                       {"device_difference_max_n", finite(replayed.device_difference_max_n)},
-                       {"tolerance_n", tolerance_n},
-                       {"body_difference_max_mm", nullptr},
-                       {"turn_difference_max_deg", nullptr},
-                       {"other_owner_ticks", nullptr},
-                       {"differs_from_tick", nullptr},
-                       {"complete", replayed.is_complete},
-                       {"reproduced", !replayed.differs_from}};
-    if (replayed.body_difference_max_m) {
-        out["body_difference_max_mm"] = finite(1e3 * *replayed.body_difference_max_m);
-        out["turn_difference_max_deg"] =
-            finite(180.0 / std::numbers::pi * *replayed.turn_difference_max_rad);
-    }
-    if (replayed.other_owner_ticks) out["other_owner_ticks"] = *replayed.other_owner_ticks;
-    if (replayed.differs_from) out["differs_from_tick"] = *replayed.differs_from;
-    return out;
-}
-
 std::string to_table(const Replayed& replayed)
 {
     std::string text =
@@ -280,8 +249,8 @@ std::string to_table(const Replayed& replayed)
                     replayed.contact_difference_max_n, replayed.device_difference_max_n);
     if (replayed.body_difference_max_m) {
         text += fmt::format("bodies      {:.3g} mm and {:.3g} deg apart at most\n",
-                            1e3 * *replayed.body_difference_max_m,
-                            180.0 / std::numbers::pi * *replayed.turn_difference_max_rad);
+                            mm_per_m * *replayed.body_difference_max_m,
+                            deg_per_rad * *replayed.turn_difference_max_rad);
     }
     if (replayed.other_owner_ticks) {
         text += fmt::format("owners      other ones than recorded in {} ticks\n",

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/records/agreement.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 #include "proto/record/reader.hpp"
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,44 @@ inline constexpr double tolerance_n = 1e-9;
 inline constexpr double tolerance_m = 1e-9;
 inline constexpr double tolerance_rad = 1e-9;
 
+constexpr auto fields_of(base::Tag<Replayed>)
+{
+    using R = Replayed;
+    return base::fields(
+        "replay",
+        base::computed<R>(
+            "ticks", [](const R& one) { return one.ticks.size(); }, "Ticks that were played."),
+        base::member("messages", &R::messages, "Messages that they took."),
+        base::member("algorithm", &R::algorithm, "The algorithm that played."),
+        base::member("algorithm_is_the_recorded_one", &R::is_the_recorded_one,
+                     "Whether it is that of the record."),
+        base::member("contact_difference_max_n", &R::contact_difference_max_n,
+                     "The largest difference from the recorded forces of the scene."),
+        base::member("device_difference_max_n", &R::device_difference_max_n,
+                     "That from the forces that the device was told."),
+        base::computed<R>(
+            "tolerance_n", [](const R&) { return tolerance_n; },
+            "The difference that counts as none."),
+        base::computed<R>(
+            "body_difference_max_mm",
+            [](const R& one) { return scaled(one.body_difference_max_m, mm_per_m); },
+            "From the recorded places of bodies; null: the record has no rows of bodies."),
+        base::computed<R>(
+            "turn_difference_max_deg",
+            [](const R& one) { return scaled(one.turn_difference_max_rad, deg_per_rad); },
+            "From their orientations, likewise."),
+        base::member("other_owner_ticks", &R::other_owner_ticks,
+                     "Ticks in which a body has another owner than recorded; null: the record does "
+                     "not say any."),
+        base::member("differs_from_tick", &R::differs_from,
+                     "The first tick that differs by more than 1e-9 N, m or rad; null: none does."),
+        base::member("complete", &R::is_complete,
+                     "Whether the record does not stop before its session's end."),
+        base::computed<R>(
+            "reproduced", [](const R& one) { return !one.differs_from; },
+            "Whether no tick differs."));
+}
+
 /// Plays one peer again on the cores that the daemon runs: the recorded messages arrive in the
 /// ticks that took them, and the recorded hand moves as it did, whatever force it is given. With
 /// another algorithm than the recorded one: what that would have made of the same messages; the
@@ -59,9 +98,7 @@ inline constexpr double tolerance_rad = 1e-9;
 [[nodiscard]] base::Result<Replayed> replay(const record::Record& record,
                                             const std::optional<peer::Algorithm>& instead);
 
-/// One object: ticks, messages, algorithm, differences, whether the forces are reproduced.
-[[nodiscard]] nlohmann::json to_json(const Replayed& replayed);
-/// The same in a few lines, for a person.
+/// It in a few lines, for a person.
 [[nodiscard]] std::string to_table(const Replayed& replayed);
 
 [[nodiscard]] std::string replay_csv_header();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 #include "proto/record/reader.hpp"
@@ -18,6 +19,8 @@ enum class ClockMethod : std::uint8_t {
     same_boot, ///< one machine, one clock: nothing to convert
     echo,      ///< two clocks, compared by the echoes in the messages
 };
+
+constexpr auto names_of(base::Tag<ClockMethod>) { return base::names("same-boot", "echo"); }
 
 /// How B's clock stands to A's.
 struct Clock {
@@ -45,6 +48,17 @@ struct Clock {
         return std::chrono::duration_cast<base::Duration>(share * (at - when));
     }
 };
+
+constexpr auto fields_of(base::Tag<Clock>)
+{
+    return base::fields(
+        "clock",
+        base::member("method", &Clock::method,
+                     "`same-boot`: one machine, one clock. `echo`: two clocks, "
+                     "compared by the echoes."),
+        base::member("offset_ms", &Clock::offset, "B's clock minus A's."),
+        base::member("uncertainty_ms", &Clock::uncertainty, "The bound of its error."));
+}
 
 /// One peer's part of a session. Refers into its record.
 struct Side {

@@ -2,20 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "lab/scenes/explain.hpp"
 
+#include "proto/base/fields_json.hpp"
 #include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"
 #include "scene/world.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::scenes {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::optional<MassRange> masses_of(const scene::Description& description)
 {
@@ -36,29 +34,12 @@ std::vector<CheaperTick> cheaper_than(scene::StepperKind chosen, const scene::Re
         CheaperTick tick{static_cast<scene::StepperKind>(i), {}};
         const scene::FeatureSet can = scene::abilities_of(tick.profile);
         for (const scene::Requirement& need : needs) {
-            if (need.is_required && !can.has(need.feature)) tick.lacks.push_back(need.feature);
+            if (need.is_required && !can.has(need.feature))
+                tick.lacks.push_back(name_of(need.feature));
         }
         cheaper.push_back(std::move(tick));
     }
     return cheaper;
-}
-
-std::vector<std::string_view> names_of(const std::vector<scene::Feature>& features)
-{
-    std::vector<std::string_view> names;
-    for (const scene::Feature feature : features) names.push_back(scene::name_of(feature));
-    return names;
-}
-
-Json json_of(const scene::Requirements& needs)
-{
-    Json list = Json::array();
-    for (const scene::Requirement& need : needs) {
-        list.push_back({{"feature", scene::name_of(need.feature)},
-                        {"needed", need.is_required},
-                        {"because", need.because}});
-    }
-    return list;
 }
 
 std::string bodies_text(const Explanation& of)
@@ -90,27 +71,14 @@ std::string hips_text(const scene::HandDescription& hips)
                                   : std::string{"not limited"});
 }
 
-Json json_of(const scene::TickCost& cost)
-{
-    return {{"pairs", cost.pairs},   {"contacts", cost.contacts},
-            {"visits", cost.visits}, {"spring_rows", cost.spring_rows},
-            {"events", cost.events}, {"looks", cost.looks}};
-}
-
 /// What is not there at all is left out.
-std::string bound_text(const scene::TickCost& bound)
+std::string bound_text(const TickBound& bound)
 {
-    const std::array<std::pair<std::uint64_t, std::string_view>, 6> kinds{
-        {{bound.pairs, "pairs examined"},
-         {bound.contacts, "contacts prepared"},
-         {bound.visits, "visits of the solver to a contact"},
-         {bound.spring_rows, "rows of hands' springs solved"},
-         {bound.events, "events"},
-         {bound.looks, "looks at bodies that go far"}}};
     std::vector<std::string> parts;
-    for (const auto& [count, name] : kinds) {
-        if (count > 0) parts.push_back(fmt::format("{} {}", count, name));
-    }
+    const auto add = [&](const auto& field, std::uint64_t count) {
+        if (count > 0) parts.push_back(fmt::format("{} {}", count, *field.telling.words));
+    };
+    base::for_each_field(add, bound);
     if (parts.empty()) return "\nA tick moves each body once; nothing else can happen.\n";
     return fmt::format("\nA tick takes at most:\n  {}\n", fmt::join(parts, "\n  "));
 }
@@ -139,51 +107,24 @@ Explanation explain(const scene::Description& description, base::Duration tick, 
     explanation.profile = scene::cheapest_stepper(scene::required_features(explanation.needs));
     if (const auto world =
             scene::World::freeze(description, {.tick = tick, .sleeping = sleeping})) {
-        explanation.bound = world->tick_cost_bound();
+        explanation.bound = {world->tick_cost_bound()};
     }
     explanation.cheaper = cheaper_than(explanation.profile, explanation.needs);
     return explanation;
 }
 
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
 nlohmann::ordered_json to_json(const Explanation& explanation)
 {
-    const scene::HandDescription& hips = explanation.hands;
-    Json mass = nullptr;
-    if (explanation.mass) {
-        mass = {{"min", explanation.mass->least_kg}, {"max", explanation.mass->most_kg}};
-    }
-    Json cheaper = Json::array();
-    for (const CheaperTick& tick : explanation.cheaper) {
-        cheaper.push_back(
-            {{"profile", scene::name_of(tick.profile)}, {"lacks", names_of(tick.lacks)}});
-    }
-    const bool is_limited = std::isfinite(hips.force_max_n);
-    return {
-        {"scene", explanation.name},
-        {"hash", fmt::format("{:016x}", explanation.hash)},
-        {"movable", explanation.movable},
-        {"fixed", explanation.fixed},
-        {"planes", explanation.planes},
-        {"mass_kg", mass},
-        {"hips",
-         {{"count", hips.count},
-          {"radius_m", hips.radius_m},
-          {"stiffness_n_per_m", hips.stiffness_n_per_m},
-          {"damping_ns_per_m", hips.damping_ns_per_m},
-          {"force_max_n", is_limited ? Json(hips.force_max_n) : Json(nullptr)}}},
-        {"tick_s", base::to_seconds(explanation.tick)},
-        {"hand_k_dt2_over_m", explanation.hand_factor ? Json(*explanation.hand_factor) : nullptr},
-        {"features", json_of(explanation.needs)},
-        {"profile", scene::name_of(explanation.profile)},
-        {"cheaper", cheaper},
-        {"tick_bound", json_of(explanation.bound)}};
+    return base::json_of(explanation);
 }
 
 std::string to_table(const Explanation& explanation)
 {
-    std::string text = fmt::format("scene   {}, hash {:016x}\n",
+    std::string text = fmt::format("scene   {}, hash {}\n",
                                    explanation.name.empty() ? "without a name" : explanation.name,
-                                   explanation.hash);
+                                   hash_text(explanation.hash));
     text += fmt::format("bodies  {}\n", bodies_text(explanation));
     text += fmt::format("hands   {}\n", hips_text(explanation.hands));
     text += fmt::format("tick    {}", base::to_text(explanation.tick));
@@ -199,7 +140,7 @@ std::string to_table(const Explanation& explanation)
     text += fmt::format("\nIts stepper: {}\n", scene::name_of(explanation.profile));
     for (const CheaperTick& tick : explanation.cheaper) {
         text += fmt::format("  cheaper: {:<15}  has no {}\n", scene::name_of(tick.profile),
-                            fmt::join(names_of(tick.lacks), ", "));
+                            fmt::join(tick.lacks, ", "));
     }
     return text + bound_text(explanation.bound);
 }

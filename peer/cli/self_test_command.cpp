@@ -9,6 +9,7 @@
 #include "peer/loop/zero_force.hpp"
 #include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/disk/result_file.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
@@ -176,7 +177,7 @@ base::Result<int> run(const SelfTestCommand& command)
     if (kept) note_result(*kept, test, rig.governor().heat());
     test.stop();
     net::print(self_test::report_text(rig.device(), test));
-    if (file) file->commit(self_test::report_json(rig.device(), test).dump(2) + "\n");
+    if (file) file->commit(base::json_of(self_test::report_of(rig.device(), test)).dump(2) + "\n");
     return self_test::has_passed(test) ? 0 : net::exit_failed;
 }
 

@@ -3,6 +3,7 @@
 #include "peer/control/answer.hpp"
 
 #include "proto/control/core/reply.hpp"
+#include "proto/output/metrics.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,15 @@ control::Answer answer_with(Members& members, Reply reply)
     return whole ? reply() : control::refusal(whole.error().message);
 }
 
+std::string told_as_metrics(const PeerControl& peer)
+{
+    const Json statistics = peer.statistics();
+    output::Metrics metrics;
+    metrics.add(peer.statistics_fields, statistics,
+                {{"peer", statistics.value("peer_id", Json{}).dump()}});
+    return fine({{"metrics", metrics.json()}});
+}
+
 std::string kept(Members& members, const PeerControl& peer, base::TimePoint now)
 {
     const auto request = members.finish(control::keep_request(members, peer.held));
@@ -87,17 +97,20 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer, base::
     if (command == "stats") {
         return answer_with(members, [&] { return control::statistics_reply(peer.statistics()); });
     }
+    if (command == "metrics") {
+        return answer_with(members, [&] { return told_as_metrics(peer); });
+    }
     if (command == "wait") return begun(members, control::wait_request(members));
     if (command == "watch") return begun(members, control::watch_request(members, frames_least));
     if (command == "keep") return kept(members, peer, now);
     if (is_for_an_emulator(command)) {
         return control::refusal(fmt::format(
             "'{}' is for an emulator: a running peer cannot be changed; use show, scene, stats, "
-            "watch, wait, keep, stop or estop",
+            "metrics, watch, wait, keep, stop or estop",
             command));
     }
-    return control::refusal("\"command\" must be one of show, scene, stats, watch, wait, keep, "
-                            "stop, estop");
+    return control::refusal("\"command\" must be one of show, scene, stats, metrics, watch, wait, "
+                            "keep, stop, estop");
 }
 
 control::Subject subject_of(PeerControl peer)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/field_table.hpp"
 #include "proto/control/core/conversation.hpp"
 
 #include <functional>
@@ -17,6 +18,8 @@ namespace hapnet::peer {
 struct PeerControl {
     std::function<nlohmann::ordered_json()> show; // an object
     std::function<nlohmann::ordered_json()> statistics;
+    /// What describes the statistics, with the names of metrics.
+    const base::FieldTable& statistics_fields;
     /// As SIGTERM does.
     std::function<void()> stop;
     /// Zero force from now on, until the program is started anew; the session goes on without.

@@ -4,6 +4,8 @@
 
 #include "device/fault.hpp"
 #include "device/governor.hpp"
+#include "proto/base/fields_json.hpp"
+#include "proto/control/core/reply.hpp"
 
 #include <algorithm>
 #include <string>
@@ -29,7 +31,9 @@ control::FrameSource FrameTap::watch()
     for (const record::SessionRow& session : sessions_) decimator->take(session);
     watches_.push_back(decimator);
     return [decimator](std::string& text, std::uint64_t left_out) {
-        if (const auto frame = decimator->next(left_out)) telemetry::append_json(text, *frame);
+        if (const auto frame = decimator->next(left_out)) {
+            text += control::line_of(base::json_of(*frame));
+        }
     };
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/line/line.hpp"
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
 #include "proto/secure/association.hpp"
 
@@ -24,6 +25,16 @@ struct Status {
     std::uint64_t strangers = 0; // datagrams from elsewhere
     std::optional<Key> key;      // nullopt: messages are plain
 };
+
+constexpr auto fields_of(base::Tag<Status::Key>)
+{
+    using K = Status::Key;
+    return base::fields(
+        "secure", base::member("agreed", &K::is_agreed, "Whether there is a key to seal with."),
+        base::member("key_age_s", &K::age, "How long ago it was made."), base::part(&K::counts),
+        base::member("misnamed", &K::misnamed,
+                     "Hellos that name another peer or run than their key."));
+}
 
 [[nodiscard]] inline Status status_of(const Line& line, base::TimePoint now)
 {

@@ -5,6 +5,7 @@
 #include "peer/control/answer.hpp"
 #include "peer/control/scene_report.hpp"
 #include "peer/monitor/report.hpp"
+#include "proto/base/fields.hpp"
 
 #include <utility>
 
@@ -26,12 +27,8 @@ control::Subject ControlSession::subject()
     };
     return subject_of(
         {.show = [this, run] { return show_json(run(), parts_.recovery); },
-         .statistics =
-             [this, run] {
-                 nlohmann::ordered_json json = statistics_json(run());
-                 json["elapsed_s"] = base::to_seconds(status_->elapsed);
-                 return json;
-             },
+         .statistics = [this, run] { return statistics_json(run(), status_->elapsed); },
+         .statistics_fields = base::field_table<PeerStatistics>(),
          .stop = [this] { parts_.stop.request(); },
          .stop_in_emergency = [this] { parts_.gate.stop_in_emergency(); },
          .scene = [this] { return scene_json(parts_.options.scene); },

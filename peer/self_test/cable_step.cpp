@@ -32,7 +32,7 @@ Outcome CableStep::outcome() const
     const bool is_loss = fault_ == device::Fault::disconnected ||
                          fault_ == device::Fault::timeout || fault_ == device::Fault::communication;
     outcome.verdict = is_loss ? Verdict::passed : Verdict::failed;
-    outcome.figures = {{"noticed_after_ms", noticed_ms}};
+    outcome.noticed_after = silent_for_;
     outcome.text = fmt::format("noticed {:.0f} ms after its last report, as {}", noticed_ms,
                                device::name_of(fault_));
     return outcome;

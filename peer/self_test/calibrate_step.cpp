@@ -36,7 +36,7 @@ StepRequest CalibrateStep::on_tick(const StepInput& input, base::TimePoint now)
 Outcome CalibrateStep::outcome() const
 {
     Outcome outcome{.step = "calibrate", .verdict = Verdict::passed, .text = {}};
-    outcome.figures = {{"took_s", base::to_seconds(took_)}};
+    outcome.took = took_;
     outcome.text = "the device is calibrated, and in a hand";
     if (prompt_ == Prompt::nothing) return outcome;
     outcome.verdict = Verdict::failed;

@@ -57,7 +57,7 @@ StepRequest ForceStep::on_tick(const StepInput& input, base::TimePoint now)
 Outcome ForceStep::outcome() const
 {
     Outcome outcome{.step = "force", .verdict = Verdict::failed, .text = {}};
-    outcome.figures = {{"force_max_n", force_most_n_}};
+    outcome.force_max_n = force_most_n_;
     if (fault_ != device::Fault::none) {
         outcome.text = device::describe(fault_);
     } else if (outlasted_release_) {

@@ -60,15 +60,15 @@ Outcome ReadStep::outcome() const
     Outcome outcome{.step = "read", .verdict = Verdict::failed, .text = {}};
     const double seconds = start_ ? base::to_seconds(now_ - *start_) : 0.0;
     const double rate_hz = seconds > 0.0 ? static_cast<double>(reports_) / seconds : 0.0;
-    const double median_s = base::to_seconds(all_gaps_.quantile(0.5).value_or(base::Duration{}));
-    const double most_s = base::to_seconds(all_gaps_.max().value_or(base::Duration{}));
-    outcome.figures = {
-        {"rate_hz", rate_hz}, {"gap_p50_ms", 1e3 * median_s}, {"gap_max_ms", 1e3 * most_s}};
+    outcome.rate_hz = rate_hz;
+    outcome.gap_p50 = all_gaps_.quantile(0.5).value_or(base::Duration{});
+    outcome.gap_max = all_gaps_.max().value_or(base::Duration{});
+    const double median_s = base::to_seconds(*outcome.gap_p50);
     outcome.drawing = drawing();
     outcome.text =
         fmt::format("{:.0f} reports a second, {:.1f} ms apart in the median and {:.1f} ms "
                     "at most",
-                    rate_hz, 1e3 * median_s, 1e3 * most_s);
+                    rate_hz, 1e3 * median_s, 1e3 * base::to_seconds(*outcome.gap_max));
     if (fault_ != device::Fault::none) {
         outcome.text = fmt::format("{}; {}", device::describe(fault_), outcome.text);
     } else if (reports_ == 0) {

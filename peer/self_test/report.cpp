@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "peer/self_test/report.hpp"
 
-#include "proto/base/version.hpp"
-
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
@@ -16,20 +14,6 @@ bool has_failed(const SelfTest& test)
     const auto& outcomes = test.outcomes();
     return std::any_of(outcomes.begin(), outcomes.end(),
                        [](const Outcome& one) { return one.verdict == Verdict::failed; });
-}
-
-nlohmann::json capabilities_json(const device::Capabilities& can)
-{
-    return {{"axes_in", can.axes_in},
-            {"axes_out", can.axes_out},
-            {"buttons", can.buttons},
-            {"force_max_n", can.force_max_n},
-            {"force_continuous_n", can.force_continuous_n},
-            {"force_is_calibrated", can.force_is_calibrated},
-            {"stiffness_max_n_per_m", can.stiffness_max_n_per_m},
-            {"damping_max_ns_per_m", can.damping_max_ns_per_m},
-            {"resolution_m", can.resolution_m},
-            {"rate_hz", can.rate_hz}};
 }
 
 } // namespace
@@ -50,28 +34,13 @@ std::string report_text(const device::Device& device, const SelfTest& test)
     return text;
 }
 
-nlohmann::json report_json(const device::Device& device, const SelfTest& test)
+SelfTestReport report_of(const device::Device& device, const SelfTest& test)
 {
-    const device::Identity& identity = device.identity();
-    auto steps = nlohmann::json::array();
-    for (const Outcome& one : test.outcomes()) {
-        nlohmann::json step{
-            {"step", one.step}, {"verdict", name_of(one.verdict)}, {"text", one.text}};
-        for (const Figure& figure : one.figures) step[std::string{figure.name}] = figure.value;
-        steps.push_back(std::move(step));
-    }
-    return {{"device",
-             {{"backend", identity.backend},
-              {"serial", identity.serial},
-              {"model", identity.model},
-              {"note", identity.note},
-              {"capabilities", capabilities_json(device.capabilities())}}},
-            {"version", base::version()},
-            {"commit", base::commit()},
-            {"steps", steps},
-            {"finished", test.is_finished()},
-            {"failed", has_failed(test)},
-            {"passed", has_passed(test)}};
+    return {.device = {device.identity(), {device.capabilities()}},
+            .steps = test.outcomes(),
+            .is_finished = test.is_finished(),
+            .has_failed = has_failed(test),
+            .has_passed = has_passed(test)};
 }
 
 bool has_passed(const SelfTest& test) { return test.is_finished() && !has_failed(test); }

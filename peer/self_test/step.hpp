@@ -3,11 +3,13 @@
 #pragma once
 
 #include "device/device.hpp"
+#include "proto/base/describe.hpp"
+#include "proto/base/value_kind.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace hapnet::peer::self_test {
 
@@ -34,20 +36,37 @@ enum class Prompt : std::uint8_t {
 /// For a person; "" for nothing.
 [[nodiscard]] std::string_view describe(Prompt prompt);
 
-/// A measured number; its name ends in its unit.
-struct Figure {
-    std::string_view name;
-    double value = 0.0;
-};
-
-/// The result of a step.
+/// The result of a step, and what it has measured.
 struct Outcome {
     std::string_view step;
     Verdict verdict = Verdict::skipped;
     std::string text;
-    std::vector<Figure> figures{};
+    std::optional<double> rate_hz{};
+    std::optional<base::Duration> gap_p50{};
+    std::optional<base::Duration> gap_max{};
+    std::optional<base::Duration> took{};
+    std::optional<double> force_max_n{};
+    std::optional<base::Duration> noticed_after{};
     std::string drawing{}; // lines of text, or ""
 };
+constexpr auto fields_of(base::Tag<Outcome>)
+{
+    using O = Outcome;
+    return base::fields(
+        "step", base::member("step", &O::step, "The name of the step."),
+        base::member("verdict", &O::verdict, "`passed`, `failed` or `skipped`."),
+        base::member("text", &O::text, "What was found, for a person."),
+        base::member("rate_hz", &O::rate_hz, "Reports of the device in a second.")
+            .left_out_if_none(),
+        base::member("gap_p50_ms", &O::gap_p50, "The median of the times between two reports.")
+            .left_out_if_none(),
+        base::member("gap_max_ms", &O::gap_max, "The longest of them.").left_out_if_none(),
+        base::member("took_s", &O::took, "How long the calibration took.").left_out_if_none(),
+        base::member("force_max_n", &O::force_max_n, "The largest force.").left_out_if_none(),
+        base::member("noticed_after_ms", &O::noticed_after,
+                     "How long after the last report the loss of the cable was noticed.")
+            .left_out_if_none());
+}
 
 /// The input of a step in a tick.
 struct StepInput {

@@ -24,7 +24,7 @@ double rounded(double value, int decimals)
 {
     const double scale = std::pow(10.0, decimals);
     const double scaled = std::round(value * scale);
-    return std::isfinite(scaled) ? scaled / scale : value;
+    return std::isfinite(scaled) ? scaled / scale + 0.0 : value; // and not -0
 }
 
 Ordered json_of_number(double number, const JsonScale& scale)

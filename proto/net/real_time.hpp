@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <cstdint>
 #include <string>
 
@@ -14,6 +16,14 @@ struct RealTime {
     /// "" when all was granted, otherwise one sentence: what is missing and how to allow it.
     [[nodiscard]] std::string shortage() const;
 };
+constexpr auto fields_of(base::Tag<RealTime>)
+{
+    return base::fields(
+        "real time",
+        base::member("fifo", &RealTime::fifo, "Whether the system granted SCHED_FIFO."),
+        base::member("locked_memory", &RealTime::locked_memory,
+                     "Whether it granted locked memory."));
+}
 
 /// Which memory is locked: all that is reserved, or each page from its first use on, for a process
 /// that reserves far more than it usually needs.

@@ -111,9 +111,9 @@ void Metrics::add_row(const base::FieldRow& row, const Json& json, const Labels&
         });
     };
     const base::ValueKind& kind = row.kind->plain();
-    if (told.label.empty()) return add_numbers(json, labels);
+    if (!told.name.empty() && told.label.empty()) return add_numbers(json, labels);
     if (!json.is_object()) return;
-    if (kind.shape == Shape::map) {
+    if (kind.shape == Shape::map && !told.label.empty()) {
         for (const auto& [name, value] : json.items()) {
             const auto own = with(labels, told.label, name);
             if (!told.name.empty()) {
@@ -123,7 +123,7 @@ void Metrics::add_row(const base::FieldRow& row, const Json& json, const Labels&
             }
         }
     } else if (kind.shape == Shape::record) {
-        add(kind.table(), json, with(labels, told.label, row.key));
+        add(kind.table(), json, told.label.empty() ? labels : with(labels, told.label, row.key));
     }
 }
 
@@ -131,10 +131,8 @@ void Metrics::add(const base::FieldTable& fields, const Json& json, const Labels
 {
     if (!json.is_object()) return;
     for (const base::FieldRow& row : fields.rows) {
-        const base::Metric& told = row.telling.metric;
         const auto value = json.find(row.key);
-        if (value == json.end() || (told.name.empty() && told.label.empty())) continue;
-        add_row(row, *value, labels);
+        if (value != json.end()) add_row(row, *value, labels);
     }
 }
 

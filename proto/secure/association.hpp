@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
 #include "proto/secure/door.hpp"
 #include "proto/secure/entropy.hpp"
@@ -105,19 +106,19 @@ public:
     [[nodiscard]] std::optional<base::Duration> key_age(base::TimePoint now) const;
 
     struct Counts {
-        std::uint64_t handshakes = 0; // that were finished, rekeying included
-        std::uint64_t rekeys = 0;     // between the same runs
-        std::uint64_t forged = 0;     // not sealed with the key that they name
-        std::uint64_t replayed = 0;   // messages that had come already, and handshakes of old
-        std::uint64_t unsealed = 0;   // plain, or nothing of ours
+        std::uint64_t handshakes = 0;
+        std::uint64_t rekeys = 0;
+        std::uint64_t forged = 0;
+        std::uint64_t replayed = 0;
+        std::uint64_t unsealed = 0;
         std::uint64_t unknown_key = 0;
         std::uint64_t other_circle = 0; // handshakes without the pre-shared key, or for others
         std::uint64_t refused = 0;      // parts of handshakes that failed later, forged ones too
-        std::uint64_t unread = 0;       // parts of handshakes: repeated, late, or too many
-        std::uint64_t cookies = 0;      // asked for, as too many handshakes came
+        std::uint64_t unread = 0;
+        std::uint64_t cookies = 0;
         std::uint64_t roamed = 0;
-        std::uint64_t not_sealed = 0;    // own messages for which there was no key
-        base::Duration last_handshake{}; // how long the last one took that this side began
+        std::uint64_t not_sealed = 0;
+        base::Duration last_handshake{}; // 0: this side has begun none that was finished
 
         /// Of several associations together; of the times the longest.
         Counts& operator+=(const Counts& other);
@@ -262,5 +263,41 @@ private:
     std::size_t outgoing_count_ = 0;
     Counts counts_;
 };
+
+constexpr auto fields_of(base::Tag<Association::Counts>)
+{
+    using C = Association::Counts;
+    return base::fields(
+        "association", base::member("handshakes", &C::handshakes, "Handshakes that made a key."),
+        base::member("rekeys", &C::rekeys, "Those of them between the same runs."),
+        base::member("forged", &C::forged,
+                     "Messages that were not sealed with the key that they name; damage, too."),
+        base::member("replayed", &C::replayed,
+                     "Messages that had come already, and old handshakes."),
+        base::member("unsealed", &C::unsealed,
+                     "Plain messages, and datagrams that are not Hapnet's."),
+        base::member("unknown_key", &C::unknown_key,
+                     "Messages sealed with a key that is not known here, for example one of an "
+                     "earlier run."),
+        base::member("other_circle", &C::other_circle,
+                     "Messages of handshakes with other keys, or forged."),
+        base::member("refused", &C::refused,
+                     "Those that failed when they were read, as a forgery of a member of the "
+                     "circle does."),
+        base::member("unread", &C::unread,
+                     "Messages of handshakes that were not read: repeated, late, or too many at a "
+                     "time. A few are normal."),
+        base::member("cookies", &C::cookies,
+                     "Initiations that were asked for a cookie, as too many came."),
+        base::member("roamed", &C::roamed, "How often the other peer was found in another place."),
+        base::member("not_sent", &C::not_sealed, "Own messages for which there was no key yet."),
+        base::computed<C>(
+            "handshake_ms",
+            [](const C& counts) {
+                const base::Duration took = counts.last_handshake;
+                return took > base::Duration{0} ? std::optional{took} : std::nullopt;
+            },
+            "How long the last handshake took that this side began."));
+}
 
 } // namespace hapnet::secure

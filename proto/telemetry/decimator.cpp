@@ -10,7 +10,7 @@ namespace hapnet::telemetry {
 
 void Decimator::take(const record::TickRow& tick)
 {
-    frame_.tick = tick;
+    frame_.newest.row = tick;
     has_tick_ = true;
     frame_.cube_x_m.add(tick.cube.x());
     frame_.force_n.add(base::norm(tick.device));
@@ -62,15 +62,15 @@ void Decimator::hear(std::uint16_t from, base::TimePoint received_at,
 std::optional<Frame> Decimator::next(std::uint64_t left_out)
 {
     if (!has_tick_) return std::nullopt;
-    frame_.left_out = left_out;
-    frame_.governor = names_.governor(frame_.tick.governor);
+    frame_.left_out = left_out > 0 ? std::optional{left_out} : std::nullopt;
+    frame_.governor = names_.governor(frame_.newest.row.governor);
     frame_.fault.reset();
-    if (frame_.tick.fault != 0) frame_.fault = names_.fault(frame_.tick.fault);
+    if (frame_.newest.row.fault != 0) frame_.fault = names_.fault(frame_.newest.row.fault);
     for (std::size_t i = 0; i < others_.size(); ++i) {
         HeardFrame& heard = frame_.heard[i];
         heard.age.reset();
         if (!others_[i].sent || !heard.offset) continue;
-        heard.age = (frame_.tick.at() + *heard.offset) - *others_[i].sent;
+        heard.age = (frame_.newest.row.at() + *heard.offset) - *others_[i].sent;
     }
     Frame frame = frame_;
     begin_anew();

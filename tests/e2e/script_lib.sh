@@ -22,6 +22,6 @@ fail() {
 validate_json() {
     local code=0
     PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 \
-        "$(dirname "${BASH_SOURCE[0]}")/schemas/schemas.py" "$1" || code=$?
+        "$(dirname "${BASH_SOURCE[0]}")/schemas/schemas.py" "$programs" "$1" || code=$?
     ((code == 0 || code == 77)) || fail "JSON in $1"
 }

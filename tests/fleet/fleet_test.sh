@@ -70,7 +70,7 @@ same() {
     local code=0
     if ((seeds <= 4)); then # which takes some milliseconds a session
         PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 \
-            "$repository/tests/e2e/schemas/schemas.py" "$work/$1" || code=$?
+            "$repository/tests/e2e/schemas/schemas.py" "$bin" "$work/$1" || code=$?
         ((code == 0 || code == 77)) || fail "$1: JSON that is not as its schema says"
     fi
     echo "fleet_test: $1: the same digest, $((SECONDS - $2)) s"

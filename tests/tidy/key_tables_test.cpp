@@ -224,8 +224,18 @@ const std::set<std::string>& without_table()
         "InterfaceReports", "RealTimeReport", "DelaySpread", "LateSpread", "PathFrame", "Precision",
         "LossReport", "ProbeDelays", "ProbeWay", "ProbeSummary",
         // JSON, CSV and the settings in a record's header
-        "Examination", "Finding", "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics",
-        "ConditionRow", "WrittenMount", "WrittenConfig"};
+        "BuildReport", "TickFrame", "PeerConfiguration", "SessionReport", "ClockReport",
+        "AgeReport", "PathTimes", "InwardPath", "OtherReport", "MessagesReport", "ForceReport",
+        "EnergyReport", "PeerStatistics", "TickReport", "Counters", "GovernorFigures",
+        "FaultCounts", "GovernorCounters", "RigCounters", "EnergyFigures", "Association::Counts",
+        "Status::Key", "RealTime", "Clock", "Loop", "LoopReport", "Path", "ForceDiscrepancy",
+        "TouchShares", "BodyAgreement", "Agreement", "Analysis", "PairReport", "AnalysisReport",
+        "Replayed", "FeatureReport", "TickBound", "CheaperTick", "MassRange", "HandsReport",
+        "Explanation", "PlayedSession", "PlayReport", "PeerIntroduction", "Outcome",
+        "CapabilitiesReport", "TestedDevice", "SelfTestReport", "OtherSession", "Frame",
+        "HeardFrame", "BodyFrame", "SessionFrame", "Largest", "Range", "Examination", "Finding",
+        "Spread", "ForceSteps", "Similarity", "BodyApart", "Metrics", "ConditionRow",
+        "WrittenMount", "WrittenConfig"};
     return names;
 }
 

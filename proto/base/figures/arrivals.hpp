@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
+
 #include <cstdint>
 #include <optional>
 
@@ -40,6 +42,15 @@ struct ArrivalCounts {
 
     friend bool operator==(const ArrivalCounts&, const ArrivalCounts&) = default;
 };
+constexpr auto fields_of(Tag<ArrivalCounts>)
+{
+    using C = ArrivalCounts;
+    return fields(
+        "arrivals", member("sent", &C::sent, "The highest number that has come."),
+        member("received", &C::received, "Different ones received."),
+        member("duplicates", &C::duplicates, "Further copies of these."),
+        member("reordered", &C::reordered, "Received after one with a higher number (RFC 4737)."));
+}
 
 /// Counts the arrivals of a numbered stream. Its user says which are duplicates, by RecentNumbers
 /// or by what it remembers anyway.

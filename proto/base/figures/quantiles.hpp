@@ -30,6 +30,22 @@ constexpr auto fields_of(Tag<Quantiles>)
                   member("max", &Quantiles::max));
 }
 
+/// Those of them that are told of paths and loops.
+struct MainQuantiles {
+    Duration p50{};
+    Duration p99{};
+    Duration max{};
+
+    MainQuantiles() = default;
+    // NOLINTNEXTLINE(*-explicit-*): it is the same with less in it
+    MainQuantiles(const Quantiles& all) : p50{all.p50}, p99{all.p99}, max{all.max} {}
+};
+constexpr auto fields_of(Tag<MainQuantiles>)
+{
+    return fields("main quantiles", member("p50", &MainQuantiles::p50),
+                  member("p99", &MainQuantiles::p99), member("max", &MainQuantiles::max));
+}
+
 /// Keeps all durations, for exact quantiles: memory grows with their number.
 class DurationSample {
 public:

@@ -140,7 +140,8 @@ def session(programs, repository):
     web = server(programs, repository, "--emulator", "e.sock", "--peer", "1.sock", "--peer",
                  "2.sock")
     programs.run("hapnet-ctl 1.sock wait --until messages.states_received>100 --timeout 20s")
-    watchers = [Watcher(programs.connect(name), name) for name in ("e.sock", "1.sock")]
+    watchers = [Watcher(programs.connect(f"{name}.sock"), name, schema)
+                for name, schema in (("e", "emulator-frame"), ("1", "peer-frame"))]
     web.wait_for(lambda now: [peer["state"] for peer in now["peers"]] == ["running", "running"])
     live = LivePage(web)
     for name, output in control(programs):
@@ -192,9 +193,9 @@ def control(programs):
 class Watcher(threading.Thread):
     """Takes the frames of a control socket."""
 
-    def __init__(self, client, name):
+    def __init__(self, client, name, schema):
         super().__init__(daemon=True)
-        self.client, self.name, self.lines = client, name, []
+        self.client, self.name, self.schema, self.lines = client, name, schema, []
         self.start()
 
     def run(self):
@@ -205,7 +206,8 @@ class Watcher(threading.Thread):
 
     def outputs(self):
         self.join()
-        yield "session-frames", shaped(f"frames of {self.name}", "".join(self.lines), "frames")
+        yield "session-frames", shaped(f"frames of {self.name}.sock", "".join(self.lines), "frames",
+                                       self.schema)
 
 
 class LivePage(threading.Thread):

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
-"""Validates what the programs write against docs/formats/schemas.
+"""Validates what the programs write against the schemas that they print.
 
-As a program: schemas.py FOLDER... validates all JSON in these folders, each file by the schema that
-its name stands for; one that stands for none is a fault. Exits 1 with faults, and 77 without the
+As a program: schemas.py BIN_DIR FOLDER... validates all JSON in these folders, each file by the
+schema that its name stands for; one that stands for none is a fault. The build has written the
+schemas into a folder beside that of the programs, BIN_DIR. Exits 1 with faults, and 77 without the
 module jsonschema. Keys that a schema does not list are faults here, though not to its users: later
 versions may add some.
 """
@@ -43,11 +44,18 @@ def strict(schema):
     return copy
 
 
-def read_schemas():
-    """All of the repository, by name; each may refer to the others by the names of their files."""
+def schema_folder(programs):
+    """Where the build has written what the programs of this folder print."""
+    return Path(programs).resolve().parent / "schemas"
+
+
+def read_schemas(programs):
+    """All that these programs print and that of the benches, by name; each may refer to the others
+    by the names of their files."""
     base, suffix = "file:///schemas/", ".schema.json"  # which are read here, not there
     files = {}
-    for path in sorted((repository / "docs/formats/schemas").glob("*" + suffix)):
+    for path in [*sorted(schema_folder(programs).glob("*" + suffix)),
+                 repository / "docs/formats/schemas/bench.schema.json"]:
         schema = json.loads(path.read_text())
         Draft202012Validator.check_schema(schema)
         files[base + path.name] = strict(schema)
@@ -56,13 +64,10 @@ def read_schemas():
             for url, schema in files.items()}
 
 
-validators = read_schemas()
-
-
-def faults_in(name, document):
-    """What keeps a document from being as the schema of this name says."""
+def faults_in(validator, document):
+    """What keeps a document from being as the schema of this validator says."""
     faults = []
-    for error in validators[name].iter_errors(document):
+    for error in validator.iter_errors(document):
         # Of several forms, the one that it nearly has.
         while error.context:
             forms = {}
@@ -73,30 +78,32 @@ def faults_in(name, document):
     return faults
 
 
-def faults_in_file(path):
+def faults_in_file(validators, path):
     """Likewise for a file, line by line where it is one of lines; and how many it has."""
     name = next((schema for pattern, schema in of_files if re.fullmatch(pattern, path.name)), None)
     if name is None:
         return [f"{path}: no schema is for files of this name"], 0
     text = path.read_text()
     parts = text.splitlines() if path.suffix == ".jsonl" else [text]
-    faults = [f"{path}: {fault}" for part in parts for fault in faults_in(name, json.loads(part))]
+    faults = [f"{path}: {fault}" for part in parts
+              for fault in faults_in(validators[name], json.loads(part))]
     return faults, len(parts)
 
 
-def faults_in_folder(folder):
+def faults_in_folder(validators, folder):
     """Likewise for all of a folder; and how many documents it has."""
     faults, documents = [], 0
     for path in sorted(Path(folder).rglob("*.json*")):
-        found, count = faults_in_file(path)
+        found, count = faults_in_file(validators, path)
         faults += found
         documents += count
     return faults, documents
 
 
 if __name__ == "__main__":
-    for folder in sys.argv[1:]:
-        found, documents = faults_in_folder(folder)
+    schemas = read_schemas(sys.argv[1])
+    for folder in sys.argv[2:]:
+        found, documents = faults_in_folder(schemas, folder)
         for fault in found:
             print("FAULT", fault)
         if found or documents == 0:

@@ -15,7 +15,7 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-from schemas import faults_in, of_files, validators
+from schemas import faults_in, of_files, read_schemas, schema_folder
 
 repository, folder = Path(sys.argv[1]), Path(sys.argv[2])
 sys.dont_write_bytecode = True
@@ -24,6 +24,7 @@ import exact  # noqa: E402
 import live  # noqa: E402
 from programs import Programs  # noqa: E402
 
+validators = read_schemas(folder)
 faults = []
 validated = 0
 documents = {}  # by the names of their schemas
@@ -33,7 +34,7 @@ def validate(name, document, label):
     global validated
     validated += 1
     documents.setdefault(name, []).append(document)
-    faults.extend(f"{label}: {fault}" for fault in faults_in(name, document))
+    faults.extend(f"{label}: {fault}" for fault in faults_in(validators[name], document))
 
 
 def refuses(name, document, label):
@@ -68,14 +69,14 @@ with tempfile.TemporaryDirectory() as place:
                 schema, text = schema_of(output), output.whole or output.text
                 if schema is None or text is None:
                     continue
-                lines = schema in ("events", "sessions")
+                lines = schema in ("events", "sessions", "emulator-frame", "peer-frame")
                 for document in text.splitlines() if lines else [text]:
                     validate(schema, json.loads(document), output.label)
     finally:
         programs.stop_all()
 
-# The schemas that the programs print are those of the docs.
-names = {"statistics": "{}", "predict": "prediction", "verify": "verification"}
+# The build has written what the programs print, and they say what each is of.
+names = {"statistics": "{}", "frame": "{}-frame", "predict": "prediction", "verify": "verification"}
 printed = set()
 for program in ("emulator", "peer", "lab"):
     def schema_printed(word, program=program):
@@ -87,12 +88,15 @@ for program in ("emulator", "peer", "lab"):
         file = names.get(name, name).format(program)
         printed.add(file)
         text = schema_printed(name)
-        if text != (repository / f"docs/formats/schemas/{file}.schema.json").read_text():
+        if text != (schema_folder(folder) / f"{file}.schema.json").read_text():
             faults.append(f"hapnet-{program} schema {name} is not {file}.schema.json")
         if json.loads(text)["title"] != title:
             faults.append(f"hapnet-{program} schema --list calls {name} '{title}'")
 if rest := validators.keys() - printed - {"bench"}:
     faults.append(f"no program prints the schemas {rest}")
+by_hand = (repository / "docs/formats/schemas").glob("*.json")
+if rest := {path.name.split(".")[0] for path in by_hand} - printed - {"bench"}:
+    faults.append(f"no program has the schemas {rest} of the docs")
 
 forms = {"manifest": validators["manifest"].schema["$defs"]["experiment"],
          "sessions": validators["sessions"].schema["oneOf"][0]}

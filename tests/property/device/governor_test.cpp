@@ -184,11 +184,11 @@ TEST(Governor, KeepsEveryRuleWhateverTheDeviceSaysAndTheSceneWants)
     }
     EXPECT_GT(felt, rounds / 20);
     const GovernorCounters& c = governor.counters();
-    const std::array counts{c.not_finite,    c.clamped,        c.joint_limited, c.flattened,
-                            c.outside,       c.slewed,         c.faded,         c.silent,
-                            c.docked,        c.uncalibrated,   c.too_fast,      c.resets,
-                            c.device_faults, c.silence_faults, c.speed_trips,   c.jump_trips,
-                            c.nonsense_trips};
+    const std::array counts{c.not_finite,     c.clamped,        c.joint_limited, c.flattened,
+                            c.outside,        c.slewed,         c.faded,         c.silent,
+                            c.docked,         c.uncalibrated,   c.too_fast,      c.resets,
+                            c.faults.device,  c.faults.silence, c.faults.speed,  c.faults.jump,
+                            c.faults.nonsense};
     for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_GT(counts[i], 0U) << i;
 }
 

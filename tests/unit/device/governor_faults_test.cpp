@@ -92,7 +92,7 @@ TEST(GovernorStops, WhenADeviceRepeatsItselfForTwentyMillisecondsAndGoesOnWhenIt
     EXPECT_EQ(governed.governor.counters().silent, 80U);
     governed.speaks = true;
     EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
-    EXPECT_EQ(governed.governor.counters().silence_faults, 0U);
+    EXPECT_EQ(governed.governor.counters().faults.silence, 0U);
 }
 
 TEST(GovernorLatches, ATimeoutWhenADeviceRepeatsItselfForAHundredMilliseconds)
@@ -103,7 +103,7 @@ TEST(GovernorLatches, ATimeoutWhenADeviceRepeatsItselfForAHundredMilliseconds)
     expect_latched(governed, {Fault::timeout, Trip::silence});
     governed.speaks = true;
     EXPECT_EQ(governed.play(3000, along_x(1.0)), base::Force{}); // it does not go on by itself
-    EXPECT_EQ(governed.governor.counters().silence_faults, 1U);
+    EXPECT_EQ(governed.governor.counters().faults.silence, 1U);
 }
 
 TEST(GovernorStops, WhenADeviceSaysItHeardNothingAndLatchesThatAfterAHundredMilliseconds)
@@ -150,7 +150,7 @@ TEST(GovernorLatches, EveryFaultThatADeviceReports)
         governed.sample.fault = Fault::none;
         EXPECT_EQ(governed.play(3000, along_x(1.0)), base::Force{});
         EXPECT_EQ(governed.governor.fault().fault, fault) << name_of(fault);
-        EXPECT_EQ(governed.governor.counters().device_faults, 1U);
+        EXPECT_EQ(governed.governor.counters().faults.device, 1U);
     }
 }
 
@@ -161,7 +161,7 @@ TEST(GovernorLatches, OverVelocityAboveTheSpeedLimitAndNotAtIt)
     EXPECT_EQ(governed.play(5, along_x(1.0)), along_x(1.0));
     governed.sample.velocity = {{0.6, 0.8001, 0.0}};
     expect_latched(governed, {Fault::over_velocity, Trip::speed});
-    EXPECT_EQ(governed.governor.counters().speed_trips, 1U);
+    EXPECT_EQ(governed.governor.counters().faults.speed, 1U);
 }
 
 TEST(GovernorLatches, NothingForSpeedWhileNoForceCanBeFeltButWaits)
@@ -182,7 +182,7 @@ TEST(GovernorLatches, OverVelocityOnAJumpWhateverVelocityTheDeviceReports)
     EXPECT_EQ(governed.play(5, along_x(1.0)), along_x(1.0));
     governed.sample.hip = {{0.0049, 0.0051, 0.0}};
     expect_latched(governed, {Fault::over_velocity, Trip::jump});
-    EXPECT_EQ(governed.governor.counters().jump_trips, 1U);
+    EXPECT_EQ(governed.governor.counters().faults.jump, 1U);
 }
 
 TEST(GovernorLatches, NothingWhenALateSampleHasMovedOn)
@@ -212,7 +212,7 @@ TEST(GovernorLatches, CommunicationWhenAPlaceOrVelocityIsNoNumber)
         Governance governed = pushing();
         (place ? governed.sample.hip.value : governed.sample.velocity.value).y = not_a_number;
         expect_latched(governed, {Fault::communication, Trip::nonsense});
-        EXPECT_EQ(governed.governor.counters().nonsense_trips, 1U);
+        EXPECT_EQ(governed.governor.counters().faults.nonsense, 1U);
     }
 }
 
@@ -224,7 +224,7 @@ TEST(GovernorLatches, ATimeoutWhenTheLoopStoodStillForMoreThanAHundredMillisecon
     governed.play(1100, along_x(1.0));
     EXPECT_EQ(governed.after(100ms + 1ns, along_x(1.0)), base::Force{});
     EXPECT_EQ(governed.governor.fault(), (Latched{Fault::timeout, Trip::loop}));
-    EXPECT_EQ(governed.governor.counters().loop_faults, 1U);
+    EXPECT_EQ(governed.governor.counters().faults.loop, 1U);
     EXPECT_EQ(governed.governor.counters().stalled, 2U);
 }
 
@@ -446,7 +446,7 @@ TEST(GovernorLatches, AnEncoderThatStandsStillUnderForce)
     EXPECT_EQ(governed.governor.state(), GovernorState::active);
     governed.play(20, along_x(1.0));
     expect_latched(governed, {Fault::communication, Trip::frozen});
-    EXPECT_EQ(governed.governor.counters().frozen_trips, 1U);
+    EXPECT_EQ(governed.governor.counters().faults.frozen, 1U);
 }
 
 TEST(GovernorLatches, NoEncoderThatCountsOrIsHardlyPushedOrHasNothingNewToSay)
@@ -479,7 +479,7 @@ TEST(GovernorLatches, ADeviceThatSpeedsUpAgainstItsOwnForce)
     }
     EXPECT_EQ(governed.governor.fault(), (Latched{Fault::over_velocity, Trip::runaway}));
     EXPECT_LE(-governed.sample.velocity.x(), 0.42) << "far below the limit of 1 m/s";
-    EXPECT_EQ(governed.governor.counters().runaway_trips, 1U);
+    EXPECT_EQ(governed.governor.counters().faults.runaway, 1U);
 }
 
 TEST(GovernorLatches, NoHandThatRunsIntoAForceOrIsPushedBackByIt)

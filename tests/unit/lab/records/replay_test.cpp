@@ -3,6 +3,7 @@
 #include "lab/records/replay.hpp"
 
 #include "peer/core/sync/text.hpp"
+#include "proto/base/fields_json.hpp"
 #include "proto/record/codec.hpp"
 #include "tests/unit/lab/records/recorded_pair.hpp"
 
@@ -70,7 +71,7 @@ TEST(ReplayOfARecord, PutsEveryBodyWhereItWasAndNoticesOneThatWasNot)
     EXPECT_EQ(replayed->body_difference_max_m, 0.0);
     EXPECT_EQ(replayed->turn_difference_max_rad, 0.0);
     EXPECT_FALSE(replayed->differs_from);
-    const auto json = to_json(*replayed);
+    const auto json = base::json_of(*replayed);
     EXPECT_EQ(json["body_difference_max_mm"], 0.0);
     record.bodies[3 * 2000 + 1].position.value.x += 0.001;
     const auto other = replay(record, std::nullopt);
@@ -96,7 +97,7 @@ TEST(ReplayOfARecord, NoticesAMessageThatWasNotTheRecordedOne)
         const auto replayed = replay(other, std::nullopt);
         ASSERT_TRUE(replayed.has_value());
         EXPECT_EQ(replayed->differs_from, std::optional<std::uint64_t>{2000}) << lost;
-        EXPECT_EQ(to_json(*replayed)["reproduced"], false);
+        EXPECT_EQ(base::json_of(*replayed)["reproduced"], false);
     }
 }
 
@@ -310,7 +311,7 @@ TEST(ReplayOfADamagedRecord, PlaysWhatIsLeftOfOneThatIsCutOffAndSaysThatItIsCutO
     ASSERT_TRUE(replayed.has_value());
     EXPECT_FALSE(replayed->differs_from);
     EXPECT_FALSE(replayed->is_complete);
-    EXPECT_EQ(to_json(*replayed)["complete"], false);
+    EXPECT_EQ(base::json_of(*replayed)["complete"], false);
     EXPECT_NE(to_table(*replayed).find("stops before the session's end"), std::string::npos);
 
     record::TickRow end = record.ticks.back();

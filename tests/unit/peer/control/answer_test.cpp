@@ -83,6 +83,20 @@ TEST_F(TalkWithAPeer, ShowsAndGivesStatisticsAsTheyAre)
     EXPECT_EQ(ask({{"command", "stats"}}), expected);
 }
 
+TEST_F(TalkWithAPeer, TellsItsMetricsWithItsId)
+{
+    fake.statistics["tick"] = {{"count", 5}, {"late_us", {{"p99", 20.0}}}};
+    const auto reply = ask({{"command", "metrics"}});
+    EXPECT_EQ(reply["ok"], true);
+    ASSERT_EQ(reply["metrics"].size(), 2U) << reply;
+    EXPECT_EQ(reply["metrics"][0]["name"], "hapnet_peer_ticks_total");
+    EXPECT_EQ(reply["metrics"][0]["samples"],
+              (json::array({{{"labels", {{"peer", "7"}}}, {"value", 5.0}}})));
+    EXPECT_EQ(reply["metrics"][1]["name"], "hapnet_peer_tick_lateness_p99_seconds");
+    EXPECT_EQ(reply["metrics"][1]["samples"][0]["value"], 20e-6);
+    EXPECT_NE(refused({{"command", "metrics"}, {"of", "all"}}).find("\"of\""), std::string::npos);
+}
+
 TEST_F(TalkWithAPeer, StopsOnceAskedToAndAnswersFirst)
 {
     EXPECT_EQ(ask({{"command", "stop"}}), (json{{"ok", true}, {"stopping", true}}));
@@ -101,7 +115,7 @@ TEST_F(TalkWithAPeer, RefusesWhatWouldChangeItSayingWhatThereIs)
         const auto error = refused({{"command", command}, {"profile", ""}, {"settings", 1}});
         EXPECT_NE(error.find("cannot be changed"), std::string::npos) << error;
         EXPECT_NE(error.find(command), std::string::npos) << error;
-        EXPECT_NE(error.find("show, scene, stats, watch, wait, keep, stop or estop"),
+        EXPECT_NE(error.find("show, scene, stats, metrics, watch, wait, keep, stop or estop"),
                   std::string::npos)
             << error;
     }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "peer/control/answer.hpp"
+#include "peer/control/statistics.hpp"
+#include "proto/base/fields.hpp"
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -10,9 +12,19 @@
 
 namespace hapnet::peer {
 
+/// What of its statistics is described.
+struct FakeStatistics {
+    TickReport tick;
+};
+constexpr auto fields_of(base::Tag<FakeStatistics>)
+{
+    return base::fields("fake", base::member("tick", &FakeStatistics::tick));
+}
+
 /// A peer without a loop: only the part that clients see.
 struct FakePeerControl {
     nlohmann::ordered_json statistics{{"program", "hapnet-peer"},
+                                      {"peer_id", 7},
                                       {"tick", {{"count", 5}, {"late_us", {{"p99", nullptr}}}}},
                                       {"valid", true},
                                       {"elapsed_s", 2.5}};
@@ -26,6 +38,7 @@ struct FakePeerControl {
     control::Subject subject =
         subject_of({.show = [this] { return shown; },
                     .statistics = [this] { return statistics; },
+                    .statistics_fields = base::field_table<FakeStatistics>(),
                     .stop = [this] { ++stops; },
                     .stop_in_emergency = [this] { ++emergency_stops; },
                     .scene = [this] { return scene; },

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "proto/telemetry/decimator.hpp"
 
+#include "proto/base/fields_json.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -60,18 +62,15 @@ TEST(Decimator, KeepsTheExtremesOfItsRows)
         EXPECT_EQ(frame->late_us.max(), late);
         EXPECT_EQ(frame->late_us.count(), static_cast<std::uint64_t>(rows));
         EXPECT_EQ(frame->missed, missed);
-        EXPECT_EQ(frame->tick.tick, static_cast<std::uint64_t>(tick - 1));
+        EXPECT_EQ(frame->newest.row.tick, static_cast<std::uint64_t>(tick - 1));
     }
 }
 
-TEST(Frame, IsALineOfJson)
+TEST(Frame, IsToldByItsDescription)
 {
     Decimator few = decimator();
     few.take(row(7));
-    std::string text;
-    append_json(text, *few.next(3));
-    EXPECT_EQ(text.find('\n'), std::string::npos);
-    const auto json = nlohmann::json::parse(text);
+    const auto json = base::json_of(*few.next(3));
     EXPECT_EQ(json["frame"], 0);
     EXPECT_EQ(json["peer"], 1);
     EXPECT_EQ(json["tick"], 7);
