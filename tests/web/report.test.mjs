@@ -277,6 +277,8 @@ test("the page of a run of the emulator draws its figures, alone in another fold
     execFileSync(programBeside("hapnet-emulator"),
       ["report", join(folder, "run.json"), "--out", join(alone, "report.html")], { stdio: "pipe" });
     const run = await openReport(alone);
+    await run.waitForFunction(() => [...document.querySelectorAll("figure[data-figure]")]
+      .every((one) => one.querySelector(".plot > svg path, .plot > svg rect")), undefined, patience);
     const { names, drawn } = await run.evaluate(() => ({
       names: Object.keys(globalThis.hapnet.figures),
       drawn: [...document.querySelectorAll("figure[data-figure]")]
