@@ -38,8 +38,8 @@ Frames::Look Frames::look(AllPaths& paths)
     for (std::size_t i = 0; i < std::min(all.size(), paths_max); ++i) {
         SeenPath& one = look.paths.emplace_back(SeenPath{all[i]->name, {}});
         for (std::size_t way = 0; way < directions.size(); ++way) {
-            one.ways[way] = {all[i]->path->take_pulse(directions[way]),
-                             all[i]->path->link(directions[way]).statistics()};
+            const Counters& counters = all[i]->path->link(directions[way]).statistics();
+            one.ways[way] = {all[i]->path->take_pulse(directions[way]), counters};
         }
     }
     return look;

@@ -138,7 +138,9 @@ constexpr auto fields_of(base::Tag<Explanation>)
         base::computed<E>(
             "features",
             [](const E& one) {
-                return std::vector<FeatureReport>(one.needs.begin(), one.needs.end());
+                std::vector<FeatureReport> needs;
+                for (const scene::Requirement& need : one.needs) needs.push_back({need});
+                return needs;
             },
             "What the scene needs of a tick, and why."),
         base::computed<E>(

@@ -236,7 +236,7 @@ struct Kind<std::optional<T>> {
             },
         .at = [](void* value, std::size_t) -> void* { return &**static_cast<Maybe*>(value); },
         .clear = [](void* value) { static_cast<Maybe*>(value)->reset(); },
-        .add = [](void* value) -> void* { return &static_cast<Maybe*>(value)->emplace(); }};
+        .add = [](void* value) -> void* { return &static_cast<Maybe*>(value)->emplace(T{}); }};
 };
 
 /// What a pointer points to, if it does.
