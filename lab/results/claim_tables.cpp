@@ -217,15 +217,13 @@ private:
     }
     void add(std::string_view claim, const std::vector<Number>& numbers)
     {
-        quantiles_.add(
-            claim, joined(numbers, [](const Number& n) { return said(n, n.all, 0.9); }),
-            experiment_.seeds);
+        quantiles_.add(claim, joined(numbers, [](const Number& n) { return said(n, n.all, 0.9); }),
+                       experiment_.seeds);
         const auto is_empty = [](const Number& n) { return n.judging.empty(); };
-        const std::string_view verdict = std::ranges::any_of(numbers, is_empty) ? "undecided"
+        const std::string_view verdict = std::ranges::any_of(numbers, is_empty)  ? "undecided"
                                          : std::ranges::all_of(numbers, is_kept) ? "met"
                                                                                  : "missed";
-        claims_.add(claim,
-                    joined(numbers, [](const Number& n) { return said(n, n.judging, 1.0); }),
+        claims_.add(claim, joined(numbers, [](const Number& n) { return said(n, n.judging, 1.0); }),
                     joined(numbers, accepted), verdict);
     }
 

@@ -194,8 +194,7 @@ std::optional<double> order_of_figure(const std::string& reference,
     bool is_above = false, is_below = false;
     for (const ComparedFigure& one : by_value) {
         const auto step = measured(one.value);
-        const bool is_sure =
-            !one.interval || one.interval->low > 0.0 || one.interval->high < 0.0;
+        const bool is_sure = !one.interval || one.interval->low > 0.0 || one.interval->high < 0.0;
         if (one.value == reference || !is_sure || one.difference == 0.0) continue;
         if (!step || !finest || step->unit != finest->unit) return std::nullopt;
         is_above = is_above || one.difference > 0.0;
@@ -215,11 +214,10 @@ void add_rows(const experiment::Axis& axis, const Figure& reference,
         const auto low = one.interval ? std::optional{one.interval->low} : std::nullopt;
         const auto high = one.interval ? std::optional{one.interval->high} : std::nullopt;
         for (const std::uint32_t seeds : numbers_of_seeds(figure.seeds)) {
-            table.add(figure.algorithm, figure.task, figure.name, axis.key, one.value,
-                      *axis.reference, seeds, figure.ticks / figure.seeds * seeds, figure.found,
-                      one.difference, low, high,
-                      metrics::root_mean_square_error(figure.replicates(seeds), reference.found),
-                      order);
+            table.add(
+                figure.algorithm, figure.task, figure.name, axis.key, one.value, *axis.reference,
+                seeds, figure.ticks / figure.seeds * seeds, figure.found, one.difference, low, high,
+                metrics::root_mean_square_error(figure.replicates(seeds), reference.found), order);
         }
     }
 }

@@ -169,11 +169,10 @@ TEST(ClaimTables, CountAnUnusableSession)
     EXPECT_EQ(row.value, "97 %: 100 % usable; 90 of 100: 83.3 % usable");
     const Table table = claim_sessions_table(metrics::Criteria{}, sessions);
     EXPECT_EQ(table.rows.size(), sessions.sessions.size());
-    EXPECT_EQ(std::ranges::count_if(rows_of(table),
-                                    [](const TableRow& one) {
-                                        return one.text("tier") == "unusable";
-                                    }),
-              1);
+    EXPECT_EQ(
+        std::ranges::count_if(rows_of(table),
+                              [](const TableRow& one) { return one.text("tier") == "unusable"; }),
+        1);
 }
 
 } // namespace
