@@ -27,7 +27,8 @@ repository = Path(__file__).resolve().parents[3]
 
 # Which schema a file of a folder of results is of, by its name.
 of_files = [(r"(results|sessions|real_time)\.json", "tables"), (r"manifest\.json", "manifest"),
-            (r"analysis\.json", "analysis"), (r"emulator\.json", "emulator"), (r"peer-\d+\.json", "peer"), (r"plan\.json", "plan"),
+            (r"analysis\.json", "analysis"), (r"emulator\.json", "emulator"),
+            (r"peer-\d+\.json", "peer"), (r"plan\.json", "plan"),
             (r"(sessions|\d+-of-\d+)\.jsonl", "sessions"), (r"result\.json", "attempt"),
             (r"peer-\d+-events\.jsonl", "events")]
 
