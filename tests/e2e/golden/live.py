@@ -45,7 +45,7 @@ else:
 # Paths of JSON whose values are up to the machine, with the words for their kind.
 LOOSE = [
     (r"invalid_because$", "list of texts"), (r"invalid_because\[\]", "left out"),
-    (r"(^|\.)(boot_id|socket)$", "text"), (r"governor(\.state)?$", "text"),
+    (r"(^|\.)(boot_id|socket)$", "text"), (r"peers\[\]\.says$", "text"), (r"governor(\.state)?$", "text"),
     (r"(^|\.)events$", "list"), (r"events\[\]\.generation$", "left out"),
     (r"findings\[\]\.fix$", "null or text"), (r"findings\[\]\.\w+$", "text"),
     # Of a page: the length of the run in words, and whether the machine kept time.
@@ -89,8 +89,6 @@ def shaped(label, text, form="text", schema=None):
         shape = shape_of_json(*text.splitlines(), loose=LOOSE)
     elif form == "frames":
         shape = shape_of_json(*text.splitlines(), loose=LOOSE_FRAMES)
-    elif form == "page frames":  # which say the same again where nothing newer has come
-        shape = shape_of_json(*text.splitlines(), loose=LOOSE_FRAMES, decimals=False)
     elif form == "csv":
         shape = shape_of_csv(text)
     elif form == "metrics":
@@ -229,7 +227,7 @@ class LivePage(threading.Thread):
         self.join()
         # Other messages come when something happens, and are in /api/state as well.
         yield "session-web", shaped("message hello", self.texts["hello"][0], "frames")
-        yield "session-web", shaped("messages frame", "\n".join(self.texts["frame"]), "page frames")
+        yield "session-web", shaped("messages frame", "\n".join(self.texts["frame"]), "frames")
 
 
 def server(programs, repository, *arguments):

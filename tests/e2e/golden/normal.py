@@ -3,7 +3,7 @@
 """Turns what a program printed into text that is the same in every run.
 
 An output of virtual time is kept as it is (exact), without the host, the build and the wall time.
-An output of real time is reduced to its shape: keys, order, kinds, units, alignment and decimals.
+An output of real time is reduced to its shape: keys, order, kinds, units and alignment.
 """
 
 import csv
@@ -18,8 +18,6 @@ LINE_MAX = 1000
 HEAD_LINES = 6
 LINE_HEAD = 160
 TEXT_MAX = 100  # a longer text within JSON is kept as a head
-SAMPLES_MIN = 100  # values, and different ones, that show whether a format fixes the decimals
-DIFFERENT_MIN = 30
 
 # What names the build, the host or the wall time. The pattern is what stays, up to the value.
 MASKS = [(re.compile(pattern), replacement) for pattern, replacement in (
@@ -97,20 +95,15 @@ class Node:
         else:
             self.kinds.add("null" if value is None else "boolean")
 
-    def words(self, texts, decimals):
+    def words(self, texts):
         kinds = self.kinds - ({"integer"} if "number" in self.kinds else set())
-        return " or ".join(self.of_kind(kind, texts, decimals)
-                           for kind in sorted(kinds, key=lambda k: (k != "null", k)))
+        return " or ".join(self.of_kind(kind, texts) for kind in sorted(kinds, key=lambda k: (k != "null", k)))
 
-    def of_kind(self, kind, texts, decimals):
+    def of_kind(self, kind, texts):
         if kind == "text" and texts and len(self.texts) == 1:
             return json.dumps(next(iter(self.texts)), ensure_ascii=False)
         if kind == "list" and len(self.lengths) == 1 and max(self.lengths) <= 4:
             return f"list of {max(self.lengths)}"
-        counts = {decimals_of(number) for number in self.numbers}
-        is_known = decimals and self.count >= SAMPLES_MIN and len(self.numbers) >= DIFFERENT_MIN
-        if kind == "number" and is_known and len(counts) == 1:
-            return f"number with {counts.pop()} decimals"
         return kind
 
 
@@ -121,17 +114,12 @@ class Number(str):
         return self.lstrip("-").isdecimal()
 
 
-def decimals_of(number):
-    return len(number.partition(".")[2])
-
-
-def shape_of_json(*documents, loose=(), units=False, texts=True, decimals=True):
+def shape_of_json(*documents, loose=(), units=False, texts=True):
     """A line for each key, in the order of the first document that has it: its path, and the kinds
     of its values. loose: (pattern of a path, the words of its kind), where these are up to chance;
     "left out" where it is whether it is there at all.
     units: also the most decimals of the values of each unit; for shortest numbers of real time.
-    texts: a text that is the same everywhere stands for itself. decimals: their number, too, where
-    there are enough values to tell that it is fixed."""
+    texts: a text that is the same everywhere stands for itself."""
     nodes = {}
 
     def visit(path, value):
@@ -153,7 +141,7 @@ def shape_of_json(*documents, loose=(), units=False, texts=True, decimals=True):
         node = nodes[path]
         for below in node.children:
             is_optional = not below.endswith("[]") and nodes[below].count < node.objects
-            words = kind_of(below, loose) or nodes[below].words(texts, decimals)
+            words = kind_of(below, loose) or nodes[below].words(texts)
             if words != "object":
                 lines.append(f"{below}{'?' if is_optional else ''}: {words}")
             describe(below)
