@@ -45,7 +45,8 @@ else:
 # Paths of JSON whose values are up to the machine, with the words for their kind.
 LOOSE = [
     (r"invalid_because$", "list of texts"), (r"invalid_because\[\]", "left out"),
-    (r"(^|\.)(boot_id|socket)$", "text"), (r"peers\[\]\.says$", "text"), (r"governor(\.state)?$", "text"),
+    (r"(^|\.)(boot_id|socket)$", "text"), (r"peers\[\]\.says$", "text"),
+    (r"governor(\.state)?$", "text"),
     (r"(^|\.)events$", "list"), (r"events\[\]\.generation$", "left out"),
     (r"findings\[\]\.fix$", "null or text"), (r"findings\[\]\.\w+$", "text"),
     # Of a page: the length of the run in words, and whether the machine kept time.

@@ -75,11 +75,10 @@ class Node:
 
     def __init__(self):
         self.kinds, self.texts, self.lengths, self.numbers = set(), set(), set(), set()
-        self.count = self.objects = 0
+        self.objects = 0
         self.children = {}  # the paths below, in their order
 
     def add(self, value):
-        self.count += 1
         if isinstance(value, dict):
             self.kinds.add("object")
             self.objects += 1
@@ -97,7 +96,8 @@ class Node:
 
     def words(self, texts):
         kinds = self.kinds - ({"integer"} if "number" in self.kinds else set())
-        return " or ".join(self.of_kind(kind, texts) for kind in sorted(kinds, key=lambda k: (k != "null", k)))
+        ordered = sorted(kinds, key=lambda kind: (kind != "null", kind))
+        return " or ".join(self.of_kind(kind, texts) for kind in ordered)
 
     def of_kind(self, kind, texts):
         if kind == "text" and texts and len(self.texts) == 1:
