@@ -75,10 +75,11 @@ class Node:
 
     def __init__(self):
         self.kinds, self.texts, self.lengths, self.numbers = set(), set(), set(), set()
-        self.objects = 0
+        self.count = self.objects = 0
         self.children = {}  # the paths below, in their order
 
     def add(self, value):
+        self.count += 1
         if isinstance(value, dict):
             self.kinds.add("object")
             self.objects += 1
