@@ -16,7 +16,7 @@ namespace hapnet::emulator {
 
 // The frame of an emulator: docs/formats/live.md.
 
-/// How long datagrams were under way in the emulator.
+/// Times from arrival to departure.
 struct DelaySpread {
     base::Duration min{};
     base::Duration mean{};
@@ -29,7 +29,7 @@ constexpr auto fields_of(base::Tag<DelaySpread>)
                         base::member("max", &DelaySpread::max));
 }
 
-/// How late they left.
+/// Times sent minus times due.
 struct LateSpread {
     base::Duration mean{};
     base::Duration max{};
@@ -66,7 +66,7 @@ constexpr auto fields_of(base::Tag<WayFrame>)
                             .rounded(4),
                         base::computed<W>(
                             "late_us", [](const W& way) { return way.late(); },
-                            "Time sent minus time due, likewise.")
+                            "Time sent minus time due. null: nothing was delivered.")
                             .rounded(1));
 }
 

@@ -63,7 +63,7 @@ private:
     [[nodiscard]] static Look look(AllPaths& paths);
     /// Takes a look, and gives what has left the links to every watch.
     [[nodiscard]] Look share_out(AllPaths& paths, const control::DoWork& work);
-    /// What became of one direction since the last frame, which this one is now.
+    /// The figures of one direction since its last frame. The next ones count from here.
     [[nodiscard]] static WayFrame frame_of(Way& way, const Seen& seen);
     static void write(std::string& text, Watch& watch, const Look& look, std::uint64_t left_out);
 

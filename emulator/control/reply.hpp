@@ -33,7 +33,7 @@ namespace hapnet::emulator {
 /// The emulator's statistics with "generation" and "elapsed_s".
 [[nodiscard]] nlohmann::ordered_json statistics_of(Emulation& emulation);
 
-/// What Prometheus is told of a run: by the statistics, each link on its own.
+/// The metrics in the statistics of a run. Of several links each has its own.
 [[nodiscard]] output::Metrics metrics_of(nlohmann::ordered_json statistics);
 
 /// What becomes of a request.

@@ -303,13 +303,13 @@ constexpr auto fields_of(base::Tag<FilesReport>)
         base::member("profile", &F::profile,
                      "The whole profile of the start with its timeline, as TOML."),
         base::member("fates", &F::fates, "The file of `--fates`; null without the option."),
-        base::member("replay", &F::replay, "That of `--replay`, likewise."),
-        base::member("capture", &F::capture, "That of `--pcap`, likewise."),
+        base::member("replay", &F::replay, "The file of `--replay`; null without the option."),
+        base::member("capture", &F::capture, "The file of `--pcap`; null without the option."),
         base::member("fates_lost", &F::fates_lost,
                      "Datagrams missing in the file of `--fates`, because the disk was too slow or "
                      "full."),
         base::member("capture_lost", &F::capture_lost,
-                     "Packets missing in that of `--pcap`, likewise."));
+                     "Packets missing in the file of `--pcap`, for the same reasons."));
 }
 
 struct RunStatistics {
@@ -341,7 +341,7 @@ constexpr auto fields_of(base::Tag<RunStatistics>)
                      "The reasons as a list of texts, those of a direction or of files with `up:`, "
                      "`down:` or `files:` before them; empty when valid."),
         base::member("up", &S::up, "A to B, with the keys of the next tables.").label("direction"),
-        base::member("down", &S::down, "B to A, likewise.").label("direction"),
+        base::member("down", &S::down, "B to A, with the same keys.").label("direction"),
         base::member("links", &S::links,
                      "With `--link`: each link by its name. `up` and `down` of the run are then "
                      "their sums, without `lens`.")
