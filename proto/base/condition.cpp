@@ -67,7 +67,7 @@ std::string_view to_text(Comparison comparison)
     return {};
 }
 
-Result<Condition> parse_condition(std::string_view text)
+Result<Condition> parse_condition(std::string_view text, std::string_view example)
 {
     const auto at = text.find_first_of("<>=!");
     if (at != std::string_view::npos) {
@@ -80,9 +80,9 @@ Result<Condition> parse_condition(std::string_view text)
             return Condition{std::string{path}, comparison, *number};
         }
     }
-    return fail(fmt::format("'{}' is not a condition such as up.received>1000: a key of the "
-                            "statistics, one of < <= == != >= >, and a number, true or false",
-                            text));
+    return fail(fmt::format("'{}' is not a condition such as {}: a key, one of "
+                            "< <= == != >= >, and a number, true or false",
+                            text, example));
 }
 
 std::string to_text(const Condition& condition)

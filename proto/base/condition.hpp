@@ -23,7 +23,9 @@ struct Condition {
     friend bool operator==(const Condition&, const Condition&) = default;
 };
 
-[[nodiscard]] Result<Condition> parse_condition(std::string_view text);
+/// `example`: a condition of the kind that is asked for, for the error.
+[[nodiscard]] Result<Condition> parse_condition(std::string_view text,
+                                                std::string_view example = "up.received>1000");
 [[nodiscard]] std::string to_text(const Condition& condition);
 
 /// Whether a value meets the condition.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/base/csv.hpp"
 
+#include "proto/base/cells.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -10,63 +11,12 @@
 #include <cstdint>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 #include <variant>
 
 namespace hapnet::base {
 
 namespace {
-
-/// Takes one line off a text: up to the newline that is in no quotes. Without it in `line`.
-void take_line(std::string_view& text, std::string_view& line, std::size_t& line_breaks)
-{
-    bool is_quoted = false;
-    std::size_t end = 0;
-    line_breaks = 0;
-    for (; end < text.size(); ++end) {
-        if (text[end] == '"') is_quoted = !is_quoted;
-        if (text[end] != '\n') continue;
-        ++line_breaks;
-        if (!is_quoted) break;
-    }
-    line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-}
-
-/// Takes a cell off a line, and the comma behind it; nullopt: its quotes are not in order.
-std::optional<std::string> take_cell(std::string_view& line)
-{
-    std::string cell;
-    if (!line.starts_with('"')) {
-        const auto end = std::min(line.find(','), line.size());
-        cell = line.substr(0, end);
-        line.remove_prefix(end);
-        return cell;
-    }
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        if (line[i] != '"') {
-            cell += line[i];
-        } else if (i + 1 < line.size() && line[i + 1] == '"') {
-            cell += line[i++];
-        } else {
-            line.remove_prefix(i + 1);
-            return line.empty() || line.front() == ',' ? std::optional{cell} : std::nullopt;
-        }
-    }
-    return std::nullopt;
-}
-
-std::optional<std::vector<std::string>> split_cells(std::string_view line)
-{
-    std::vector<std::string> cells;
-    for (;;) {
-        auto cell = take_cell(line);
-        if (!cell) return std::nullopt;
-        cells.push_back(*std::move(cell));
-        if (line.empty()) return cells;
-        line.remove_prefix(1);
-    }
-}
 
 tl::unexpected<Error> fail_at(const std::string& path, std::size_t line, const std::string& what)
 {
@@ -188,22 +138,23 @@ std::string line_of(std::span<const FieldRow* const> columns, const void* value)
 Result<CsvTable> parse_csv(std::string_view text, const std::string& path)
 {
     CsvTable table{path, {}, {}};
-    std::size_t number = 1, line_breaks = 0;
-    for (std::string_view line; !text.empty(); number += line_breaks) {
-        take_line(text, line, line_breaks);
-        if (line.empty() && text.empty()) break;
-        auto cells = split_cells(line);
-        if (!cells) return fail_at(path, number, "a quote is open or stands inside a cell");
+    Cells cells{{}};
+    for (std::size_t number = 1; !text.empty(); number += cells.lines()) {
+        if (text == "\n" || text == "\r\n" || text == "\r") break;
+        if (!cells.take_line(text)) {
+            return fail_at(path, number, "a quote is open or stands inside a cell");
+        }
+        std::vector<std::string> line{cells.all().begin(), cells.all().end()};
         if (table.columns.empty()) {
-            table.columns = *std::move(cells);
+            table.columns = std::move(line);
             continue;
         }
-        if (cells->size() != table.columns.size()) {
+        if (line.size() != table.columns.size()) {
             return fail_at(path, number,
                            fmt::format("expected {} cells as in the header, found {}",
-                                       table.columns.size(), cells->size()));
+                                       table.columns.size(), line.size()));
         }
-        table.lines.push_back({number, *std::move(cells)});
+        table.lines.push_back({number, std::move(line)});
     }
     if (table.columns.empty()) return fail_at(path, 1, "expected a header line");
     return table;

@@ -5,6 +5,7 @@
 #include "proto/base/ensure.hpp"
 #include "proto/base/text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
@@ -14,6 +15,30 @@ namespace hapnet::base {
 
 namespace {
 
+/// The table to write where a struct is missing: `write [limit.delay] with to, step, resolution`.
+std::string cure_of_missing_table(const FieldRow& row)
+{
+    std::string name{row.key};
+    const FieldTable* table = &row.kind->plain().table();
+    const auto inner_of = [](const FieldTable& of) -> const FieldRow* {
+        const auto is_table = [](const FieldRow& one) {
+            return one.kind->plain().shape == ValueKind::Shape::record;
+        };
+        const bool are_tables = !of.rows.empty() && std::ranges::all_of(of.rows, is_table);
+        return are_tables ? &of.rows.front() : nullptr;
+    };
+    while (const FieldRow* inner = inner_of(*table)) {
+        name += fmt::format(".{}", inner->key);
+        table = &inner->kind->plain().table();
+    }
+    std::vector<std::string_view> required;
+    for (const FieldRow& one : table->rows) {
+        if (one.is_required) required.push_back(one.key);
+    }
+    if (required.empty()) return fmt::format("write a table [{}]", name);
+    return fmt::format("write [{}] with {}", name, fmt::join(required, ", "));
+}
+
 /// What to write into a field that is missing: `write sd = "10ms"`, or the names to choose from.
 std::string cure_of_missing(const FieldRow& row)
 {
@@ -21,6 +46,7 @@ std::string cure_of_missing(const FieldRow& row)
     if (plain.shape == ValueKind::Shape::choice) {
         return fmt::format("use one of {}", fmt::join(plain.names, ", "));
     }
+    if (plain.shape == ValueKind::Shape::record) return cure_of_missing_table(row);
     const std::string example = row.written->example(row.format);
     if (!example.empty()) return fmt::format("write {} = {}", row.key, example);
     return fmt::format("expected {}", row.written->describe(row.format));

@@ -20,6 +20,11 @@ std::size_t DurationHistogram::bin_of(std::uint64_t nanoseconds)
     return static_cast<std::size_t>(std::min<std::uint64_t>(bin, bins - 1));
 }
 
+std::uint64_t DurationHistogram::lower_edge(std::size_t bin)
+{
+    return bin == 0 ? 0 : upper_edge(bin - 1) + 1;
+}
+
 std::uint64_t DurationHistogram::upper_edge(std::size_t bin)
 {
     constexpr std::size_t per_octave = 1U << sub_bits;
@@ -33,37 +38,37 @@ void DurationHistogram::add(Duration duration)
 {
     const auto nanoseconds =
         static_cast<std::uint64_t>(std::max<Duration::rep>(0, duration.count()));
-    const std::size_t bin = bin_of(nanoseconds);
-    ++counts_[bin];
+    ++counts_[bin_of(nanoseconds)];
     ++count_;
+    min_ = std::min(min_, nanoseconds);
     max_ = std::max(max_, nanoseconds);
-    first_ = std::min(first_, bin);
 }
 
 void DurationHistogram::assign(const DurationHistogram& other)
 {
     if (this == &other) return;
     const auto own = std::span{counts_};
-    std::ranges::fill(own.subspan(first_, end_bin() - first_), 0);
-    const auto filled =
-        std::span{other.counts_}.subspan(other.first_, other.end_bin() - other.first_);
-    std::ranges::copy(filled, own.subspan(other.first_).begin());
+    std::ranges::fill(own.subspan(first_bin(), end_bin() - first_bin()), 0);
+    const std::size_t first = other.first_bin();
+    const auto filled = std::span{other.counts_}.subspan(first, other.end_bin() - first);
+    std::ranges::copy(filled, own.subspan(first).begin());
     count_ = other.count_;
+    min_ = other.min_;
     max_ = other.max_;
-    first_ = other.first_;
 }
 
 std::size_t DurationHistogram::filled_bytes() const
 {
-    return (end_bin() - first_) * sizeof counts_.front();
+    return (end_bin() - first_bin()) * sizeof counts_.front();
 }
 
 void DurationHistogram::add(const DurationHistogram& other)
 {
-    for (std::size_t i = other.first_; i < other.end_bin(); ++i) counts_[i] += other.counts_[i];
+    for (std::size_t i = other.first_bin(); i < other.end_bin(); ++i)
+        counts_[i] += other.counts_[i];
     count_ += other.count_;
+    min_ = std::min(min_, other.min_);
     max_ = std::max(max_, other.max_);
-    first_ = std::min(first_, other.first_);
 }
 
 std::uint64_t DurationHistogram::rank_of(double q) const
@@ -72,28 +77,40 @@ std::uint64_t DurationHistogram::rank_of(double q) const
         1, static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))));
 }
 
+Duration DurationHistogram::value_of(std::uint64_t rank, std::size_t bin, std::uint64_t below) const
+{
+    const auto duration = [](std::uint64_t nanoseconds) {
+        return Duration{static_cast<Duration::rep>(nanoseconds)};
+    };
+    if (rank <= 1) return duration(min_);
+    if (rank >= count_) return duration(max_);
+    const std::uint64_t low = std::max(lower_edge(bin), min_);
+    const std::uint64_t high = std::min(upper_edge(bin), max_);
+    const double place = static_cast<double>(rank - below) - 0.5; // in the middle of its share
+    const double share = place / static_cast<double>(counts_[bin]);
+    return duration(low + static_cast<std::uint64_t>(share * static_cast<double>(high - low)));
+}
+
 std::optional<Duration> DurationHistogram::quantile(double q) const
 {
     ensure(q > 0.0 && q <= 1.0);
     if (count_ == 0) return std::nullopt;
     const auto wanted = rank_of(q);
-    std::uint64_t seen = 0;
-    for (std::size_t bin = first_; bin < bins; ++bin) {
-        seen += counts_[bin];
-        if (seen >= wanted) return value_of(bin);
-    }
-    return max();
+    std::size_t bin = first_bin();
+    std::uint64_t below = 0;
+    for (; bin + 1 < bins && below + counts_[bin] < wanted; ++bin) below += counts_[bin];
+    return value_of(wanted, bin, below);
 }
 
 std::optional<Quantiles> DurationHistogram::quantiles() const
 {
     if (count_ == 0) return std::nullopt;
-    std::size_t bin = first_;
-    std::uint64_t seen = counts_[bin];
+    std::size_t bin = first_bin();
+    std::uint64_t below = 0;
     const auto next = [&](double q) { // not below the one before
         const auto wanted = rank_of(q);
-        while (seen < wanted && bin + 1 < bins) seen += counts_[++bin];
-        return value_of(bin);
+        for (; bin + 1 < bins && below + counts_[bin] < wanted; ++bin) below += counts_[bin];
+        return value_of(wanted, bin, below);
     };
     const auto p50 = next(0.5), p90 = next(0.9), p99 = next(0.99), p999 = next(0.999);
     return Quantiles{p50, p90, p99, p999, *max()};
@@ -107,10 +124,15 @@ std::vector<DurationHistogram::Bin> DurationHistogram::filled_bins() const
     };
     for (std::size_t bin = 0; bin < bins; ++bin) {
         if (counts_[bin] == 0) continue;
-        const auto low = bin == 0 ? 0 : upper_edge(bin - 1) + 1;
-        filled.push_back({edge(low), edge(upper_edge(bin) + 1), counts_[bin]});
+        filled.push_back({edge(lower_edge(bin)), edge(upper_edge(bin) + 1), counts_[bin]});
     }
     return filled;
+}
+
+std::optional<Duration> DurationHistogram::min() const
+{
+    if (count_ == 0) return std::nullopt;
+    return Duration{static_cast<Duration::rep>(min_)};
 }
 
 std::optional<Duration> DurationHistogram::max() const
@@ -121,13 +143,20 @@ std::optional<Duration> DurationHistogram::max() const
 
 std::uint64_t DurationHistogram::count_above(Duration limit) const
 {
-    if (limit < Duration{0}) return count_;
-    const auto most = static_cast<std::uint64_t>(limit.count());
-    std::uint64_t above = 0;
-    for (std::size_t bin = 0; bin < bins; ++bin) {
-        if (std::min(upper_edge(bin), max_) > most) above += counts_[bin];
+    std::uint64_t below = 0; // all that are in the bins before
+    for (std::size_t bin = first_bin(); bin < end_bin(); ++bin) {
+        const std::uint64_t last = below + counts_[bin];
+        if (last > below && value_of(last, bin, below) > limit) {
+            std::uint64_t within = below; // the last rank that is not above the limit
+            for (std::uint64_t step = counts_[bin]; step > 0; step /= 2) {
+                while (within + step < last && value_of(within + step, bin, below) <= limit)
+                    within += step;
+            }
+            return count_ - within;
+        }
+        below = last;
     }
-    return above;
+    return 0;
 }
 
 } // namespace hapnet::base

@@ -10,6 +10,9 @@
 #include <cmath>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace hapnet::base {
 
@@ -106,6 +109,25 @@ std::string text_of(const Decimal& decimal)
     return fmt::format("{}{}.{}", sign, digits.substr(0, whole), digits.substr(whole));
 }
 
+/// A number with each unit of the examples, once: "40N/m or 40N/mm".
+std::string with_units(std::string_view number, const QuantityKind& kind)
+{
+    std::vector<std::string> cures;
+    std::string_view rest = kind.examples;
+    while (!rest.empty()) {
+        const auto end = std::min(rest.find_first_of(", "), rest.size());
+        const auto example = written_in(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        if (!example || example->digits.empty()) continue; // "or"
+        std::string cure = fmt::format("{}{}", number, example->unit);
+        if (std::ranges::find(cures, cure) == cures.end()) cures.push_back(std::move(cure));
+    }
+    if (cures.size() == 1) return cures.front();
+    const std::string last = std::exchange(cures.back(), {});
+    cures.pop_back();
+    return fmt::format("{} or {}", fmt::join(cures, ", "), last);
+}
+
 } // namespace
 
 Result<double> parse_quantity(std::string_view text, const QuantityKind& kind)
@@ -123,6 +145,9 @@ Result<double> parse_quantity(std::string_view text, const QuantityKind& kind)
     const std::string joined = without_spaces(text);
     if (joined.size() != text.size() && parse_quantity(joined, kind)) {
         return fail(fmt::format("'{}' has a space: write {}", text, joined));
+    }
+    if (written && written->unit.empty() && shifted(written->digits, 0)) {
+        return fail(fmt::format("'{}' has no unit: write {}", text, with_units(text, kind)));
     }
     return fail(fmt::format("'{}' is not {}: write a number and its unit, such as {}", text,
                             kind.name, kind.examples));

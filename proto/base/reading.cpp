@@ -15,19 +15,21 @@ namespace hapnet::base {
 
 namespace {
 
-/// How many letters have to be changed, added or left out to make one word of the other
-/// (Levenshtein, 1966).
+/// The least number of changes that make one word of the other: a letter changed, added or left
+/// out, or two neighbours swapped (Damerau and Levenshtein; each letter takes part in one change).
 std::size_t distance(std::string_view a, std::string_view b)
 {
-    std::vector<std::size_t> row(b.size() + 1);
+    std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        before_last.swap(last);
+        last.swap(row);
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({replaced, row[j - 1] + 1, last[j] + 1});
+            const bool is_swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (is_swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
         }
     }
     return row.back();
@@ -151,8 +153,9 @@ void TableReader::finish() const
 {
     for (const Entry& entry : table_) {
         if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-        const auto what =
-            fmt::format("unknown key {}: {}", in_quotes(entry.key), suggestion(entry.key, known_));
+        const std::string advice = reading_.advice_on(entry.key);
+        const auto what = fmt::format("unknown key {}: {}", in_quotes(entry.key),
+                                      advice.empty() ? suggestion(entry.key, known_) : advice);
         // The key that is missing is probably this one, mistyped.
         if (is_missing_told_) return reading_.complain_rather(entry.place, what);
         return reading_.complain(entry.place, what);

@@ -55,6 +55,10 @@ private:
 /// value: `40`, `true`.
 [[nodiscard]] tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_bare);
 
+/// What to write instead of a key that its table does not have, for a text of one kind: "write it
+/// below [both], [up] or [down]". Empty: no better advice than the keys of the table.
+using AdviseOnKey = std::function<std::string(std::string_view key)>;
+
 /// The reading of one text: keeps the first complaint about it.
 class Reading {
 public:
@@ -70,6 +74,13 @@ public:
     [[nodiscard]] bool is_good() const { return !complaint_; }
     [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
 
+    /// Gives all tables of this text advice on the keys that they do not have.
+    void advise_on_keys(AdviseOnKey advise) { advise_ = std::move(advise); }
+    [[nodiscard]] std::string advice_on(std::string_view key) const
+    {
+        return advise_ ? advise_(key) : std::string{};
+    }
+
     [[nodiscard]] Result<std::string> open(const std::string& name) const;
     /// What is wrong in a file that was opened: "FILE: line 3: ..."; only the line, if the file is
     /// not to be quoted. `what` begins with the line, if there is one to name.
@@ -78,6 +89,7 @@ public:
 private:
     std::string source_;
     OpenFile open_;
+    AdviseOnKey advise_;
     bool has_lines_;
     std::optional<std::string> complaint_;
 };

@@ -183,7 +183,9 @@ Result<Duration> parse_duration(std::string_view text)
     const bool is_word = std::all_of(unit_name.begin(), unit_name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     });
-    if (!is_word || unit_name.empty()) return expected();
+    if (unit_name.empty())
+        return fail(fmt::format("'{0}' has no unit: write {0}ms, {0}us or {0}s", text));
+    if (!is_word) return expected();
     return fail(fmt::format("'{}' is not a duration: '{}' is not a unit of time: use ns, us, ms, "
                             "s, min or h",
                             text, unit_name));

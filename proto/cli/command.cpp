@@ -203,6 +203,7 @@ private:
             }
             return nullptr;
         });
+        is_rest_first_ = is_rest_first_ || (argument == nullptr && unknown_.empty());
         (argument == nullptr ? rest_ : found_[argument]).push_back(word);
     }
 
@@ -219,6 +220,13 @@ private:
     [[nodiscard]] base::Result<void> nothing_left() const
     {
         const bool is_command_missing = program_.needs_command() && chosen_ == nullptr;
+        // The words of a command to run, in the place of the options.
+        if (is_rest_first_ && chosen().usage_end().starts_with("-- ")) {
+            return base::fail(
+                fmt::format("'{}' is not an option: put -- before the command that is "
+                            "to run: {}",
+                            rest_.front(), usage(chosen())));
+        }
         if (!unknown_.empty()) return base::fail(unknown_option(chosen(), unknown_.front()));
         for (const std::string& word : rest_) {
             if (auto split = split_value(word)) return base::fail(*std::move(split));
@@ -317,8 +325,9 @@ private:
     std::size_t next_ = 0;      // of these, to be sorted
     Command* chosen_ = nullptr; // nullptr: the program itself
     std::map<const Option*, Words> found_;
-    Words unknown_; // options that there are none of
-    Words rest_;    // that nothing takes
+    Words unknown_;              // options that there are none of
+    Words rest_;                 // that nothing takes
+    bool is_rest_first_ = false; // before any unknown option
 };
 
 Command::Command(std::string name, std::string summary)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/cli/parsers.hpp"
 
+#include "proto/base/reading.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
@@ -37,8 +38,9 @@ Parser<std::string> one_of(std::vector<std::string> words)
             return small(one) == small(text);
         });
         if (word != words.end()) return *word;
+        const std::vector<std::string_view> names{words.begin(), words.end()};
         return base::fail(
-            fmt::format("unknown value '{}': use one of {}", text, fmt::join(words, ", ")));
+            fmt::format("unknown value '{}': {}", text, base::suggestion(small(text), names)));
     };
 }
 

@@ -21,6 +21,8 @@ struct Synonym {
     std::string_view meant;
 };
 
+constexpr std::string_view normal_jitter = R"(--jitter '{ law = "normal", sd = "3ms" }')";
+
 constexpr std::array synonyms{
     // tc-netem, tcconfig, pumba
     Synonym{"bandwidth", "--rate"},
@@ -35,7 +37,9 @@ constexpr std::array synonyms{
     Synonym{"ping", "--delay"},
     Synonym{"delay-distro", "--jitter"},
     Synonym{"distribution", "--jitter"},
-    Synonym{"correlation", "--jitter"},
+    Synonym{"correlation", "--correlation-time"},
+    Synonym{"sd", normal_jitter},
+    Synonym{"stddev", normal_jitter},
     Synonym{"variation", "--jitter"},
     Synonym{"delay-variation", "--jitter"},
     Synonym{"packet-loss", "--loss"},
@@ -255,7 +259,8 @@ std::string proposed(const std::array<Synonym, size>& table, std::string_view wo
 {
     for (const auto& [typed, meant] : table) {
         const bool is_of_program = meant.starts_with(program.name() + " ");
-        const bool is_option = std::find(options.begin(), options.end(), meant) != options.end();
+        const auto option = meant.substr(0, meant.find(' ')); // without an example of its value
+        const bool is_option = std::find(options.begin(), options.end(), option) != options.end();
         if (typed == word && (is_of_program || is_option)) return std::string{meant};
     }
     return "";

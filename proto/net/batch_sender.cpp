@@ -78,6 +78,14 @@ void put_marks(ControlWriter& control, base::IpMarks marks, bool as_v4)
                 int{marks.hop_limit});
 }
 
+/// Whether a call that has just failed may have failed for the answer to an earlier datagram, which
+/// is taken then. Answers may come as fast as datagrams are sent.
+bool may_try_again(int descriptor, ErrorQueue* answers, int trial)
+{
+    constexpr int trials_max = 4;
+    return answers != nullptr && trial < trials_max && answers->drain(descriptor);
+}
+
 /// What msghdr wants of what it only reads when it sends.
 template <typename T>
 T* writable(const T* read_only)
@@ -87,13 +95,21 @@ T* writable(const T* read_only)
 
 } // namespace
 
-SendOutcome send_one(int descriptor, const Endpoint& to, std::span<const std::byte> bytes)
+SendOutcome send_one(int descriptor, const Endpoint& to, std::span<const std::byte> bytes,
+                     ErrorQueue* answers)
 {
-    const auto sent = sendto(descriptor, bytes.data(), bytes.size(), 0, to.address(), to.length());
-    return sent >= 0 ? SendOutcome::sent : outcome_of(errno);
+    for (int trial = 1;; ++trial) {
+        const auto sent =
+            sendto(descriptor, bytes.data(), bytes.size(), 0, to.address(), to.length());
+        if (sent >= 0) return SendOutcome::sent;
+        const int error = errno;
+        if (!may_try_again(descriptor, answers, trial)) return outcome_of(error);
+    }
 }
 
-BatchSender::BatchSender(base::IpMarks usual) : usual_{usual} {}
+BatchSender::BatchSender(base::IpMarks usual, ErrorQueue* answers)
+    : usual_{usual}, answers_{answers}
+{}
 
 std::span<const SendOutcome>
 BatchSender::send(int descriptor, const Endpoint& to,
@@ -105,7 +121,7 @@ BatchSender::send(int descriptor, const Endpoint& to,
     const auto is_usual = [this](base::IpMarks one) { return one == usual_; };
     if (std::ranges::all_of(marks, is_usual)) marks = {}; // what costs least
     if (datagrams.size() == 1 && marks.empty()) {
-        outcomes_[0] = send_one(descriptor, to, datagrams[0]);
+        outcomes_[0] = send_one(descriptor, to, datagrams[0], answers_);
         return {outcomes_.data(), 1};
     }
     std::size_t messages = 0;
@@ -121,14 +137,21 @@ BatchSender::send(int descriptor, const Endpoint& to,
                       marks.empty() ? std::nullopt : std::optional{marks[first]});
         first += train.count;
     }
+    int trial = 1;
     for (std::size_t next = 0; next < messages;) {
         const int sent =
             sendmmsg(descriptor, &headers_[next], static_cast<unsigned int>(messages - next), 0);
         if (sent <= 0) {
-            on_error(descriptor, trains_[next], next);
+            const int error = errno;
+            if (may_try_again(descriptor, answers_, trial++)) continue;
+            on_error(descriptor, trains_[next], {next, error});
             ++next;
+            trial = 1;
             continue;
         }
+        trial = 1;
+        const bool is_part = static_cast<std::size_t>(sent) < messages - next;
+        if (is_part && answers_ != nullptr) answers_->suspect();
         for (const auto end = next + static_cast<std::size_t>(sent); next < end; ++next) {
             std::fill_n(outcomes_.begin() + static_cast<std::ptrdiff_t>(trains_[next].first),
                         trains_[next].count, SendOutcome::sent);
@@ -175,9 +198,9 @@ void BatchSender::write_message(std::size_t index, const Train& train, const End
     header.msg_controllen = control.used();
 }
 
-void BatchSender::on_error(int descriptor, const Train& train, std::size_t index)
+void BatchSender::on_error(int descriptor, const Train& train, const Failure& failure)
 {
-    const int error = errno;
+    const auto [index, error] = failure;
     const bool is_uncut = train.count > 1 && is_refusal(error);
     if (is_uncut) refused_bytes_ = std::min(refused_bytes_, vectors_[train.first].iov_len);
     msghdr one = headers_[index].msg_hdr;

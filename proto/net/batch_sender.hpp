@@ -4,6 +4,7 @@
 
 #include "proto/base/ip_marks.hpp"
 #include "proto/net/endpoint.hpp"
+#include "proto/net/error_queue.hpp"
 
 #include <array>
 #include <cstddef>
@@ -18,9 +19,10 @@ namespace hapnet::net {
 
 enum class SendOutcome : std::uint8_t { sent, buffer_full, no_route, too_big, refused, failed };
 
-/// Sends one datagram. Never blocks.
+/// Sends one datagram. Never blocks. `answers`: those to what the socket sent before, for which a
+/// call may fail; null: the socket does not keep them.
 [[nodiscard]] SendOutcome send_one(int descriptor, const Endpoint& to,
-                                   std::span<const std::byte> bytes);
+                                   std::span<const std::byte> bytes, ErrorQueue* answers = nullptr);
 
 /// Sends many datagrams to one place with few system calls. Neighbours of one size (the last may
 /// be shorter) are handed to the kernel as one message that it cuts again (UDP_SEGMENT): that is
@@ -30,8 +32,9 @@ class BatchSender {
 public:
     static constexpr std::size_t batch_max = 64; // datagrams per send(); segments per message
 
-    /// `usual`: the marks that the socket gives to what is sent without any.
-    explicit BatchSender(base::IpMarks usual = {});
+    /// `usual`: the marks that the socket gives to what is sent without any. `answers`: see
+    /// send_one().
+    explicit BatchSender(base::IpMarks usual = {}, ErrorQueue* answers = nullptr);
 
     /// What became of each, in their order; valid until the next send(). Ensures that there are at
     /// most batch_max. Never blocks. `marks`: those of each datagram, or empty: the socket's own.
@@ -55,12 +58,18 @@ private:
                                            std::span<const base::IpMarks> marks) const;
     void write_message(std::size_t index, const Train& train, const Endpoint& to,
                        std::optional<base::IpMarks> marks);
-    void on_error(int descriptor, const Train& train, std::size_t index);
+    /// The message that was not sent, and why.
+    struct Failure {
+        std::size_t index = 0;
+        int error = 0;
+    };
+    void on_error(int descriptor, const Train& train, const Failure& failure);
 
     /// The kernel refused to cut segments of this size (the device's MTU is smaller, or it cannot
     /// do it at all): those and larger ones leave one by one from then on.
     std::size_t refused_bytes_ = 65'536;
     base::IpMarks usual_;
+    ErrorQueue* answers_;
     std::array<iovec, batch_max> vectors_{};
     std::array<Train, batch_max> trains_{};
     std::array<mmsghdr, batch_max> headers_{};

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/endpoint.hpp"
 
+#include "proto/net/cure.hpp"
+
 #include "proto/base/ensure.hpp"
 #include "proto/base/text.hpp"
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <array>
 #include <cerrno>
@@ -193,6 +196,11 @@ base::Result<HostPort> parse_host_port(std::string_view text)
     } else if (host.find(':') != std::string_view::npos) {
         return base::fail(fmt::format("'{}': write an IPv6 address as [::1]:7001", text));
     }
+    if (host == "*") {
+        return base::fail(fmt::format("'{0}': write 0.0.0.0:{1} or [::]:{1} for all addresses of "
+                                      "this machine",
+                                      text, text.substr(colon + 1)));
+    }
     const auto port = base::parse_count(text.substr(colon + 1), 65535);
     if (!port) return base::fail(fmt::format("'{}': the port {}", text, port.error().message));
     return HostPort{std::string{host}, static_cast<std::uint16_t>(*port)};
@@ -206,7 +214,7 @@ base::Result<HostPort> parse_listen_address(std::string_view text)
     return parse_host_port(is_port ? fmt::format("127.0.0.1:{}", digits) : std::string{text});
 }
 
-Endpoint resolve(const HostPort& where, int family)
+std::vector<Endpoint> resolve_all(const HostPort& where, int family)
 {
     addrinfo hints{};
     hints.ai_family = family;
@@ -221,12 +229,20 @@ Endpoint resolve(const HostPort& where, int family)
         throw std::system_error{code, name_lookup(),
                                 fmt::format("cannot look up {}'{}'", kind, where.host)};
     }
-    sockaddr_storage address{};
-    std::memcpy(&address, found->ai_addr, found->ai_addrlen);
-    const socklen_t length = found->ai_addrlen;
+    std::vector<Endpoint> all;
+    for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
+        if (one->ai_family != AF_INET && one->ai_family != AF_INET6) continue;
+        sockaddr_storage address{};
+        std::memcpy(&address, one->ai_addr, one->ai_addrlen);
+        const Endpoint endpoint{address, one->ai_addrlen};
+        if (std::ranges::find(all, endpoint) == all.end()) all.push_back(endpoint);
+    }
     freeaddrinfo(found);
-    return Endpoint{address, length};
+    base::ensure(!all.empty());
+    return all;
 }
+
+Endpoint resolve(const HostPort& where, int family) { return resolve_all(where, family).front(); }
 
 namespace {
 
@@ -241,7 +257,7 @@ void require_route_from(const std::optional<Endpoint>& listen, const Endpoint& r
     close(descriptor);
     if (outcome == 0) return;
     const std::string from = listen ? fmt::format(" from {}", listen->to_text()) : std::string{};
-    throw std::system_error{error, std::generic_category(),
+    throw std::system_error{error, errors_of(AddressUse::reach),
                             fmt::format("cannot reach {}{}", remote.to_text(), from)};
 }
 

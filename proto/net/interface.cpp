@@ -21,6 +21,7 @@
 #include <sys/socket.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace hapnet::net {
 
@@ -231,6 +232,24 @@ void add_address(const std::string& interface, const std::string& address, std::
     request.attribute(IFA_LOCAL, ip.used());
     request.attribute(IFA_ADDRESS, ip.used());
     require(request.ask(), fmt::format("cannot give {} the address {}", interface, address));
+}
+
+void add_group_routes(const std::string& interface)
+{
+    for (const auto& [address, bits] : {std::pair{"224.0.0.0", 4}, {"255.255.255.255", 32}}) {
+        const auto ip = ip_bytes_of(address);
+        rtmsg message{};
+        message.rtm_family = AF_INET;
+        message.rtm_dst_len = static_cast<unsigned char>(bits);
+        message.rtm_table = RT_TABLE_MAIN;
+        message.rtm_protocol = RTPROT_STATIC;
+        message.rtm_scope = RT_SCOPE_LINK;
+        message.rtm_type = RTN_UNICAST;
+        NetlinkRequest request{RTM_NEWROUTE, NLM_F_CREATE | NLM_F_EXCL, message};
+        request.attribute(RTA_DST, ip.used());
+        request.attribute(RTA_OIF, static_cast<std::uint32_t>(index_of(interface)));
+        require(request.ask(), fmt::format("cannot route {}/{} by {}", address, bits, interface));
+    }
 }
 
 void add_default_route(const std::string& interface, const std::string& router)

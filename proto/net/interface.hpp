@@ -26,6 +26,10 @@ void set_up(const std::string& interface);
 /// whether it has the address.
 void add_address(const std::string& interface, const std::string& address, std::uint8_t bits);
 
+/// Sends what is for a group of IPv4 (multicast), or for all hosts (255.255.255.255), by this
+/// interface.
+void add_group_routes(const std::string& interface);
+
 /// Sends what is for no known network to this router.
 void add_default_route(const std::string& interface, const std::string& router);
 

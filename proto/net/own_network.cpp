@@ -132,11 +132,12 @@ void enter_own_network()
 void open_command_network()
 {
     if (unshare(CLONE_NEWNET) != 0) deny_network(errno, "cannot make a network namespace");
-    // Addresses are usable at once, and ping works without a capability.
+    // Addresses are usable at once. Ping and the ports below 1024 need no capability.
     write_to("/proc/sys/net/ipv6/conf/default/accept_dad", "0");
     write_to("/proc/sys/net/ipv6/conf/all/accept_dad", "0");
     const auto group = std::to_string(getegid());
     write_to("/proc/sys/net/ipv4/ping_group_range", group + " " + group);
+    write_to("/proc/sys/net/ipv4/ip_unprivileged_port_start", "0");
 }
 
 bool has_listener(pid_t process)

@@ -17,7 +17,7 @@ namespace hapnet::net {
 void enter_own_network();
 
 /// Moves the process into one more network namespace, that of a command: its addresses are usable
-/// at once, and ping works there without a capability. Throws std::system_error.
+/// at once, and ping and the ports below 1024 need no capability there. Throws std::system_error.
 void open_command_network();
 
 /// True if a TCP socket listens, or a UDP socket is bound, in the network of that process. False,

@@ -55,23 +55,38 @@ int given_lifeline()
     return number ? static_cast<int>(*number) : -1;
 }
 
-/// From now on the kernel sends SIGTERM when the lifeline hangs up. Its descriptor stays open for
-/// as long as the process lives, and no command that this one runs inherits it.
-void hold_lifeline()
+bool has_hung_up(int descriptor)
+{
+    pollfd polled{descriptor, 0, 0};
+    return poll(&polled, 1, 0) > 0 && (polled.revents & POLLHUP) != 0;
+}
+
+/// From now on the kernel sends SIGTERM when the lifeline hangs up. Its descriptor, which is
+/// returned, stays open for as long as the process lives, and no command that this one runs
+/// inherits it. -1: there is none.
+int hold_lifeline()
 {
     const int given = given_lifeline();
-    if (given < 0) return;
+    if (given < 0) return -1;
     // A file description of its own: it has one owner, and others may hold the same lifeline.
     int own =
         open(fmt::format("/proc/self/fd/{}", given).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (own < 0) own = fcntl(given, F_DUPFD_CLOEXEC, 0);
-    if (own < 0) return; // no descriptor at all
+    if (own < 0) return -1; // no descriptor at all
     close(given);
     fcntl(own, F_SETOWN, getpid());
     fcntl(own, F_SETSIG, SIGTERM);
     fcntl(own, F_SETFL, O_NONBLOCK | O_ASYNC);
-    pollfd polled{own, 0, 0};
-    if (poll(&polled, 1, 0) > 0 && (polled.revents & POLLHUP) != 0) kill(getpid(), SIGTERM);
+    if (has_hung_up(own)) kill(getpid(), SIGTERM);
+    return own;
+}
+
+std::string given_folder()
+{
+    const char* const value = std::getenv(lifeline_folder_variable);
+    std::string folder = value != nullptr ? value : "";
+    unsetenv(lifeline_folder_variable);
+    return folder;
 }
 
 } // namespace
@@ -121,6 +136,8 @@ struct StopSignal::State {
     }
 
     Hangup hangup;
+    int lifeline = -1;
+    std::string lifeline_folder; // "": none
     int signals;
     int wake = -1; // readable once a stop was asked for, whoever learnt of it first
     [[nodiscard]] bool is_requested() const
@@ -154,7 +171,14 @@ StopSignal::StopSignal(Hangup hangup)
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGTTIN, SIG_IGN);
     state_ = std::make_shared<State>(hangup);
-    hold_lifeline();
+    state_->lifeline_folder = given_folder();
+    state_->lifeline = hold_lifeline();
+}
+
+StopSignal::~StopSignal()
+{
+    const auto& folder = state_->lifeline_folder;
+    if (!folder.empty() && has_hung_up(state_->lifeline)) rmdir(folder.c_str());
 }
 
 int StopSignal::descriptor() const { return state_->signals; }

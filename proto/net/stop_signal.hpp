@@ -15,6 +15,11 @@ namespace hapnet::net {
 /// has ended, whatever ended it.
 inline constexpr const char* lifeline_variable = "HAPNET_LIFELINE";
 
+/// The name of the environment variable for the folder that the holder of the lifeline has made for
+/// this program, with its control socket, say. When the lifeline has hung up, nobody is left to
+/// remove that folder: the program does so at its end, if the folder is empty then.
+inline constexpr const char* lifeline_folder_variable = "HAPNET_LIFELINE_FOLDER";
+
 /// What SIGHUP means: that the terminal has gone, or that a file is to be read again.
 enum class Hangup : std::uint8_t { stop, reload };
 
@@ -26,7 +31,7 @@ enum class Hangup : std::uint8_t { stop, reload };
 class StopSignal {
 public:
     explicit StopSignal(Hangup hangup = Hangup::stop);
-    ~StopSignal() = default;
+    ~StopSignal();
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
 

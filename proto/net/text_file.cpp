@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/text_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -19,7 +20,7 @@ namespace hapnet::net {
 
 namespace {
 
-constexpr std::size_t bytes_max = std::size_t{64} << 20;
+constexpr std::size_t bytes_max = std::size_t{256} << 20;
 
 tl::unexpected<base::Error> cannot_read(const std::string& path, const char* why)
 {
@@ -38,6 +39,8 @@ base::Result<std::string> text_behind(int descriptor, const std::string& path, b
             return cannot_read(path, "it is not a regular file");
         }
         std::string text;
+        if (found.st_size > 0)
+            text.reserve(std::min(static_cast<std::size_t>(found.st_size), bytes_max));
         // NOLINTNEXTLINE(*-member-init): only what is read is used
         std::array<char, std::size_t{64} << 10> block;
         for (;;) {
@@ -46,7 +49,7 @@ base::Result<std::string> text_behind(int descriptor, const std::string& path, b
             if (count < 0) return cannot_read(path, std::strerror(errno));
             if (count == 0) return text;
             text.append(block.data(), static_cast<std::size_t>(count));
-            if (text.size() > bytes_max) return cannot_read(path, "it is larger than 64 MiB");
+            if (text.size() > bytes_max) return cannot_read(path, "it is larger than 256 MiB");
         }
     };
     auto text = read_all();

@@ -8,7 +8,7 @@
 
 namespace hapnet::net {
 
-/// The whole text of a file of at most 64 MiB; the error names it and says why it cannot be read.
+/// The whole text of a file of at most 256 MiB; the error names it and says why it cannot be read.
 [[nodiscard]] base::Result<std::string> text_of_file(const std::string& path);
 
 /// Files that somebody else may name: those below one folder. Of a name that leads out of it,
@@ -21,7 +21,7 @@ public:
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
 
-    /// The whole text of a regular file below it, of at most 64 MiB. The name may also begin with
+    /// The whole text of a regular file below it, of at most 256 MiB. The name may also begin with
     /// the path of the folder.
     [[nodiscard]] base::Result<std::string> text_of(const std::string& name) const;
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/udp_socket.hpp"
 
+#include "proto/net/cure.hpp"
+
 #include "proto/base/ensure.hpp"
 #include "proto/net/clock.hpp"
 
@@ -191,6 +193,7 @@ struct UdpSocket::Inbox {
     std::array<Control, batch_max> controls{};
     std::vector<Received> received; // of the last batch
     std::size_t messages_next = batch_max;
+    ErrorQueue answers;                // by ICMP
     std::uint32_t overflowed_last = 0; // as the kernel says it: 32 bits, wrapping
     std::uint64_t overflowed = 0;
 };
@@ -222,13 +225,14 @@ UdpSocket::UdpSocket(const Endpoint& local, Load load, Place place)
         set_receive_buffer(descriptor_, 4 << 20);
         set_option(descriptor_, SOL_UDP, UDP_GRO, 1);
         usual = ask_for_marks(descriptor_, local.family());
+        ErrorQueue::ask_for(descriptor_, local.family());
     }
-    sender_ = std::make_unique<BatchSender>(usual);
+    sender_ = std::make_unique<BatchSender>(usual, load == Load::bulk ? &inbox_->answers : nullptr);
     if (place == Place::shared) set_option(descriptor_, SOL_SOCKET, SO_REUSEPORT, 1);
     if (bind(descriptor_, local.address(), local.length()) != 0) {
         const int error = errno;
         close(descriptor_);
-        throw std::system_error{error, std::generic_category(),
+        throw std::system_error{error, errors_of(AddressUse::bind),
                                 fmt::format("cannot bind to {}", local.to_text())};
     }
 }
@@ -249,7 +253,11 @@ std::span<const Received> UdpSocket::receive()
     Inbox& inbox = *inbox_;
     const int count = recvmmsg(descriptor_, inbox.headers.data(),
                                static_cast<unsigned int>(inbox.messages_next), 0, nullptr);
-    if (count <= 0) return {}; // nothing there, or an error report that is of no use to us
+    if (count <= 0) { // nothing there, or the answer to something that was sent
+        const bool is_answer = errno != EAGAIN || inbox.answers.is_suspected();
+        if (is_answer) inbox.answers.drain(descriptor_);
+        return {};
+    }
     const auto to_monotonic = monotonic_minus_real();
     const auto now = monotonic_now();
     const auto taken = static_cast<std::size_t>(count);
@@ -270,7 +278,7 @@ std::span<const Received> UdpSocket::receive()
 
 SendOutcome UdpSocket::send(const Endpoint& to, std::span<const std::byte> bytes)
 {
-    return send_one(descriptor_, to, bytes);
+    return send_one(descriptor_, to, bytes, &inbox_->answers);
 }
 
 std::span<const SendOutcome>
@@ -289,5 +297,7 @@ Endpoint UdpSocket::local() const
 }
 
 std::uint64_t UdpSocket::overflowed() const { return inbox_->overflowed; }
+
+std::uint64_t UdpSocket::unreachable() const { return inbox_->answers.unreachable(); }
 
 } // namespace hapnet::net

@@ -73,6 +73,10 @@ public:
     /// Load::bulk neighbours that came merged count as one: the kernel does not say how many.
     [[nodiscard]] std::uint64_t overflowed() const;
 
+    /// Answers of other hosts to what was sent here that no program listens (ICMP, "port
+    /// unreachable"), as far as receive() and sending have met them. Of Load::bulk.
+    [[nodiscard]] std::uint64_t unreachable() const;
+
 private:
     struct Inbox;
     enum class Place : std::uint8_t { alone, shared };

@@ -26,6 +26,7 @@ public:
         if (error == EEXIST) {
             return "this exists and is not a socket; it was left as it is: choose another path";
         }
+        if (error == ENOTSOCK) return "this is not a socket";
         return "another emulator or peer serves it: end that one, or choose another path";
     }
     [[nodiscard]] std::error_condition default_error_condition(int error) const noexcept override
@@ -37,7 +38,7 @@ public:
 [[noreturn]] void refuse(int error, std::string_view doing, const std::string& path)
 {
     static const PathCategory path_category;
-    const bool is_of_path = error == EADDRINUSE || error == EEXIST;
+    const bool is_of_path = error == EADDRINUSE || error == EEXIST || error == ENOTSOCK;
     const std::error_category& category =
         is_of_path ? static_cast<const std::error_category&>(path_category)
                    : std::generic_category();
@@ -101,7 +102,10 @@ UnixStream UnixStream::connect(const std::string& path)
     const auto address = address_of(path);
     auto stream = new_socket();
     if (::connect(stream.descriptor(), generic(address), sizeof address) != 0) {
-        refuse(errno, "cannot connect to", path);
+        const int error = errno;
+        struct stat found {};
+        const bool is_other = stat(path.c_str(), &found) == 0 && !S_ISSOCK(found.st_mode);
+        refuse(is_other ? ENOTSOCK : error, "cannot connect to", path);
     }
     return stream;
 }

@@ -3,6 +3,8 @@
 #include "proto/page/figure.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -54,6 +56,14 @@ Json json_of(const Curve& curve)
     if (curve.shows_points) json["dots"] = true;
     json["points"] = json_of(curve.points);
     if (!curve.scatter.empty()) json["scatter"] = json_of(curve.scatter);
+    for (const BandPoint& one : curve.band) {
+        json["band"].push_back(
+            Json::array({short_value(one.x), short_value(one.y.low), short_value(one.y.high)}));
+    }
+    if (curve.crossing) {
+        const auto& [y, x] = *curve.crossing;
+        json["crossing"] = {{"y", y}, {"low", short_value(x.low)}, {"high", short_value(x.high)}};
+    }
     return json;
 }
 
@@ -118,6 +128,7 @@ void add_content(Json& json, const Figure& figure, const Curves& content)
     for (const Curve& curve : content.curves) json["series"].push_back(json_of(curve));
     for (const Level& level : content.levels)
         json["levels"].push_back({{"y", level.y}, {"name", level.name}});
+    for (const double moment : content.moments) json["moments"].push_back(short_value(moment));
 }
 
 void add_content(Json& json, const Figure& figure, const Bars& groups)
@@ -132,6 +143,42 @@ void add_content(Json& json, const Figure& figure, const Bars& groups)
         if (Json series = series_of(groups, name); series.contains("bars"))
             json["series"].push_back(std::move(series));
     }
+}
+
+Json json_of(const DotRow& row, std::size_t at)
+{
+    Json json{{"at", at}, {"colour", row.colour}};
+    const auto add = [&](const char* key, double value) {
+        if (std::isfinite(value)) json[key] = short_value(value);
+    };
+    if (row.value) add("value", *row.value);
+    if (row.interval) {
+        add("low", row.interval->low);
+        add("high", row.interval->high);
+    }
+    if (row.accepted) {
+        json["accepted"] = true;
+        add("from", row.accepted->low);
+        add("to", row.accepted->high);
+    }
+    for (const double value : row.single) json["single"].push_back(short_value(value));
+    if (row.is_missed) json["missed"] = true;
+    json["tip"] = row.tip;
+    return json;
+}
+
+void add_content(Json& json, const Figure& figure, const Dots& rows)
+{
+    json["kind"] = "dots";
+    std::vector<std::string> names;
+    Json dots = Json::array();
+    for (const DotRow& row : rows) {
+        dots.push_back(json_of(row, names.size()));
+        names.push_back(row.name);
+    }
+    json["x"] = json_of(figure.x);
+    json["y"] = json_of(figure.y, names);
+    json["series"] = Json::array({{{"name", figure.title}, {"dots", std::move(dots)}}});
 }
 
 void add_content(Json& json, const Figure& figure, const HeatMap& map)
@@ -161,9 +208,49 @@ std::string quoted(const Json& text)
     return out + '"';
 }
 
+/// The letters and digits of the text, those outside ASCII left out, with one "_" between words.
+std::string key_of(std::string_view text)
+{
+    std::string key;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 128 && std::isalnum(byte) != 0) {
+            key += static_cast<char>(std::tolower(byte));
+        } else if (byte < 128 && !key.empty() && key.back() != '_') {
+            key += '_';
+        }
+    }
+    while (key.ends_with('_')) key.pop_back();
+    return key;
+}
+
+/// What a head ends with for an axis in that unit: "_ms"; "" without one.
+std::string unit_key_of(const Json& axis)
+{
+    const auto unit = axis.value("unit", std::string{});
+    if (unit.empty() || unit == "1") return "";
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> in_words{
+        {{"%", "_percent"}, {"µs", "_us"}, {"1/ms", "_per_ms"}, {"Mbit/s", "_mbit_per_s"}}};
+    const auto* const found =
+        std::ranges::find(in_words, unit, [](const auto& one) { return one.first; });
+    return found == in_words.end() ? "_" + key_of(unit) : std::string{found->second};
+}
+
+std::string head_of(const Json& axis, std::string_view otherwise)
+{
+    const std::string key = key_of(axis.value("label", std::string{}));
+    return (key.empty() ? std::string{otherwise} : key) + unit_key_of(axis);
+}
+
+/// "value_mm,low_mm,high_mm"
+std::string value_heads(const Json& axis)
+{
+    return fmt::format("value{0},low{0},high{0}", unit_key_of(axis));
+}
+
 std::string csv_of_bars(const Json& figure)
 {
-    std::string out = "group,bar,value,low,high\n";
+    std::string out = fmt::format("group,bar,{}\n", value_heads(figure.at("y")));
     const Json& groups = figure.at("x").at("categories");
     for (std::size_t at = 0; at < groups.size(); ++at) {
         for (const Json& series : figure.at("series")) {
@@ -175,6 +262,22 @@ std::string csv_of_bars(const Json& figure)
                 out += fmt::format("{},{},{},{},{}\n", quoted(groups[at]), quoted(bar.at("tip")),
                                    bar.at("value").dump(), end("low"), end("high"));
             }
+        }
+    }
+    return out;
+}
+
+std::string csv_of_dots(const Json& figure)
+{
+    std::string out = fmt::format("row,{}\n", value_heads(figure.at("x")));
+    const Json& names = figure.at("y").at("categories");
+    for (const Json& series : figure.at("series")) {
+        for (const Json& row : series.at("dots")) {
+            const auto number = [&](const char* key) {
+                return row.contains(key) ? row.at(key).dump() : std::string{};
+            };
+            out += fmt::format("{},{},{},{}\n", quoted(names.at(row.at("at").get<std::size_t>())),
+                               number("value"), number("low"), number("high"));
         }
     }
     return out;
@@ -228,8 +331,11 @@ Json json_of(const Figure& figure)
 
 std::string csv_of(const Json& figure)
 {
-    if (figure.at("kind").get<std::string>() == "bars") return csv_of_bars(figure);
-    std::string out = "curve,x,y\n";
+    const auto kind = figure.at("kind").get<std::string>();
+    if (kind == "bars") return csv_of_bars(figure);
+    if (kind == "dots") return csv_of_dots(figure);
+    std::string out =
+        fmt::format("curve,{},{}\n", head_of(figure.at("x"), "x"), head_of(figure.at("y"), "y"));
     for (const Json& series : figure.at("series")) {
         const std::string name = quoted(series.at("name"));
         for (const char* key : {"points", "scatter"}) {

@@ -42,13 +42,27 @@ struct Point {
     double y = 0.0;
 };
 
+/// What a curve may be at x.
+struct BandPoint {
+    double x = 0.0;
+    Range y;
+};
+
+/// Where a curve crosses the height y: a line across from `low` to `high`, with ends.
+struct Crossing {
+    double y = 0.0;
+    Range x;
+};
+
 /// A curve, in the order of x; values that are not finite are left out.
 struct Curve {
     std::string name; // in the legend; empty: not there
     std::string_view colour;
     std::vector<Point> points{};
     std::vector<Point> scatter{}; // dots beside the curve, which belong to it
-    double width = 1.2;           // pixels; 0: only dots
+    std::vector<BandPoint> band{};
+    std::optional<Crossing> crossing{};
+    double width = 1.2; // pixels; 0: only dots
     bool is_dashed = false;
     bool shows_points = false; // a dot at each point
 };
@@ -62,6 +76,7 @@ struct Level {
 struct Curves {
     std::vector<Curve> curves;
     std::vector<Level> levels{};
+    std::vector<double> moments{}; // of x, each a dashed line from top to bottom
 };
 
 /// A bar from zero to a value that is not negative, which its text says in words.
@@ -93,6 +108,19 @@ struct HeatCell {
     std::string tip;
 };
 
+/// One row of a figure of dots: a value on a line, with its interval and what is accepted.
+struct DotRow {
+    std::string name;
+    std::string_view colour;
+    std::optional<double> value{};
+    std::optional<Range> interval{};
+    std::optional<Range> accepted{}; // an infinite end is open
+    std::vector<double> single{};    // what the value is made of: small dots
+    bool is_missed = false;
+    std::string tip{}; // shown where a pointer rests
+};
+using Dots = std::vector<DotRow>;
+
 struct HeatMap {
     std::vector<std::string> columns; // what stands below each
     std::vector<std::string> rows;    // and beside each, from the lowest up
@@ -110,7 +138,7 @@ struct Figure {
     std::string title;
     Axis x;
     Axis y;
-    std::variant<Curves, Bars, HeatMap> content;
+    std::variant<Curves, Bars, HeatMap, Dots> content;
     Size size{};
     Json caption = "";
     std::vector<std::string> sources{}; // files with its numbers, as paths from the page
@@ -126,8 +154,9 @@ struct Figure {
 /// The figure as pages carry it: `{id, kind, title, x, y, series, ...}`. Points to seven digits.
 [[nodiscard]] Json json_of(const Figure& figure);
 
-/// The numbers of a figure that json_of() returned, as CSV: "curve,x,y" or
-/// "group,bar,value,low,high", in its units.
+/// The numbers of a figure that json_of() returned, as CSV whose heads name what the axes have and
+/// its unit: "curve,time_s,delay_ms", "group,bar,value_mm,low_mm,high_mm" or
+/// "row,value_mm,low_mm,high_mm".
 [[nodiscard]] std::string csv_of(const Json& figure);
 
 } // namespace hapnet::page

@@ -12,8 +12,8 @@
 namespace hapnet::base {
 
 /// Quantiles of durations by nearest rank: the smallest value that at least this share of all
-/// values do not exceed. A sample knows them exactly, a DurationHistogram to 1.6 %; `max` is always
-/// exact.
+/// values do not exceed. A sample knows them exactly, a DurationHistogram to 1.6 % either way and
+/// never outside the range of its values; `max` is always exact.
 struct Quantiles {
     Duration p50{};
     Duration p90{};

@@ -15,7 +15,38 @@ TEST(Histogram, OfNothingHasNoQuantileAndNoMaximum)
     EXPECT_EQ(nothing.count(), 0U);
     EXPECT_EQ(nothing.quantile(0.5), std::nullopt);
     EXPECT_EQ(nothing.quantiles(), std::nullopt);
+    EXPECT_EQ(nothing.min(), std::nullopt);
     EXPECT_EQ(nothing.max(), std::nullopt);
+    EXPECT_EQ(nothing.count_above(0ns), 0U);
+}
+
+TEST(Histogram, OfEqualValuesHasThemAsEveryQuantile)
+{
+    DurationHistogram histogram;
+    for (int i = 0; i < 1000; ++i) histogram.add(20'010us);
+    EXPECT_EQ(histogram.quantiles(), (Quantiles{20'010us, 20'010us, 20'010us, 20'010us, 20'010us}));
+}
+
+TEST(Histogram, TakesTheValuesOfABinToLieEvenlyInIt)
+{
+    DurationHistogram histogram; // one bin goes from 19 923 to 20 185 us
+    for (int i = 0; i <= 100; ++i) histogram.add(20'000us + i * 1us);
+    EXPECT_EQ(histogram.quantile(0.5), 20'050us);
+    EXPECT_NEAR(static_cast<double>(histogram.quantile(0.9)->count()), 20'090e3, 1e3);
+    histogram.add(25ms); // the bin is open above again
+    EXPECT_NEAR(static_cast<double>(histogram.quantile(0.5)->count()), 20'050e3, 45e3);
+}
+
+TEST(Histogram, CountsAboveALimitAsItsQuantilesAre)
+{
+    DurationHistogram histogram;
+    for (int i = 0; i < 1000; ++i) histogram.add(20'000us + (i % 200) * 1us);
+    for (const auto limit : {19'999us, 20'000us, 20'033us, 20'180us, 20'199us, 30'000us}) {
+        std::uint64_t above = 0;
+        for (int rank = 1; rank <= 1000; ++rank)
+            above += *histogram.quantile((rank - 0.5) / 1000.0) > limit ? 1U : 0U;
+        EXPECT_EQ(histogram.count_above(limit), above) << limit.count();
+    }
 }
 
 TEST(Histogram, IsExactBelow128Nanoseconds)
@@ -67,6 +98,8 @@ TEST(Histogram, IsAssignedWhole)
     copy.add(low);
     EXPECT_EQ(copy.count(), low.count() + high.count());
     EXPECT_EQ(copy.quantile(0.01), low.quantile(0.02));
+    EXPECT_EQ(copy.min(), 1us);
+    EXPECT_EQ(copy.max(), 99s);
     copy = SnapshotHistogram{};
     EXPECT_EQ(copy.count(), 0U);
     EXPECT_TRUE(copy.filled_bins().empty());
@@ -80,6 +113,7 @@ TEST(Histogram, CountsNegativeDurationsAsZero)
     histogram.add(-5ms);
     EXPECT_EQ(histogram.count(), 1U);
     EXPECT_EQ(histogram.quantile(0.5), 0ns);
+    EXPECT_EQ(histogram.min(), 0ns);
     EXPECT_EQ(histogram.max(), 0ns);
 }
 

@@ -34,10 +34,21 @@ TEST(Quantity, HasItsUnitAndNothingElse)
           "4mm4mm"}) {
         const auto read = parse_quantity(text, length_kind);
         ASSERT_FALSE(read) << text;
-        EXPECT_NE(read.error().message.find("write a number and its unit, such as 40mm"),
-                  std::string::npos)
-            << read.error().message;
+        const std::string cure = text == "40" ? "has no unit: write 40mm, 40cm, 40m or 40um"
+                                              : "write a number and its unit, such as 40mm";
+        EXPECT_NE(read.error().message.find(cure), std::string::npos) << read.error().message;
     }
+}
+
+TEST(Quantity, WithoutItsUnitIsToldEachUnitOnce)
+{
+    const auto cure = [](std::string_view text, const QuantityKind& kind) {
+        const auto message = parse_quantity(text, kind).error().message;
+        return message.substr(message.find("write ") + 6);
+    };
+    EXPECT_EQ(cure("-9.81", acceleration_kind), "-9.81m/s2");
+    EXPECT_EQ(cure("1e3", stiffness_kind), "1e3N/m or 1e3N/mm");
+    EXPECT_EQ(cure("5", density_kind), "5kg/m3 or 5g/cm3");
 }
 
 TEST(Quantity, WithASpaceSaysSo)

@@ -104,8 +104,8 @@ TEST(Command, PutsParsedValuesWhereTheyAreBoundTo)
 TEST(Command, NamesTheOptionInWhatItsParserSays)
 {
     Relay relay;
-    EXPECT_EQ(relay.refusal({"--place", "x", "--delay", "10"}).rfind("--delay: '10' is not", 0),
-              0U);
+    EXPECT_EQ(
+        relay.refusal({"--place", "x", "--delay", "10"}).rfind("--delay: '10' has no unit", 0), 0U);
 }
 
 TEST(Command, RequiresWhatIsRequiredWithAnExample)

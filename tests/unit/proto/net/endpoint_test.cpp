@@ -58,6 +58,8 @@ TEST(Endpoint, RefusesWhatIsNotHostAndPort)
 
 TEST(Endpoint, ARefusalShowsTheTextAndHowItShouldLook)
 {
+    EXPECT_EQ(parse_host_port("*:7001").error().message,
+              "'*:7001': write 0.0.0.0:7001 or [::]:7001 for all addresses of this machine");
     EXPECT_NE(parse_host_port("7001").error().message.find("HOST:PORT"), std::string::npos);
     EXPECT_NE(parse_host_port("::1:7001").error().message.find("[::1]:7001"), std::string::npos);
     EXPECT_NE(parse_host_port("host:99999").error().message.find("'99999'"), std::string::npos);

@@ -88,6 +88,36 @@ TEST(StopSignal, ComesAtOnceWhenTheHolderHasEndedBefore)
     EXPECT_EQ(exit_code_of(start(lifeline, stops)), 0);
 }
 
+/// Whether a program that was given the folder has removed it at its end.
+bool removes_folder(Lifeline& lifeline)
+{
+    std::string folder = "/tmp/hapnet-lifeline-XXXXXX";
+    EXPECT_NE(mkdtemp(folder.data()), nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        if (lifeline.ends[1] >= 0) close(lifeline.ends[1]);
+        setenv(lifeline_variable, std::to_string(lifeline.ends[0]).c_str(), 1);
+        setenv(lifeline_folder_variable, folder.c_str(), 1);
+        bool is_taken = false;
+        {
+            const StopSignal stop;
+            is_taken = std::getenv(lifeline_folder_variable) == nullptr;
+        }
+        _exit(is_taken ? 0 : 1);
+    }
+    EXPECT_EQ(exit_code_of(child), 0);
+    return rmdir(folder.c_str()) != 0;
+}
+
+TEST(StopSignal, RemovesTheFolderOfAHolderThatHasEndedAndOfNoOther)
+{
+    Lifeline held;
+    EXPECT_FALSE(removes_folder(held));
+    Lifeline lost;
+    lost.hang_up();
+    EXPECT_TRUE(removes_folder(lost));
+}
+
 TEST(StopSignal, ComesToEachOfTwoProgramsWithTheSameLifeline)
 {
     Lifeline lifeline;

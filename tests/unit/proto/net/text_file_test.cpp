@@ -82,13 +82,13 @@ TEST_F(FolderOfFiles, NeedAFolder)
     EXPECT_THROW(Folder{(inside / "missing").string()}, std::system_error);
 }
 
-TEST_F(FolderOfFiles, HaveAtMost64MiB)
+TEST_F(FolderOfFiles, HaveAtMost256MiB)
 {
     const auto path = inside / "large";
     write(path, "");
-    fs::resize_file(path, (std::uintmax_t{64} << 20) + 1);
+    fs::resize_file(path, (std::uintmax_t{256} << 20) + 1);
     EXPECT_EQ(text_of_file(path.string()).error().message,
-              "cannot read " + path.string() + ": it is larger than 64 MiB");
+              "cannot read " + path.string() + ": it is larger than 256 MiB");
 }
 
 } // namespace

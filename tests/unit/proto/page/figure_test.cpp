@@ -30,7 +30,8 @@ TEST(Figure, OfCurvesHasAxesSeriesAndLevels)
     EXPECT_EQ(json["y"].dump(), R"({"label":"error","unit":"mm","scale":"log","range":[0.1,1.0]})");
     EXPECT_EQ(json["series"][0]["points"].dump(), "[[0.0,1.0],[1.0,2.0]]");
     EXPECT_EQ(json["levels"].dump(), R"([{"y":0.5,"name":"limit"}])");
-    EXPECT_EQ(csv_of(json), "curve,x,y\n\"base\",0.0,1.0\n\"base\",1.0,2.0\n\"base\",0.5,3.0\n");
+    EXPECT_EQ(csv_of(json),
+              "curve,time_s,error_mm\n\"base\",0.0,1.0\n\"base\",1.0,2.0\n\"base\",0.5,3.0\n");
 }
 
 TEST(Figure, LeavesOutWhatIsNotFiniteAndKeepsSevenDigits)
@@ -60,8 +61,9 @@ TEST(Figure, OfBarsHasTheSeriesInTheOrderOfTheGroups)
     EXPECT_EQ(json["series"][0]["colour"], "sep");
     EXPECT_FALSE(json["series"][1].contains("colour")) << "its bars have two";
     EXPECT_EQ(json["series"][1]["bars"][1]["colour"], "sep");
-    EXPECT_EQ(csv_of(json), "group,bar,value,low,high\n\"one\",\"i\",1.0,,\n\"two\",\"i\",2.0,,\n"
-                            "\"two\",\"i\",3.0,,\n");
+    EXPECT_EQ(csv_of(json),
+              "group,bar,value_ms,low_ms,high_ms\n\"one\",\"i\",1.0,,\n\"two\",\"i\",2.0,,\n"
+              "\"two\",\"i\",3.0,,\n");
 }
 
 TEST(Figure, OfBarsSaysWhatIsOpenMissedAndUncertain)

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace hapnet::net {
+
+/// What other hosts answer by ICMP to datagrams that a socket has sent. The kernel hands such an
+/// answer to the next call of the socket, in place of what that call was for, and keeps it in a
+/// queue of its own.
+class ErrorQueue {
+public:
+    /// Has the kernel keep the answers to what this socket sends from now on.
+    static void ask_for(int descriptor, int family);
+
+    /// Takes the answers that are there, at most 256 of them. True if there was one: then a call
+    /// that has just failed may have failed for it, and can be made again.
+    bool drain(int descriptor);
+
+    /// A call told of less than it was asked for: answers may wait.
+    void suspect() { is_suspected_ = true; }
+    [[nodiscard]] bool is_suspected() const { return is_suspected_; }
+
+    /// Answers "port unreachable" so far: the host is there, and no program listens. Hosts limit
+    /// how many they send.
+    [[nodiscard]] std::uint64_t unreachable() const { return unreachable_; }
+
+private:
+    std::uint64_t unreachable_ = 0;
+    bool is_suspected_ = false;
+};
+
+} // namespace hapnet::net
