@@ -32,6 +32,7 @@ double inertia_about(int axis, const glm::dvec3& inertia, const glm::dquat& orie
 BodyProperties properties_of(const BodyDescription& body, BodyId id)
 {
     BodyProperties properties{.id = id, .half = body.half, .rounding = rounding_of(body)};
+    properties.least_half = std::min({body.half.x, body.half.y, body.half.z});
     properties.material = body.material;
     properties.drag = body.drag_ns_per_m;
     if (body.kinematic) {
@@ -127,6 +128,8 @@ void Bodies::add_parts(const Description& description)
         }
         const std::vector<BodyPart> all = parts_of(bodies[id]);
         its.half = half_around(all);
+        for (const BodyPart& part : all)
+            its.least_half = std::min({its.least_half, part.half.x, part.half.y, part.half.z});
         its.rounding = 0.0;
         its.parts_begin = parts_count();
         parts[id] = all.front();

@@ -33,9 +33,10 @@ using Slot = std::uint32_t;
 /// What does not change of a body: the cold half.
 struct BodyProperties {
     BodyId id = 0;
-    glm::dvec3 half{0.02};  // half the edges of the box, or of that around it, m
-    double rounding = 0.0;  // how far a round body's surface is from its core, m
-    PartId parts_begin = 0; // its further parts, if it has any: see Bodies::parts
+    glm::dvec3 half{0.02};    // half the edges of the box, or of that around it, m
+    double least_half = 0.02; // the smallest half edge of its parts, m
+    double rounding = 0.0;    // how far a round body's surface is from its core, m
+    PartId parts_begin = 0;   // its further parts, if it has any: see Bodies::parts
     PartId parts_end = 0;
     glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
     glm::dvec3 inertia{1.0};         // kg m^2 about the body's own axes

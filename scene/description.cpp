@@ -163,44 +163,6 @@ base::Result<void> check_field(const FieldDescription& field, std::size_t number
     return check.result();
 }
 
-base::Result<void> check_joint(const Description& scene, const JointDescription& joint,
-                               std::size_t number)
-{
-    Check check{fmt::format("joint {} '{}'", number, joint.name)};
-    const auto& bodies = scene.bodies;
-    const bool exist = joint.body < bodies.size() && joint.to.value_or(0) < bodies.size();
-    check.holds(
-        exist, fmt::format("a body that it joins does not exist: the scene has {}", bodies.size()));
-    if (!exist) return check.result();
-    const BodyDescription& body = bodies[joint.body];
-    const BodyDescription* const other = joint.to ? &bodies[*joint.to] : nullptr;
-    check.holds(joint.to != joint.body, "joins a body to itself");
-    check.holds(body.movable || (other != nullptr && other->movable),
-                "joins nothing that is movable");
-    check.holds(!body.kinematic && (other == nullptr || !other->kinematic),
-                "a kinematic body has no joints");
-    check.within("position in m", joint.position.value, -reach_max_m, reach_max_m);
-    check.within("to_position in m", joint.to_position.value, -reach_max_m, reach_max_m);
-    check.holds(is_unit(square(joint.axis)), "axis is not of length 1");
-    const bool is_hinge = joint.kind == JointKind::hinge;
-    const double most = is_hinge ? angle_max_rad : 2.0 * reach_max_m;
-    check.within("a limit", joint.lowest.value_or(0.0), -most, most);
-    check.within("a limit", joint.highest.value_or(0.0), -most, most);
-    check.within("rest", joint.rest.value_or(0.0), -most, most);
-    check.holds(joint.lowest.value_or(-most) < joint.highest.value_or(most),
-                "its lower limit is not below its upper limit");
-    const bool has_axis = is_hinge || joint.kind == JointKind::slider;
-    check.holds(has_axis || !(joint.lowest || joint.highest), "only a hinge or slider has limits");
-    check.holds(joint.kind != JointKind::ball || (joint.stiffness == 0.0 && joint.damping == 0.0),
-                "a ball has no spring");
-    check.within("restitution", joint.restitution, 0.0, 1.0);
-    check.within("stiffness", joint.stiffness, 0.0,
-                 is_hinge ? torsion_max_n_m_per_rad : stiffness_max_n_per_m);
-    check.within("damping", joint.damping, 0.0,
-                 is_hinge ? torsion_damping_max_n_m_s_per_rad : damping_max_ns_per_m);
-    return check.result();
-}
-
 base::Result<void> check_whole(const Description& description)
 {
     Check check{"scene"};
@@ -210,8 +172,6 @@ base::Result<void> check_whole(const Description& description)
                 fmt::format("more than {} planes", planes_max));
     check.holds(description.fields.size() <= fields_max,
                 fmt::format("more than {} fields", fields_max));
-    check.holds(description.joints.size() <= joints_max,
-                fmt::format("more than {} joints", joints_max));
     check.within("gravity in m/s^2", description.gravity, -gravity_max_m_per_s2,
                  gravity_max_m_per_s2);
     return check.result();
@@ -309,23 +269,6 @@ void add_parts(Hash& hash, const Description& description)
     }
 }
 
-void add(Hash& hash, const JointDescription& joint)
-{
-    hash.add(std::uint64_t{static_cast<unsigned>(joint.kind) | (joint.collides ? 8U : 0U) |
-                           (joint.to ? 16U : 0U) | (joint.lowest ? 32U : 0U) |
-                           (joint.highest ? 64U : 0U) | (joint.rest ? 128U : 0U)});
-    hash.add(std::uint64_t{joint.body});
-    hash.add(std::uint64_t{joint.to.value_or(0)});
-    hash.add(joint.position.value);
-    hash.add(joint.to_position.value);
-    hash.add(joint.axis);
-    for (const double value :
-         {joint.lowest.value_or(0.0), joint.highest.value_or(0.0), joint.restitution,
-          joint.stiffness, joint.damping, joint.rest.value_or(0.0)}) {
-        hash.add(value);
-    }
-}
-
 /// Scenes without it keep the hash that they had before there was any.
 void add_hand_friction(Hash& hash, const Description& description)
 {
@@ -412,10 +355,6 @@ base::Result<void> check(const Description& description)
     for (std::size_t i = 0; i < description.bodies.size(); ++i) {
         if (auto body = check_body(description.bodies[i], i + 1); !body) return body;
     }
-    for (std::size_t i = 0; i < description.joints.size(); ++i) {
-        if (auto joint = check_joint(description, description.joints[i], i + 1); !joint)
-            return joint;
-    }
     return {};
 }
 
@@ -473,7 +412,6 @@ std::uint64_t hash(const Description& description)
         hash.add(std::uint64_t{(field.on_hands ? 1U : 0U) | (field.on_bodies ? 2U : 0U)});
     }
     add_hand_friction(hash, description);
-    for (const JointDescription& joint : description.joints) add(hash, joint);
     add_parts(hash, description);
     return hash.value();
 }

@@ -159,42 +159,6 @@ struct FieldDescription {
     friend bool operator==(const FieldDescription&, const FieldDescription&) = default;
 };
 
-/// What a joint lets its bodies do.
-enum class JointKind : std::uint8_t {
-    hinge,  // turn about an axis
-    slider, // slide along an axis, without turning
-    ball,   // turn about a point
-    spring, // everything, against a spring from point to point
-};
-
-constexpr auto names_of(base::Tag<JointKind>)
-{
-    return base::names("hinge", "slider", "ball", "spring");
-}
-
-/// Between two bodies, or a body and the world, where they are in the description. Its coordinate
-/// is the angle of a hinge (right-handed about the axis), the travel of a slider, or the length of
-/// a spring; of a hinge and a slider it is 0 in the description.
-struct JointDescription {
-    std::string name;
-    JointKind kind = JointKind::hinge;
-    std::uint32_t body = 0;            // movable or not, not kinematic; one of the two is movable
-    std::optional<std::uint32_t> to{}; // unset: the world
-    base::Position position{};         // of the hinge or ball; where a spring holds `body`
-    base::Position to_position{};      // where a spring holds the other
-    glm::dvec3 axis{0.0, 1.0, 0.0};    // unit, of a hinge or slider
-    /// Limits of a hinge, rad, and of a slider, m.
-    std::optional<double> lowest{}, highest{};
-    double restitution = 0.0; // at the limits
-    /// Of the spring, N/m; of a return spring N/m of a slider and N m/rad of a hinge.
-    double stiffness = 0.0;
-    double damping = 0.0;         // N s/m or N m s/rad
-    std::optional<double> rest{}; // m or rad; unset: where it is in the description
-    bool collides = false;        // whether its two bodies touch each other as others do
-
-    friend bool operator==(const JointDescription&, const JointDescription&) = default;
-};
-
 /// The hands' spheres (haptic interface points), all alike: a spring and a damper between the
 /// sphere and what it touches.
 struct HandDescription {
@@ -223,7 +187,6 @@ struct Description {
     glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
     std::vector<Feel> own_hands{};       // of the first hands, each its own
     std::vector<FieldDescription> fields{};
-    std::vector<JointDescription> joints{};
 
     friend bool operator==(const Description&, const Description&) = default;
 };
@@ -232,7 +195,6 @@ inline constexpr std::uint32_t hands_max = 8;
 inline constexpr std::uint32_t bodies_max = 100'000;
 inline constexpr std::uint32_t planes_max = 64;
 inline constexpr std::uint32_t fields_max = 64;
-inline constexpr std::uint32_t joints_max = 256;
 inline constexpr std::uint32_t parts_max = 15; // of a body, beside its first
 
 // The ranges of a description and of inputs. Values beyond them are refused; within them nothing
@@ -248,9 +210,6 @@ inline constexpr double mass_min_kg = 1e-6;
 inline constexpr double mass_max_kg = 1e6;
 inline constexpr double stiffness_max_n_per_m = 1e9;
 inline constexpr double damping_max_ns_per_m = 1e6;
-inline constexpr double torsion_max_n_m_per_rad = 1e6;
-inline constexpr double torsion_damping_max_n_m_s_per_rad = 1e3;
-inline constexpr double angle_max_rad = 1e3;
 inline constexpr double force_max_n = 1e6;
 inline constexpr double torque_max_n_m = 1e6;
 inline constexpr double impulse_max_n_s = 1e6;

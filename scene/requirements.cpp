@@ -33,6 +33,7 @@ struct Census {
     std::size_t rough = 0;       // movable bodies with friction
     std::size_t rough_other = 0; // fixed bodies and planes with friction
     std::size_t dragged = 0;     // movable bodies with viscous friction
+    bool has_flush = false;      // fixed boxes that lie flush
 };
 
 bool is_parallel(const glm::dquat& q) { return q.x == 0.0 && q.y == 0.0 && q.z == 0.0; }
@@ -41,6 +42,13 @@ bool is_parallel(const glm::dvec3& normal)
 {
     const auto is_zero = [](double v) { return v == 0.0; };
     return int{is_zero(normal.x)} + int{is_zero(normal.y)} + int{is_zero(normal.z)} == 2;
+}
+
+/// Whether hands may feel seams between fixed boxes.
+bool has_flush(const Description& description, const Census& census)
+{
+    if (census.fixed < 2 || description.hands.count == 0) return false;
+    return InternalFaces{Bodies{description}}.any();
 }
 
 Census census_of(const Description& description)
@@ -69,6 +77,7 @@ Census census_of(const Description& description)
         if (plane.material.restitution > 0.0) ++census.bouncing;
         if (plane.material.friction > 0.0) ++census.rough_other;
     }
+    census.has_flush = has_flush(description, census);
     return census;
 }
 
@@ -97,9 +106,11 @@ Requirement require_hand_friction(const Description& description)
 
 Requirement require_contact(const Description& description, const Census& census)
 {
-    if (census.movable == 0) return require(Feature::contact, false, "nothing is movable");
-    const std::size_t others =
-        census.movable - 1 + census.fixed + description.planes.size() + description.hands.count;
+    const bool are_felt = description.hands.count > 0 && census.fixed > 0;
+    if (census.movable == 0 && !are_felt)
+        return require(Feature::contact, false, "nothing is movable");
+    const std::size_t others = census.movable - std::min<std::size_t>(census.movable, 1) +
+                               census.fixed + description.planes.size() + description.hands.count;
     if (others == 0) {
         return require(Feature::contact, false, "one movable body with nothing around it");
     }
@@ -107,6 +118,28 @@ Requirement require_contact(const Description& description, const Census& census
                    fmt::format("movable bodies: {}; fixed bodies: {}; planes: {}; hands: {}",
                                census.movable, census.fixed, description.planes.size(),
                                description.hands.count));
+}
+
+/// Where nothing is movable, the steppers that feel planes feel fixed bodies, too.
+Requirement require_felt_planes(const Description& description, const Census& census)
+{
+    if (census.movable == 0 && census.fixed > 0 && description.hands.count > 0) {
+        return require(
+            Feature::felt_planes, true,
+            fmt::format("nothing is movable, and hands feel fixed bodies: {}", census.fixed));
+    }
+    return require(Feature::felt_planes, census.felt_planes > 0 && description.hands.count > 0,
+                   fmt::format("planes that hands feel: {}; hands: {}", census.felt_planes,
+                               description.hands.count));
+}
+
+/// Fixed boxes that lie flush are one solid.
+Requirement require_compounds(const Census& census, std::size_t total)
+{
+    if (census.compound == 0 && census.has_flush)
+        return require(Feature::compounds, true, "fixed boxes lie flush");
+    return require(Feature::compounds, census.compound > 0,
+                   fmt::format("bodies of several parts: {} of {}", census.compound, total));
 }
 
 Requirement without_contact(Feature feature)
@@ -121,7 +154,7 @@ std::string_view name_of(Feature feature)
     constexpr std::array<std::string_view, features> names{
         "contact",     "hips",   "skew",          "rotation", "friction",  "restitution",
         "drag",        "bodies", "sleep",         "grid",     "kinematic", "feel",
-        "felt-planes", "fields", "hand-friction", "shapes",   "joints",    "compounds"};
+        "felt-planes", "fields", "hand-friction", "shapes",   "compounds"};
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -140,9 +173,9 @@ FeatureSet abilities_of(StepperKind kind)
     switch (kind) {
     case StepperKind::flight: add(rotation, skew, fields, shapes, compounds); break;
     case StepperKind::many: add(grid); [[fallthrough]];
-    case StepperKind::few: add(bodies, sleep); [[fallthrough]];
+    case StepperKind::few: add(bodies); [[fallthrough]];
     case StepperKind::lone:
-        add(rotation, skew, kinematic, feel, felt_planes, hand_friction, shapes, joints, compounds);
+        add(sleep, rotation, skew, kinematic, feel, felt_planes, hand_friction, shapes, compounds);
         [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
     case StepperKind::sliding: add(contact, hands, restitution, drag, fields); break;
@@ -181,25 +214,19 @@ Requirements requirements_of(const Description& description, bool sleeping)
         require(feel, census.own_feel > 0 && description.hands.count > 0,
                 fmt::format("bodies and hands with a spring of their own: {}; hands: {}",
                             census.own_feel, description.hands.count)),
-        require(felt_planes, census.felt_planes > 0 && description.hands.count > 0,
-                fmt::format("planes that hands feel: {}; hands: {}", census.felt_planes,
-                            description.hands.count)),
+        require_felt_planes(description, census),
         require(fields, !description.fields.empty(),
                 fmt::format("fields of force: {}", description.fields.size())),
         require_hand_friction(description),
         require(shapes, census.round > 0,
                 fmt::format("spheres and capsules: {} of {} bodies", census.round, total)),
-        require(joints, !description.joints.empty(),
-                fmt::format("joints: {}", description.joints.size())),
-        require(compounds, census.compound > 0,
-                fmt::format("bodies of several parts: {} of {}", census.compound, total))};
+        require_compounds(census, total)};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
             const bool is_own = each.feature == contact || each.feature == rotation ||
                                 each.feature == kinematic || each.feature == felt_planes ||
                                 each.feature == fields || each.feature == hand_friction ||
-                                each.feature == shapes || each.feature == joints ||
-                                each.feature == compounds;
+                                each.feature == shapes || each.feature == compounds;
             if (!is_own) each = without_contact(each.feature);
         }
     }

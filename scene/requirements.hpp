@@ -29,10 +29,9 @@ enum class Feature : std::uint8_t {
     fields,        // fields of force
     hand_friction, // hands that stick and slide
     shapes,        // spheres and capsules
-    joints,        // joints between bodies, or a body and the world
     compounds,     // bodies of several parts
 };
-inline constexpr std::size_t features = 18;
+inline constexpr std::size_t features = 17;
 
 [[nodiscard]] std::string_view name_of(Feature feature);
 

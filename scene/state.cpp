@@ -78,21 +78,11 @@ HandFeels::HandFeels(const Description& description)
 Scales scales_of(const WorldConfig& config, const Bodies& bodies)
 {
     double size = std::numeric_limits<double>::infinity();
-    double least = size;
-    for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        const glm::dvec3& half = bodies.properties[slot].half;
-        least = std::min(least, std::min(half.x, std::min(half.y, half.z)));
-        if (slot < bodies.movable) size = least;
-    }
-    for (PartId part = 0; part < bodies.parts.size(); ++part) {
-        const glm::dvec3& half = bodies.parts[part].half;
-        const double own = std::min(half.x, std::min(half.y, half.z));
-        least = std::min(least, own);
-        if (bodies.slot_of[part] < bodies.movable) size = std::min(size, own);
-    }
+    for (Slot slot = 0; slot < bodies.movable; ++slot)
+        size = std::min(size, bodies.properties[slot].least_half);
     constexpr double hardly = 1e-6;
     const double fall = config.tick * std::sqrt(glm::dot(config.gravity, config.gravity));
-    return {config.tick,      size, least, fall, std::max(fall, hardly * size / config.tick),
+    return {config.tick, size, fall, std::max(fall, hardly * size / config.tick),
             1.0 / config.tick};
 }
 

@@ -4,6 +4,7 @@
 
 #include "scene/bodies.hpp"
 #include "scene/bounded.hpp"
+#include "scene/collide/internal_faces.hpp"
 #include "scene/tick_cost.hpp"
 
 #include <algorithm>
@@ -85,20 +86,6 @@ struct HandSlip {
     double stored_j = 0.0;  // at the start, in the springs along the surfaces
 };
 
-/// A joint's index in its description.
-using JointId = std::uint32_t;
-
-/// What a joint did in the last tick.
-struct JointState {
-    double coordinate = 0.0; // rad of a hinge, m of a slider or spring; see JointDescription
-    double rate = 0.0;       // of it, per second
-    base::Force force{};     // on its first body, at the joint: the mean over the tick
-    glm::dvec3 torque{0.0};  // N m, likewise, about the joint
-};
-
-/// Two bodies, the lower id first.
-using BodyPair = std::pair<BodyId, BodyId>;
-
 /// What holds from a world's first tick to its last.
 struct WorldConfig {
     std::vector<PlaneDescription> planes{};
@@ -108,13 +95,7 @@ struct WorldConfig {
     bool sleeping = true; // whether bodies at rest may fall asleep
     HandFeels feels{};
     std::vector<FieldDescription> fields{};
-    std::vector<BodyPair> apart{}; // that do not touch each other: joined; sorted
-
-    [[nodiscard]] bool are_apart(BodyId a, BodyId b) const
-    {
-        return !apart.empty() && std::binary_search(apart.begin(), apart.end(),
-                                                    BodyPair{std::min(a, b), std::max(a, b)});
-    }
+    InternalFaces internal_faces{};
 };
 
 /// How a kinematic body goes on.
@@ -174,7 +155,6 @@ struct WorldState {
     Bounded<BodyId> pushed{};               // the bodies with a push or a torque, each once
     Bounded<BodyId> twisted{};              // those of them with a torque, each once
     std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
-    std::vector<JointState> joints{};       // by id
     std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
     std::vector<HandSlip> slips{};          // by hand; empty where no hand has friction
     std::uint64_t ticks = 0;
@@ -186,7 +166,6 @@ struct WorldState {
 struct Scales {
     double tick = 1e-3;  // s
     double size = 0.02;  // m: the smallest half edge of a movable body
-    double least = 0.02; // m: the smallest half edge of all
     double fall = 0.0;   // m/s: what gravity adds in a tick
     double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
     double rate = 1e3;   // 1/s: ticks per second

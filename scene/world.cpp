@@ -6,7 +6,6 @@
 #include "proto/base/math.hpp"
 #include "scene/fields.hpp"
 #include "scene/maths/rotation.hpp"
-#include "scene/rigid/joint_order.hpp"
 
 #include <array>
 #include <bit>
@@ -78,7 +77,7 @@ WorldConfig config_from(const Description& description, const FreezeOptions& opt
             .sleeping = options.sleeping,
             .feels = HandFeels{description},
             .fields = description.fields,
-            .apart = joined_apart(description)};
+            .internal_faces = InternalFaces{Bodies{description}}};
 }
 
 WorldState initial_state(const Description& description)
@@ -91,13 +90,6 @@ WorldState initial_state(const Description& description)
     state.twisted = Bounded<BodyId>{description.bodies.size()};
     state.is_pushed.resize(description.bodies.size());
     if (has_hand_friction(description)) state.slips.resize(description.hands.count);
-    state.joints.resize(description.joints.size());
-    for (std::size_t i = 0; i < description.joints.size(); ++i) {
-        const JointDescription& joint = description.joints[i];
-        if (joint.kind == JointKind::spring)
-            state.joints[i].coordinate =
-                glm::length(joint.position.value - joint.to_position.value);
-    }
     for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
         const Sway& sway = description.bodies[state.bodies.properties[slot].id].sway;
         const bool sways = sway.period != base::Duration{};

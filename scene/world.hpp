@@ -108,12 +108,6 @@ public:
     }
     [[nodiscard]] bool is_awake(BodyId id) const;
     [[nodiscard]] const HandTouch& touch(std::uint32_t hand) const { return state_.touches[hand]; }
-    /// Where a joint is and what it did in the last tick; its id is its index in the description.
-    [[nodiscard]] const JointState& joint(JointId id) const
-    {
-        base::ensure(id < state_.joints.size());
-        return state_.joints[id];
-    }
     [[nodiscard]] const WorldState& state() const { return state_; }
     [[nodiscard]] const WorldConfig& frozen() const { return config_; }
     /// What the last tick took, and the most that a tick of this scene can take.

@@ -113,6 +113,12 @@ inline constexpr std::uint32_t feature_bits_count = 6;
     return std::sqrt(glm::dot(core, core)) + rounding;
 }
 
+/// The smallest half edge of a box.
+[[nodiscard]] inline double smallest_half(const OrientedBox& box)
+{
+    return std::min({box.half.x, box.half.y, box.half.z});
+}
+
 /// What tolerances are relative to.
 [[nodiscard]] inline double smallest_half(const OrientedBox& a, const OrientedBox& b)
 {

@@ -60,7 +60,6 @@ bool reaches(const Aabb& box, const PlaneDescription& plane)
 template <BroadPhase broad_phase>
 PairFinder<broad_phase>::PairFinder(const WorldConfig& config, const Bodies& bodies)
     : planes_of_scene_{config.planes},
-      apart_{config.apart},
       has_parts_{!bodies.parts.empty()},
       fat_boxes_{config, bodies},
       boxes_{first_boxes(fat_boxes_, bodies)},
@@ -111,17 +110,6 @@ void PairFinder<broad_phase>::renew(const Bodies& bodies, Slot slot)
     bodies.for_parts(id, [&](PartId part) { move(part, fat_boxes_.around(bodies, part, whole)); });
 }
 
-/// Whether two parts never touch: of one body, or of two that are joined.
-template <BroadPhase broad_phase>
-bool PairFinder<broad_phase>::are_apart(const Bodies& bodies, PartId a, PartId b) const
-{
-    if (!has_parts_ && apart_.empty()) return false;
-    const BodyId one = bodies.body_of(a);
-    const BodyId two = bodies.body_of(b);
-    return one == two || std::binary_search(apart_.begin(), apart_.end(),
-                                            BodyPair{std::min(one, two), std::max(one, two)});
-}
-
 /// Renews the pairs of a part after its box.
 template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, PartId id)
@@ -141,7 +129,7 @@ void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, PartId id)
     boxes_.for_overlapping(id, [&](PartId other) {
         if (other == id || stamps_[other] == stamp_) return;
         if (is_kinematic && bodies.slot_of[other] >= bodies.movable) return;
-        if (are_apart(bodies, id, other)) return;
+        if (has_parts_ && bodies.body_of(id) == bodies.body_of(other)) return;
         const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
         if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_left_out_ = true;
     });

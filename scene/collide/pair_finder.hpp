@@ -121,14 +121,12 @@ private:
 
     void renew(const Bodies& bodies, Slot slot);
     void update_pairs(const Bodies& bodies, PartId id);
-    [[nodiscard]] bool are_apart(const Bodies& bodies, PartId a, PartId b) const;
     void update_plane_pairs(const Aabb& box, PartId id, bool is_awake);
     void update_hand(Hand& hand, PartId id);
     void renew_hand(Hand& known, const HandPath& path);
 
     std::vector<PlaneDescription> planes_of_scene_;
-    std::vector<BodyPair> apart_; // see WorldConfig
-    bool has_parts_;              // some body has several
+    bool has_parts_; // some body has several
     FatAabbs fat_boxes_;
     Finder boxes_;
     PairSet pairs_;

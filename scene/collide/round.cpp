@@ -117,19 +117,33 @@ public:
                 glm::dot(box.axes[2], line.axis)}
     {}
 
-    [[nodiscard]] Meeting meet(double rounding) const
+    /// Where `tilts` is set, a line that tilts by a hair off a face counts as lying along it.
+    [[nodiscard]] Meeting meet(double rounding, bool tilts) const
     {
         Meeting found;
         found.place = nearest();
         const glm::dvec3 place = at(found.place);
         const glm::dvec3 on_box = glm::clamp(place, -box_.half, box_.half);
-        const glm::dvec3 way = on_box - place;
+        glm::dvec3 way = on_box - place;
         found.distance = length(way);
         if (found.distance <= no_distance * rounding) return overlap();
-        found.normal = box_.axes * (way / found.distance);
         found.other = box_.centre + box_.axes * on_box;
-        std::array<bool, 3> within{};
-        for (const int i : {0, 1, 2}) within[static_cast<std::size_t>(i)] = way[i] == 0.0;
+        // Such a line is nearest at its end, or at an edge that its foot has left by that hair.
+        std::array<bool, 3> within{}, nearly{};
+        glm::dvec3 across = way;
+        for (const int i : {0, 1, 2}) {
+            const auto index = static_cast<std::size_t>(i);
+            within[index] = nearly[index] = way[i] == 0.0;
+            if (!tilts || std::abs(way[i]) > along_sine * found.distance ||
+                std::abs(axis_[i]) <= along_sine)
+                continue;
+            nearly[index] = true;
+            across[i] = 0.0;
+        }
+        found.normal = box_.axes * (across / length(across));
+        set_alongside(found, nearly);
+        if (nearly == within || found.from < found.to) return found;
+        found.normal = box_.axes * (way / found.distance);
         set_alongside(found, within);
         return found;
     }
@@ -251,12 +265,12 @@ private:
 };
 
 /// Of a round shape and any other.
-Meeting meet(const OrientedBox& round, const OrientedBox& other)
+Meeting meet(const OrientedBox& round, const OrientedBox& other, bool tilts = false)
 {
     const CoreLine line = line_of(round);
     const double rounding = round.rounding + other.rounding;
     if (other.is_round()) return meet(line, line_of(other), rounding);
-    return LineAndBox{line, other}.meet(rounding);
+    return LineAndBox{line, other}.meet(rounding, tilts);
 }
 
 } // namespace
@@ -292,7 +306,7 @@ Manifold round_manifold(const OrientedBox& a, const OrientedBox& b, double margi
     const bool is_a = a.is_round();
     const OrientedBox& round = is_a ? a : b;
     const OrientedBox& other = is_a ? b : a;
-    const Meeting found = meet(round, other);
+    const Meeting found = meet(round, other, true);
     const CoreLine line = line_of(round);
     const double separation = found.distance - (round.rounding + other.rounding);
     Manifold manifold;

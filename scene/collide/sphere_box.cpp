@@ -112,6 +112,13 @@ std::optional<LocalOverlap> SphereBoxMemory::find_here(const glm::dvec3& half,
     return behind(*entered_, half, place, radius);
 }
 
+LocalOverlap SphereBoxMemory::enter(BoxFace face, const glm::dvec3& half, const glm::dvec3& place,
+                                    double radius)
+{
+    entered_ = face;
+    return behind(face, half, place, radius);
+}
+
 std::optional<LocalOverlap> SphereBoxMemory::find(const glm::dvec3& half, const glm::dvec3& place,
                                                   double radius, const glm::dvec3* before)
 {

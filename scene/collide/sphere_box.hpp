@@ -82,6 +82,9 @@ public:
                                                    double radius, const glm::dvec3* before);
 
     void forget() { entered_.reset(); }
+    /// Puts a sphere whose centre is in the box behind another face.
+    [[nodiscard]] LocalOverlap enter(BoxFace face, const glm::dvec3& half, const glm::dvec3& place,
+                                     double radius);
 
     /// The face through which the centre went in, or would on its shortest path.
     [[nodiscard]] std::optional<BoxFace> entered() const { return entered_; }

@@ -84,23 +84,71 @@ glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to)
     return (times * stretch) * glm::dvec3{by.x, by.y, by.z};
 }
 
-glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin, double tick)
+namespace {
+
+/// The rotation about the angular momentum that belongs to the spin along it. It keeps the energy
+/// of any body exactly, and leaves its nutation out.
+glm::dquat precessed(const glm::dquat& orientation, const FreeRotation& spin, double time)
+{
+    const glm::dvec3& momentum = spin.angular_momentum;
+    const double square = glm::dot(momentum, momentum);
+    if (square == 0.0) return orientation;
+    const double along = glm::dot(momentum, angular_velocity(orientation, spin)) / square;
+    return rotated(orientation, (time * along) * momentum);
+}
+
+/// One step of the midpoint rule, brought back to the energy that there was.
+glm::dquat midpoint_step(const glm::dquat& orientation, const FreeRotation& spin, double time)
 {
     const glm::dvec3 first = angular_velocity(orientation, spin);
-    const glm::dquat halfway = rotation_by((0.5 * tick) * first) * orientation;
-    const glm::dquat end = rotated(orientation, tick * angular_velocity(halfway, spin));
-    // The rule strays from the energy of turning, L w / 2: back across the level curves of that,
-    // by one step of Newton's method. Not where they are flat, or so far that one says little.
+    const glm::dquat halfway = rotation_by((0.5 * time) * first) * orientation;
+    const glm::dquat end = rotated(orientation, time * angular_velocity(halfway, spin));
+    const auto found = with_energy(end, spin, 0.5 * glm::dot(spin.angular_momentum, first));
+    return found ? *found : precessed(orientation, spin, time);
+}
+
+} // namespace
+
+std::optional<glm::dquat> with_energy(const glm::dquat& orientation, const FreeRotation& spin,
+                                      double energy)
+{
+    // Newton's method across the level curves of the energy L w / 2 doubles its digits with each
+    // round.
+    constexpr int rounds_max = 5;
+    constexpr double flat = 1e-9, far = 0.1;                // radians
+    constexpr double rounding = 2e-15, good_enough = 1e-13; // of the energy
     const glm::dvec3& momentum = spin.angular_momentum;
-    const glm::dvec3 last = angular_velocity(end, spin);
-    const double excess = 0.5 * glm::dot(momentum, last - first);
-    const glm::dvec3 slope = glm::cross(last, momentum);
-    const double steepness2 = glm::dot(slope, slope);
-    constexpr double flat = 1e-4, far = 1e-2; // radians
-    if (steepness2 <= flat * flat * glm::dot(momentum, momentum) * glm::dot(last, last) ||
-        excess * excess >= far * far * steepness2)
-        return end;
-    return rotated(end, (-excess / steepness2) * slope);
+    glm::dquat found = orientation;
+    for (int round = 0;; ++round) {
+        const glm::dvec3 velocity = angular_velocity(found, spin);
+        const double excess = 0.5 * glm::dot(momentum, velocity) - energy;
+        if (std::abs(excess) <= rounding * energy) return found;
+        const glm::dvec3 slope = glm::cross(velocity, momentum);
+        const double steepness2 = glm::dot(slope, slope);
+        const bool is_flat =
+            steepness2 <= flat * flat * glm::dot(momentum, momentum) * glm::dot(velocity, velocity);
+        if (is_flat || round == rounds_max || excess * excess >= far * far * steepness2) {
+            if (std::abs(excess) <= good_enough * energy) return found;
+            return std::nullopt;
+        }
+        found = rotated(found, (-excess / steepness2) * slope);
+    }
+}
+
+glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin, double tick)
+{
+    // A step of the midpoint rule turns no farther than this.
+    constexpr double step_max = 0.2; // radians
+    constexpr double pieces_max = 64.0;
+    const glm::dvec3 first = angular_velocity(orientation, spin);
+    const double angle2 = tick * tick * glm::dot(first, first);
+    if (angle2 <= step_max * step_max) return midpoint_step(orientation, spin, tick);
+    const double steps = std::ceil(std::sqrt(angle2) / step_max);
+    if (!(steps <= pieces_max)) return precessed(orientation, spin, tick);
+    glm::dquat end = orientation;
+    const int count = static_cast<int>(steps);
+    for (int step = 0; step < count; ++step) end = midpoint_step(end, spin, tick / steps);
+    return end;
 }
 
 } // namespace hapnet::scene

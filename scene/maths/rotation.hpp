@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 namespace hapnet::scene {
 
@@ -73,9 +74,16 @@ struct FreeRotation {
 /// The shortest turn from one orientation to another: `to` is rotated(from, turn). Within 1e-10.
 [[nodiscard]] glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to);
 
-/// The orientation of a freely turning body one tick later, by the explicit midpoint rule on the
-/// rotation group, put back to where the energy of turning is what it was: second order, without a
-/// drift of energy. Exact when the three moments of inertia are equal.
+/// The orientation next to one in which a body with that angular momentum has so much energy of
+/// rotation, J; nothing where none is within 0.1 radians.
+[[nodiscard]] std::optional<glm::dquat> with_energy(const glm::dquat& orientation,
+                                                    const FreeRotation& spin, double energy);
+
+/// The orientation of a freely rotating body one tick later, by the explicit midpoint rule on the
+/// rotation group in steps of at most 0.2 radians, each brought back to the energy that there was:
+/// second order, and energy and angular momentum stay what they were, to rounding. Beyond 12.8
+/// radians in a tick the body rotates evenly about its angular momentum, which keeps both as well.
+/// Exact when the three moments of inertia are equal.
 [[nodiscard]] glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin,
                                         double tick);
 

@@ -95,6 +95,7 @@ void ContinuousCollision::begin(const WorldConfig& config, const WorldState& sta
                                bodies.velocity.at(slot), bodies.angular_momentum.at(slot)};
         departure.turn = Departure::Turn::free;
         departure.first_touch.time = scales_.tick;
+        departure.least_near = properties.least_half;
     }
     for (const Slot slot : active) {
         const BodyIntegration& integration = integrations[slot + 1];
@@ -105,6 +106,7 @@ void ContinuousCollision::begin(const WorldConfig& config, const WorldState& sta
                                                           integration.start.velocity));
         departure.start = integration.start;
         departure.first_touch = integration.first_touch;
+        departure.least_near = integration.least_near;
         departure.turn =
             integration.has_hands ? Departure::Turn::by_hands : Departure::Turn::steady;
         departure.spin = spin_through_tick(integration, bodies, slot, mean, scales_.tick);
@@ -122,7 +124,7 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
     woken_.clear();
     steps_left_ = steps_max_;
     const auto add_fast = [&](Slot slot) {
-        if (goes_far(chord(bodies, slot), 0.0))
+        if (goes_far(chord(bodies, slot), 0.0, least_near(bodies, slot)))
             flyers_[add_flyer(around, bodies.properties[slot].id)].is_fast = true;
     };
     for (const Slot slot : active) add_fast(slot);
@@ -155,7 +157,9 @@ void ContinuousCollision::go_on(const Surroundings& around, const PairFinder<sea
 {
     Flyer& flyer = flyers_[index];
     if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
-        flyer.is_fast = goes_far(flyer.flight, time);
+        flyer.is_fast =
+            goes_far(flyer.flight, time,
+                     least_near(around.state.bodies, around.state.bodies.slot_of[flyer.body]));
     if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
     advance_all(around, index, time, done);
 }
@@ -229,18 +233,23 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
     flight.velocity = scales_.rate * (flight.centre - departure.beginning.position);
     if (properties.turning != Turning::locked) {
         switch (departure.turn) {
-        case Departure::Turn::steady: flight.spin = departure.spin; break;
+        case Departure::Turn::steady:
+            flight.spin = steady_spin(departure.beginning.orientation, flight.orientation,
+                                      departure.spin, scales_.tick);
+            break;
         case Departure::Turn::by_hands:
             flight.spin =
                 scales_.rate * turn_between(departure.beginning.orientation, flight.orientation);
             break;
         case Departure::Turn::free:
-            flight.spin =
-                rotates_uniformly(properties)
-                    ? bodies.angular_velocity(slot)
-                    : mean_spin(departure.beginning.orientation,
-                                {bodies.angular_momentum.at(slot), properties.inverse_inertia},
-                                scales_.tick);
+            flight.spin = rotates_uniformly(properties)
+                              ? bodies.angular_velocity(slot)
+                              : steady_spin(departure.beginning.orientation, flight.orientation,
+                                            mean_spin(departure.beginning.orientation,
+                                                      {bodies.angular_momentum.at(slot),
+                                                       properties.inverse_inertia},
+                                                      scales_.tick),
+                                            scales_.tick);
             break;
         }
     }
@@ -249,11 +258,18 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
     return flight;
 }
 
+/// The smallest half edge of a body and what it may meet; of what moves by itself, of all bodies.
+double ContinuousCollision::least_near(const Bodies& bodies, Slot slot) const
+{
+    if (slot >= bodies.movable) return scales_.size;
+    return slot < bodies.awake ? departures_[slot].least_near : bodies.properties[slot].least_half;
+}
+
 /// Whether it goes so far in the rest of the tick that it could pass something.
-bool ContinuousCollision::goes_far(const SteadyBox& flight, double time) const
+bool ContinuousCollision::goes_far(const SteadyBox& flight, double time, double least_near) const
 {
     const double turning = flight.core_radius() * length(flight.spin);
-    return (scales_.tick - time) * (length(flight.velocity) + turning) > far_way * scales_.least;
+    return (scales_.tick - time) * (length(flight.velocity) + turning) > far_way * least_near;
 }
 
 ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surroundings& around,
@@ -381,7 +397,9 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     const double until = std::min(scales_.tick, flyers_[index].bend);
     const double end = flyers_[index].is_released ? scales_.tick : until;
     // What others move without being fast is within this, too.
-    const double margin = flight.radius + far_way * scales_.least;
+    const Bodies& all = around.state.bodies;
+    const double margin =
+        flight.radius + far_way * least_near(all, all.slot_of[flyers_[index].body]);
     const Aabb way =
         grown(hull(flight.centre + time * flight.velocity, flight.centre + end * flight.velocity),
               glm::dvec3{margin});
@@ -407,7 +425,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     const BodyId own = flyers_[index].body;
     pairs.for_overlapping(way, [&](PartId part) {
         const BodyId id = has_parts ? around.state.bodies.body_of(part) : part;
-        if (id == own || around.config.are_apart(id, own)) return;
+        if (id == own) return;
         const FlyerIndex other = add_flyer(around, id);
         if (are_to_meet(other, index, false)) return;
         meet(other, false);
@@ -416,7 +434,6 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
         // Those that were thrown out of the boxes in which the others find them.
         if (other == index || !flyers_[other].is_fast) continue;
         if (!overlap(way, flyers_[other].searched)) continue;
-        if (around.config.are_apart(own, flyers_[other].body)) continue;
         if (are_to_meet(index, other, false) || are_to_meet(other, index, false)) continue;
         meet(other, false);
     }
@@ -504,8 +521,15 @@ ContinuousCollision::TouchPoints ContinuousCollision::touch_points(const Surroun
     }
     const SteadyBox& b = flight_of(bodies, meeting.b, meeting.part_b, room_b);
     BoxBoxMemory memory;
-    return {collide(a.at(meeting.time), b.at(meeting.time), margin, memory), a.rounding,
-            b.rounding};
+    const OrientedBox here_a = a.at(meeting.time), here_b = b.at(meeting.time);
+    TouchPoints points{collide(here_a, here_b, margin, memory), a.rounding, b.rounding};
+    const auto part_of = [&](FlyerIndex index, PartId part) {
+        return flyers_[index].has_parts ? part : PartId{flyers_[index].body};
+    };
+    around.config.internal_faces.leave_outer({part_of(meeting.a, meeting.part_a), here_a},
+                                             {part_of(meeting.b, meeting.part_b), here_b},
+                                             points.manifold);
+    return points;
 }
 
 /// The impulse of a touch; whether there was one.

@@ -99,6 +99,26 @@ public:
         }
     }
 
+    /// Something fixed or kinematic that was in the way of a movable body.
+    struct Wall {
+        bool is_kinematic = false;
+        bool has_pushed = false;
+    };
+    /// Calls visit(slot, wall) for each movable body that had one in its way.
+    template <typename Visit>
+    void for_walls(const Bodies& bodies, Visit&& visit) const
+    {
+        for (const Meeting& meeting : meetings_.all()) {
+            const Flyer& a = flyers_[meeting.a];
+            const Flyer& b = flyers_[meeting.is_plane ? meeting.a : meeting.b];
+            if (meeting.is_plane || !b.is_movable)
+                visit(bodies.slot_of[a.body],
+                      Wall{!meeting.is_plane && b.is_kinematic, meeting.has_pushed});
+            else if (!a.is_movable)
+                visit(bodies.slot_of[b.body], Wall{a.is_kinematic, meeting.has_pushed});
+        }
+    }
+
 private:
     using FlyerIndex = std::uint32_t;
     using MeetingIndex = std::uint32_t;
@@ -118,6 +138,7 @@ private:
         glm::dvec3 acceleration{0.0}; // through the tick; 0 of a sleeper
         BodyMotion start;
         FirstTouch first_touch;
+        double least_near = 0.0; // m, see BodyIntegration
     };
     /// A body that goes far, or that one such may meet.
     struct Flyer {
@@ -162,7 +183,8 @@ private:
 
     FlyerIndex add_flyer(const Surroundings& around, BodyId body);
     [[nodiscard]] SteadyBox chord(const Bodies& bodies, Slot slot) const;
-    [[nodiscard]] bool goes_far(const SteadyBox& flight, double time) const;
+    [[nodiscard]] bool goes_far(const SteadyBox& flight, double time, double least_near) const;
+    [[nodiscard]] double least_near(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] bool got_past(const Bodies& bodies, const Departure& departure) const;
     static void set_part(SteadyBox& flight, const BodyPart& part);
     [[nodiscard]] const SteadyBox& flight_of(const Bodies& bodies, FlyerIndex index, PartId part,

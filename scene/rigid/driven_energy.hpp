@@ -17,7 +17,7 @@ namespace hapnet::scene {
     return std::min(given, taken + rounding * std::abs(taken));
 }
 
-/// What kinematic bodies did to a body, or to an island of them.
+/// What kinematic bodies did to a body in touches within a tick.
 struct DrivenEnergy {
     double energy = 0.0; // J
     double speed = 0.0;  // m/s: of their surfaces there, at most
@@ -27,9 +27,8 @@ struct DrivenEnergy {
         energy += other.energy;
         speed = std::max(speed, other.speed);
     }
-    /// With a share of the impulses.
-    [[nodiscard]] DrivenEnergy scaled(double share) const { return {share * energy, speed}; }
-    /// No more of it, J, than impulses at that speed could do that leave so much momentum, N s.
+    /// No more of it, J, than impulses at that speed could do that leave so much momentum, N s: in
+    /// a wedge touches push to and fro without end.
     [[nodiscard]] double within(double passed) const
     {
         return energy <= 0.0 ? energy : std::min(energy, speed * passed);

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/flight.hpp"
 
+#include "proto/base/math.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/integrate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace hapnet::scene {
@@ -33,6 +36,19 @@ glm::dquat Roll::turned(const glm::dquat& orientation, const BodyProperties& bod
     glm::dvec3 turn{0.0};
     turn[longest_axis(body.half)] = all;
     return base::normalized(orientation * rotation_by(turn));
+}
+
+glm::dvec3 steady_spin(const glm::dquat& from, const glm::dquat& to, const glm::dvec3& mean,
+                       double tick)
+{
+    constexpr double far = 0.2; // radians
+    if (tick * length(mean) <= far) return mean;
+    const glm::dvec3 turn = turn_between(from, to);
+    const double angle = length(turn);
+    if (angle == 0.0) return mean;
+    const glm::dvec3 axis = turn / angle;
+    const double rounds = std::round((tick * glm::dot(mean, axis) - angle) / base::two_pi);
+    return ((angle + rounds * base::two_pi) / tick) * axis;
 }
 
 glm::dvec3 spin_of(const Bodies& bodies, Slot slot, const glm::dquat& orientation, Roll& roll)

@@ -30,6 +30,11 @@ struct Roll {
                                     double at) const;
 };
 
+/// The steady spin that leads from one orientation to another in a tick, next to the mean spin:
+/// what turns far tumbles on its way.
+[[nodiscard]] glm::dvec3 steady_spin(const glm::dquat& from, const glm::dquat& to,
+                                     const glm::dvec3& mean, double tick);
+
 /// The spin that a body turned so has now. With unequal moments of inertia it does not stay; but a
 /// capsule is a symmetric top: its axis turns steadily about its angular momentum. Of that it is
 /// the spin, and `roll` gets the rest.

@@ -177,10 +177,16 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
     const double ahead =
         config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
         0.5 * gravity_reach_;
-    const auto overlap = near_body.memory.find(box.half, here, spring.radius + ahead,
-                                               has_before ? &before : nullptr);
+    auto overlap = near_body.memory.find(box.half, here, spring.radius + ahead,
+                                         has_before ? &before : nullptr);
+    const bool has_internal = config.internal_faces.has(target.part);
+    if (overlap && has_internal) {
+        const double reach = spring.radius + ahead;
+        overlap =
+            outer_overlap(config.internal_faces, target, {near_body.memory, here, reach}, *overlap);
+    }
     if (!overlap) return false;
-    if (!overlap->is_amid_face) {
+    if (!overlap->is_amid_face || has_internal) {
         spring.normal = box.axes * overlap->normal;
         spring.arm = box.axes * overlap->point;
         spring.gap = ahead - overlap->depth;
@@ -198,6 +204,29 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
             static_cast<double>(face.sign) * box.axes[face.axis], half[face.axis]};
     press(amid, offset, spring);
     return true;
+}
+
+/// What is left of an overlap where faces are internal: behind such a face the nearest outer one
+/// pushes, and beside it the neighbour does.
+std::optional<LocalOverlap> HandContacts::outer_overlap(const InternalFaces& internal,
+                                                        const Target& target, const FoundNear& near,
+                                                        const LocalOverlap& found)
+{
+    constexpr double lean = 1e-7;
+    const glm::dvec3& half = target.now.box.half;
+    LocalOverlap overlap = found;
+    if (internal.leads_inside(target.part, half, found, lean)) {
+        const glm::dvec3 beyond = glm::abs(near.place) - half;
+        // On the border it is in: is_shared() leaves the point to one of two neighbours.
+        constexpr double border = 2e-12;
+        const double most = border * std::max({half.x, half.y, half.z});
+        if (std::max({beyond.x, beyond.y, beyond.z}) > most) return std::nullopt;
+        const auto face = internal.nearest_outer_face(target.part, half, near.place);
+        if (!face) return std::nullopt;
+        overlap = near.memory.enter(*face, half, near.place, near.radius);
+    }
+    if (internal.is_shared(target.part, overlap)) return std::nullopt;
+    return overlap;
 }
 
 /// On a sphere or a capsule: by the nearest point of its core.
@@ -493,13 +522,6 @@ const HandContacts::Spring& HandContacts::first_spring_on(BodyId body) const
     const std::span<const Spring> all = springs_.all();
     return *std::find_if(all.begin(), all.end(),
                          [body](const Spring& spring) { return spring.body == body; });
-}
-
-void HandContacts::scale_impulses(BodyId body, double share)
-{
-    for (Spring& spring : springs_.all()) {
-        if (spring.body == body) spring.impulse *= share;
-    }
 }
 
 void HandContacts::forget_departed(std::uint32_t index)

@@ -119,8 +119,6 @@ public:
     void store_impulses(BodyId body);
     /// Of one that has some.
     [[nodiscard]] const Spring& first_spring_on(BodyId body) const;
-    /// Takes but a share of what the springs did to a body.
-    void scale_impulses(BodyId body, double share);
     /// Reports to the hands what the springs did.
     void report_forces(const WorldConfig& config, WorldState& state);
 
@@ -153,6 +151,16 @@ private:
                NearBody& near_body, HandSpring& spring) const;
     bool find(const WorldConfig& config, const HandInput& input, const Target& target,
               NearBody& near_body, HandSpring& spring) const;
+    /// A hand near a box, in the box's frame.
+    struct FoundNear {
+        SphereBoxMemory& memory;
+        const glm::dvec3& place;
+        double radius = 0.0;
+    };
+    [[nodiscard]] static std::optional<LocalOverlap> outer_overlap(const InternalFaces& internal,
+                                                                   const Target& target,
+                                                                   const FoundNear& near,
+                                                                   const LocalOverlap& found);
     bool find_on_part(const WorldConfig& config, const HandInput& input, const Target& target,
                       NearBody& near_body, HandSpring& spring) const;
     bool find_round(const WorldConfig& config, const HandInput& input, const Target& target,

@@ -59,6 +59,14 @@ void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
                          glm::dvec3{0.0}};
 }
 
+double kinetic_energy(const BodyProperties& properties, const MovingBody& body)
+{
+    const glm::dvec3 spin =
+        Bodies::apply_inverse_inertia(properties, body.orientation, body.angular_momentum);
+    return 0.5 * (properties.mass * glm::dot(body.velocity, body.velocity) +
+                  glm::dot(body.angular_momentum, spin));
+}
+
 glm::dquat orientation_at_end(const BodyIntegration& integration, const Bodies& bodies, Slot slot,
                               const BodyMotion& mean, double tick)
 {
@@ -109,11 +117,8 @@ void reset(BodyIntegration& integration)
     integration.friction_contacts = 0;
     integration.drag = 0.0;
     integration.has_hands = false;
-    integration.is_joined = false;
-    integration.hand_energy_stored = 0.0;
-    integration.hand_energy_driven = 0.0;
+    integration.own_work = 0.0;
     integration.driven = {};
-    integration.grips.impulse = 0.0;
     integration.first_touch.time = std::numeric_limits<double>::infinity();
 }
 
@@ -123,7 +128,7 @@ void begin_again(BodyIntegration& integration, const glm::dvec3& twist)
     integration.contact_angular_impulse = twist;
     integration.bounce_angular_impulse = glm::dvec3{0.0};
     integration.bounce_angular_impulse_mean = glm::dvec3{0.0};
-    integration.hand_energy_driven = 0.0;
+    integration.own_work = 0.0;
     integration.driven = {};
 }
 
@@ -230,9 +235,6 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
             ? advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes)
             : advance_with_friction(body, dynamics, {hands.springs, hands.frictions, hands.work},
                                     config.tick);
-    integration.hand_energy_stored = energy.stored;
-    integration.hand_energy_driven = energy.driven;
-    integration.grips = energy.grips;
     integration.hands_are_braked = energy.is_braked;
     integration.hand_rows = energy.rows;
     integration.has_hands = true;
@@ -247,6 +249,13 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.mean.spin = 0.5 * (integration.start.spin + integration.predicted.spin);
     integration.mean.angular_impulse = glm::dvec3{0.0};
     integration.mean_to_there = integration.mean;
+    // What it has more than constant forces gave it.
+    const double more = kinetic_energy(bodies.properties[slot], body) -
+                        kinetic_energy(bodies.properties[slot], start) -
+                        bodies.properties[slot].mass *
+                            glm::dot(dynamics.acceleration, body.position - start.position) -
+                        config.tick * glm::dot(dynamics.torque, integration.mean.spin);
+    integration.own_work = more;
 }
 
 void apply_stop(const ContactBlock& block, const SlidingBody& body,
@@ -270,7 +279,7 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
                                 block.impulse.tangent_2 * glm::dot(block.tangent_2, along));
     // The other forces along the slip: it brought the body to a stop together with the friction.
     const double other = -properties.mass * speed - held;
-    const double braking = block.friction * block.normal_sum() - other;
+    const double braking = block.friction_limit() - other;
     if (!(braking > properties.mass * speed)) return;
     const double share = properties.mass * speed / braking; // of the tick, until the stop
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
@@ -317,17 +326,17 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
                             const Scales& scales)
 {
     Ways ways;
-    const double most = far_way * scales.least * scales.rate;
-    const double aside = stray_max * scales.least * scales.rate;
     for (const Slot slot : slots) {
         const SolverIndex i = slot + 1;
         BodyMotion& mean = solver.mean_motion(i);
         glm::dvec3& way = mean.velocity;
         const double half = sum_of_sizes(state.bodies.properties[slot].half);
+        const double least = integrations[i].least_near;
+        const double most = far_way * least * scales.rate;
+        const double aside = stray_max * least * scales.rate;
         if (sum_of_sizes(way) + half * sum_of_sizes(mean.spin) <= most) continue;
         ways.any_far = true;
         const BodyIntegration& integration = integrations[i];
-        if (integration.is_joined) continue;
         const BodyMotion& end = solver.end_motion(i);
         const auto kept = [&](const glm::dvec3& now, const glm::dvec3& from, const glm::dvec3& to,
                               const glm::dvec3& with_hands, double stray) {

@@ -40,21 +40,20 @@ struct BodyIntegration {
     double drag = 0.0;                           // 1/s, on the plane that supports it
     glm::dvec3 support_normal{0.0};              // its normal
     FirstTouch first_touch;                      // of those met on its way
-    bool is_joined = false;                      // a joint holds it: it goes where that lets it
-    double hand_energy_driven = 0.0;             // J: work of the own motion of hands
-    DrivenEnergy driven{};                       // of kinematic bodies, in contacts
+    double least_near = 0.0; // m: the smallest half edge of it and what it may meet
+    DrivenEnergy driven{};   // of kinematic bodies, in contacts
 
-    bool is_grounded = false; // see GroundedEnergy, for these four
-    bool meets_another = false;
+    // Where it was and what it had before it moved: see IslandEnergy.
     glm::dvec3 start_position{0.0};
+    glm::dquat start_orientation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 start_angular_momentum{0.0};
     double start_energy = 0.0; // J, kinetic
 
     // Where a body with hands on it would be at the end.
     bool has_hands = false;
     bool hands_are_braked = false;
-    std::size_t hand_rows = 0;       // see HandEnergy
-    double hand_energy_stored = 0.0; // J: in their springs at the start of the tick
-    GripEnergy grips;                // of those that hold
+    std::size_t hand_rows = 0; // see HandEnergy
+    double own_work = 0.0;     // J: what hands gave it, less what drag took
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     BodyMotion mean_to_there; // the mean motion that goes there
@@ -123,8 +122,8 @@ void stop_sliding_contacts(const Bodies& bodies, const Scales& scales, ContactSo
 /// that rests or slides straight on is in balance before the solver looks at it.
 void warm_start(ContactSolver& solver, std::span<BodyIntegration> integrations);
 
-/// A body that goes farther than this in a tick, in half edges of the smallest body, could pass
-/// through something.
+/// A body that goes farther than this in a tick, in half edges of the smallest of what is near,
+/// could pass through something.
 inline constexpr double far_way = 0.5;
 
 /// What keep_within_swept_path() saw.
@@ -133,12 +132,12 @@ struct Ways {
     bool any_far = false;  // some body goes far, turning included: ContinuousCollision has work
 };
 
-/// Whether a body does, turning included.
+/// Whether a body that meets planes alone does, turning included.
 [[nodiscard]] inline bool goes_far(const BodyProperties& body, const BodyMotion& mean,
                                    const Scales& scales)
 {
     return sum_of_sizes(mean.velocity) + sum_of_sizes(body.half) * sum_of_sizes(mean.spin) >
-           far_way * scales.least * scales.rate;
+           far_way * body.least_half * scales.rate;
 }
 
 /// A body is on its way between what it began with and what it ends with. When the correction of

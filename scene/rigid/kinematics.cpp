@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/kinematics.hpp"
 
+#include "scene/rigid/driven_energy.hpp"
+
 #include "proto/base/math.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
@@ -92,7 +94,7 @@ void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
         now.moves = !is_at_rest(now.start) || !is_at_rest(now.mean) || !is_at_rest(now.end);
         const double across = length(bodies.properties[slot].half);
         any_far_ = any_far_ || length(now.mean.velocity) + across * length(now.mean.spin) >
-                                   far_way * scales_.least * scales_.rate;
+                                   far_way * scales_.size * scales_.rate;
         bodies.velocity.put(slot, now.mean.velocity);
         bodies.angular_momentum.put(slot, now.mean.spin);
     }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/restitution.hpp"
 
+#include "scene/rigid/driven_energy.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -169,32 +171,92 @@ bool any_bounces(const WorldConfig& config, const Bodies& bodies)
 
 } // namespace
 
-Restitution::Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks)
-    : is_needed_{any_bounces(config, bodies)}, hits_{is_needed_ ? blocks : 0}
+Restitution::Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks,
+                         const Scales& scales)
+    : scales_{scales},
+      is_needed_{any_bounces(config, bodies)},
+      bouncing_{is_needed_ ? blocks : 0},
+      next_{is_needed_ ? 2 * blocks : 0},
+      heads_{is_needed_ ? bodies.moving + std::size_t{1} : 0}
 {}
 
-bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
-                        const Scales& scales, Interventions& interventions,
+/// Lists the contacts that bounce, and those of each body.
+void Restitution::begin(ContactSolver& solver, std::span<const BodyIntegration> integrations,
                         std::span<const std::uint8_t> picked)
 {
-    if (!is_needed_) return false;
     const std::span<ContactBlock> blocks = solver.blocks();
-    hits_.clear();
+    bouncing_.clear();
+    next_.clear();
+    heads_.resize(integrations.size());
+    for (std::uint32_t& head : heads_.all()) head = none;
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         if (!(blocks[i].restitution > 0.0)) continue;
         if (!picked.empty() && picked[solver.responding_of(blocks[i])] == 0) continue;
-        const Impact first =
-            first_impact(blocks[i], approach_of(blocks[i], integrations), scales.tick);
-        if (first.speed > bounce_threshold * scales.fall) hits_.add() = {first.time, i};
+        const auto place = static_cast<std::uint32_t>(bouncing_.size());
+        bouncing_.add() = {.block = i};
+        for (const SolverIndex body : {blocks[i].a, blocks[i].b}) {
+            const auto link = static_cast<std::uint32_t>(next_.size());
+            next_.add() = heads_[body];
+            if (solver.responds(body)) heads_[body] = link;
+        }
+        look(bouncing_[place], blocks[i], integrations);
     }
-    std::sort(hits_.all().begin(), hits_.all().end(), [](const Hit& one, const Hit& other) {
-        return one.time != other.time ? one.time < other.time : one.block < other.block;
-    });
-    for (const Hit& hit : hits_.all()) {
-        if (bounce(blocks[hit.block], solver, integrations, scales) < 1.0)
-            ++interventions.bounces_limited;
+}
+
+/// Finds when a contact hits next.
+void Restitution::look(Bouncing& contact, const ContactBlock& block,
+                       std::span<const BodyIntegration> integrations) const
+{
+    contact.time = never;
+    if (contact.bounces == bounces_max) return;
+    const Impact first = first_impact(block, approach_of(block, integrations), scales_.tick);
+    if (first.speed > bounce_threshold * scales_.fall) contact.time = first.time;
+}
+
+bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
+                        Interventions& interventions, std::span<const std::uint8_t> picked)
+{
+    if (!is_needed_) return false;
+    begin(solver, integrations, picked);
+    const std::span<ContactBlock> blocks = solver.blocks();
+    const std::span<Bouncing> all = bouncing_.all();
+    const auto is_earlier = [](const Bouncing& one, const Bouncing& other) {
+        return one.time < other.time;
+    };
+    bool any = false;
+    for (;;) {
+        const auto next = std::min_element(all.begin(), all.end(), is_earlier);
+        if (next == all.end() || next->time == never) return any;
+        any = true;
+        ++next->bounces;
+        ContactBlock& block = blocks[next->block];
+        if (bounce(block, solver, integrations, scales_) < 1.0) ++interventions.bounces_limited;
+        for (const SolverIndex body : {block.a, block.b}) {
+            if (!solver.responds(body)) continue;
+            for (std::uint32_t link = heads_[body]; link != none; link = next_[link]) {
+                Bouncing& other = all[link / 2];
+                look(other, blocks[other.block], integrations);
+            }
+        }
     }
-    return hits_.size() > 0;
+}
+
+void Restitution::leave_coming(ContactBlock& block,
+                               std::span<const BodyIntegration> integrations) const
+{
+    if (!is_needed_ || !(block.restitution > 0.0)) return;
+    const BodyIntegration& a = integrations[block.a];
+    const BodyIntegration& b = integrations[block.b];
+    const ContactVector end = velocity_at(block, a.predicted, b.predicted);
+    const ContactVector mean = velocity_at(block, a.mean, b.mean);
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const double speed = block.normal_speed(end, i);
+        const double gap = block.separation[i] + scales_.tick * block.normal_speed(mean, i);
+        if (speed >= -bounce_threshold * scales_.fall || gap < 0.0) continue;
+        const double turning =
+            block.turns ? block.normal_speed(block.centripetal_velocity, i) : 0.0;
+        block.speed_min[i] = std::min(block.speed_min[i], speed + std::min(turning, 0.0));
+    }
 }
 
 /// The contact's bounce, if what bounced before it has left one.
@@ -217,9 +279,9 @@ double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
         const double speed = block.normal_speed(then, i);
         const double gap = approach.separation(block, i) +
                            0.5 * first.time * (block.normal_speed(from, i) + speed);
-        const bool hits = speed < 0.0 && gap <= together * scales.size;
+        const bool hits = speed < 0.0 && gap <= together * block.size;
         block.speed_min[i] =
-            hits ? -block.restitution * speed : -inactive_speed * scales.size / scales.tick;
+            hits ? -block.restitution * speed : -inactive_speed * block.size / scales.tick;
     }
     ContactVector change = solver.solve_alone(block, then, 0.0);
     double kept_share = share_without_energy_gain(block, then, change);
@@ -229,7 +291,7 @@ double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
     for (double& part : change) part *= kept_share;
     block.impulse = kept;
     block.speed_min = least;
-    block.bounce_impulse = change[0];
+    block.bounce_impulse += change[0];
     const Wrench on_b = wrench(block, change);
     const Wrench on_a{-on_b.impulse, -on_b.angular};
     if (solver.responds(block.b)) {

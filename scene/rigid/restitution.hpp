@@ -8,38 +8,57 @@
 #include "scene/state.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace hapnet::scene {
 
-/// What hits a surface that bounces leaves it at once, at its moment within the tick, and not from
-/// the next tick on. The contacts bounce in the order of their moments, each once, and each sees
-/// what those before it have changed. No bounce gains energy.
+/// Bounces happen at their moment within the tick, the earliest first, and each sees what those
+/// before it have changed: what a bounce throws against others bounces off them in the same tick.
+/// No bounce gains energy.
 class Restitution {
 public:
     /// `blocks`: how many contacts there may be.
-    Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks);
+    Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks,
+                const Scales& scales);
 
     [[nodiscard]] bool is_needed() const { return is_needed_; }
 
     /// Changes the tentative velocities and their means. Returns whether anything bounced. Where
     /// bodies are `picked` (not 0 at their solver index), of their contacts alone.
-    bool apply(ContactSolver& solver, std::span<BodyIntegration> integrations, const Scales& scales,
+    bool apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
                Interventions& interventions, std::span<const std::uint8_t> picked = {});
 
+    /// Lowers the least speeds of the points that come down after the end of the tick: the solver
+    /// leaves their bounce to the next tick.
+    void leave_coming(ContactBlock& block, std::span<const BodyIntegration> integrations) const;
+
 private:
-    /// A contact, and when its first point hits, were no other to bounce before.
-    struct Hit {
-        double time = 0.0;
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    static constexpr double never = std::numeric_limits<double>::infinity();
+    /// Of one contact in a tick. After these it is left to the solver.
+    static constexpr std::uint32_t bounces_max = 4;
+
+    struct Bouncing {
         std::uint32_t block = 0;
+        std::uint32_t bounces = 0;
+        double time = never; // s, from the start of the tick: when its first point hits
     };
 
+    void begin(ContactSolver& solver, std::span<const BodyIntegration> integrations,
+               std::span<const std::uint8_t> picked);
+    void look(Bouncing& contact, const ContactBlock& block,
+              std::span<const BodyIntegration> integrations) const;
     /// Returns the share of it that gains no energy.
     static double bounce(ContactBlock& block, ContactSolver& solver,
                          std::span<BodyIntegration> integrations, const Scales& scales);
 
+    Scales scales_;
     bool is_needed_;
-    Scratch<Hit> hits_;
+    Scratch<Bouncing> bouncing_;
+    // The contacts of each body: link 2 i is that of the i-th with its first body.
+    Scratch<std::uint32_t> next_;
+    Scratch<std::uint32_t> heads_; // by solver index
 };
 
 } // namespace hapnet::scene

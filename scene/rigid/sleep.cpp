@@ -42,6 +42,7 @@ Sleep::Sleep(const WorldConfig& config, const Bodies& bodies)
       speed2_(bodies.movable),
       momentum2_(bodies.movable),
       rested_(bodies.movable, 0.0),
+      motion_(bodies.movable, 0.0),
       islands_{bodies.size()},
       island_rested_(bodies.size(), 0.0),
       queue_{bodies.movable}
@@ -52,15 +53,6 @@ Sleep::Sleep(const WorldConfig& config, const Bodies& bodies)
         speed2_[slot] = speed * speed;
         momentum2_[slot] = momentum * momentum;
     }
-}
-
-void Sleep::join(std::span<const BodyId> bodies)
-{
-    for (std::size_t i = 1; i < bodies.size(); ++i) {
-        joined_.emplace_back(bodies[0], bodies[i]);
-        joined_.emplace_back(bodies[i], bodies[0]);
-    }
-    std::sort(joined_.begin(), joined_.end());
 }
 
 template <BroadPhase broad_phase>
@@ -94,14 +86,6 @@ void Sleep::wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pa
             pairs.for_first(part, [&](PairIndex i) { wake_other(i, pairs[i].b); });
             pairs.for_second(part, [&](PairIndex i) { wake_other(i, pairs[i].a); });
         });
-        if (joined_.empty()) continue;
-        for (auto with = std::lower_bound(joined_.begin(), joined_.end(), BodyPair{next, 0});
-             with != joined_.end() && with->first == next; ++with) {
-            const Slot slot = bodies.slot_of[with->second];
-            if (slot < bodies.awake || slot >= bodies.movable) continue;
-            move_to_awake(with->second, bodies, pair_finder);
-            queue_.add(with->second);
-        }
     }
 }
 
@@ -166,9 +150,30 @@ bool Sleep::count_rest(const Bodies& bodies)
         const double lies = momentum2 <= momentum2_[i] ? 1.0 : 0.0;
         const double rested = (rested_[i] + 1.0) * (stays * lies);
         rested_[i] = rested;
-        any += rested >= rest_ticks_ ? 1.0 : 0.0;
+        any += rested == 1.0 || rested >= rest_ticks_ ? 1.0 : 0.0;
     }
-    return any != 0.0;
+    if (any == 0.0) return false;
+    bool may_sleep = false;
+    for (Slot i = 0; i < bodies.awake; ++i) {
+        if (rested_[i] == 1.0) motion_[i] = motion_of(bodies, i);
+        if (rested_[i] < rest_ticks_) continue;
+        constexpr double still = 1e-12; // of what counts as rest
+        if (motion_of(bodies, i) > std::max(motion_[i], still))
+            rested_[i] = 0.0;
+        else
+            may_sleep = true;
+    }
+    return may_sleep;
+}
+
+/// How fast a body moves and turns, squared, in shares of what counts as rest.
+double Sleep::motion_of(const Bodies& bodies, Slot slot) const
+{
+    const glm::dvec3 v = bodies.velocity.at(slot), l = bodies.angular_momentum.at(slot);
+    constexpr double least = 1e-300;
+    return glm::dot(v, v) / std::max(speed2_[slot], least) +
+           (std::isinf(momentum2_[slot]) ? 0.0
+                                         : glm::dot(l, l) / std::max(momentum2_[slot], least));
 }
 
 template <BroadPhase broad_phase>
@@ -182,8 +187,6 @@ void Sleep::find_islands(const Bodies& bodies, PairFinder<broad_phase>& pair_fin
         if (are_awake && touches(pair.memory))
             islands_.join(bodies.body_of(pair.a), bodies.body_of(pair.b));
     }
-    for (const auto& [one, other] : joined_)
-        if (bodies.slot_of[one] < bodies.awake) islands_.join(one, other);
     for (Slot slot = 0; slot < bodies.awake; ++slot)
         island_rested_[bodies.properties[slot].id] = std::numeric_limits<double>::infinity();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
@@ -197,6 +200,7 @@ void Sleep::swap(Slot a, Slot b)
     std::swap(speed2_[a], speed2_[b]);
     std::swap(momentum2_[a], momentum2_[b]);
     std::swap(rested_[a], rested_[b]);
+    std::swap(motion_[a], motion_[b]);
 }
 
 template void Sleep::wake(PartId, Bodies&, PairFinder<BroadPhase::all_pairs>&);

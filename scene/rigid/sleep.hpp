@@ -17,16 +17,14 @@ namespace hapnet::scene {
 /// nothing. Two touch when their contact had an impulse in the last tick (touches() of its memory).
 ///
 /// At rest: the centre, and the corners as they turn, no faster than a tenth of what gravity adds
-/// in a tick plus a thousandth of sqrt(gravity * size). Without gravity: not moving at all.
+/// in a tick plus a thousandth of sqrt(gravity * size). Without gravity: not moving at all. What
+/// moves more than when this time began does not rest: a box on its edge tips.
 ///
 /// In a tick: wake() what a hand reaches or a push moves; wake_touched() once the manifolds are
 /// known; at the end of the tick, with the contacts' memories written, update().
 class Sleep {
 public:
     Sleep(const WorldConfig& config, const Bodies& bodies);
-
-    /// Bodies that joints join sleep and wake as those that touch each other do.
-    void join(std::span<const BodyId> bodies);
 
     /// Wakes a part's body and all that touches it, one through the other, and starts its time at
     /// rest anew. Slots change.
@@ -76,6 +74,7 @@ private:
     void fall_asleep(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
     /// Counts; whether any body has been at rest long enough.
     [[nodiscard]] bool count_rest(const Bodies& bodies);
+    [[nodiscard]] double motion_of(const Bodies& bodies, Slot slot) const;
     template <BroadPhase broad_phase>
     void find_islands(const Bodies& bodies, PairFinder<broad_phase>& pair_finder);
     void swap(Slot a, Slot b);
@@ -87,10 +86,10 @@ private:
     std::vector<double> speed2_;    // (m/s)^2: at rest up to this
     std::vector<double> momentum2_; // (kg m^2/s)^2: likewise
     std::vector<double> rested_;    // ticks at rest so far
+    std::vector<double> motion_;    // when these began, in shares of what counts as rest
 
     Islands islands_;
     std::vector<double> island_rested_; // by the island's id: the least of its bodies
-    std::vector<BodyPair> joined_;      // both ways round, sorted
     Bounded<BodyId> queue_;             // those going to wake, or to sleep
 };
 

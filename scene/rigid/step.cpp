@@ -41,17 +41,19 @@ constexpr double correction_share = 0.3;
 constexpr double touch_distance = 2e-6;
 
 /// The least normal speed at which two surfaces that far apart do not overlap at the tick's end.
-double velocity_bias(double separation, double impulse, const Scales& scales)
+double velocity_bias(const ContactBlock& block, std::size_t point, const Scales& scales)
 {
-    const double negligible = impulse > 0.0 ? touch_distance * scales.size : 0.0;
+    const double separation = block.separation[point];
+    const double negligible = block.start_impulse[point] > 0.0 ? touch_distance * block.size : 0.0;
     return separation > negligible ? -separation * scales.rate : 0.0;
 }
 
 /// The least mean normal speed that takes away a share of an overlap, or uses up a gap.
-double position_bias(double separation, const Scales& scales)
+double position_bias(const ContactBlock& block, std::size_t point, const Scales& scales)
 {
+    const double separation = block.separation[point];
     if (separation >= 0.0) return -separation * scales.rate;
-    return std::min(correction_share * -separation, correction_max * scales.size) * scales.rate;
+    return std::min(correction_share * -separation, correction_max * block.size) * scales.rate;
 }
 
 std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
@@ -63,8 +65,8 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 } // namespace
 
 template <BroadPhase broad_phase>
-RigidStepper<broad_phase>::RigidStepper(const Description& description, const WorldConfig& config,
-                                        const WorldState& state)
+RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
+                                        const WorldConfig& config, const WorldState& state)
     : scales_{scales_of(config, state.bodies)},
       pairs_{config, state.bodies},
       sleep_{config, state.bodies},
@@ -76,19 +78,13 @@ RigidStepper<broad_phase>::RigidStepper(const Description& description, const Wo
       kinematics_{state.bodies, scales_},
       plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
-      solver_{state.bodies.moving, blocks_for(config, state.bodies), joint_solver_of(description)},
-      restitution_{config, state.bodies, blocks_for(config, state.bodies)},
-      account_{state.bodies},
-      joints_{description, state.bodies, scales_},
-      joint_energy_{state.bodies, solver_.joints().groups().size()},
+      solver_{state.bodies.moving, blocks_for(config, state.bodies)},
+      restitution_{config, state.bodies, blocks_for(config, state.bodies), scales_},
+      energy_{state.bodies},
       continuous_{config, state.bodies, scales_},
       any_round_{state.bodies.any_is_round()}
 {
     steady_.is_possible = can_be_steady(config, state);
-    if constexpr (sleeps) {
-        for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group)
-            sleep_.join(joints_.bodies_of(group));
-    }
 }
 
 template <BroadPhase broad_phase>
@@ -96,8 +92,6 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
 {
     state.tick_cost = {};
     const bool has_kinematics = state.bodies.moving != state.bodies.movable;
-    const bool has_joints = !joints_.is_empty();
-    const std::uint64_t hits = state.interventions.sweeps_continued;
     if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
     if (steady_.is_likely && step_steadily(config, state)) return;
@@ -105,36 +99,28 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     wake_disturbed(state);
     begin_contacts(state);
     if (has_kinematics) kinematics_.begin_contacts(state.bodies, solver_, integrations_.all());
-    if (has_joints) begin_joints(state);
     collide_planes(config, state);
-    collide_bodies(state);
+    collide_bodies(config, state);
     warm_start(solver_, integrations_.all());
-    if (has_joints) joints_.warm_start(solver_, integrations_.all());
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
-    const bool bounced =
-        restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
-    if (has_joints) joints_.stiffen(state.bodies, solver_, integrations_.all());
+    const bool bounced = restitution_.apply(solver_, integrations_.all(), state.interventions);
     const bool changed = solve_velocities(state.tick_cost);
     if (bounced || changed) solve_anew_what_gains(config, state);
     if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
-    if (has_joints) joints_.store_impulses(state, solver_);
     stop_sliding_contacts(state.bodies, scales_, solver_, integrations_.all());
     const bool moved_apart = correct_positions(state);
-    if (bounced || changed) settle_energy(config, state);
     if (has_kinematics && kinematics_.any_far()) any_far_ = true;
     const bool may_gain = bounced || changed || moved_apart || any_far_;
-    if (may_gain) grounded_energy(config, state).begin(state, solver_);
+    if (may_gain) energy_.begin(energy_tick(config, state));
     integrate_positions(config, state);
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
-    if (may_gain) grounded_energy(config, state).settle(state);
-    if (has_kinematics) kinematics_.end_tick(state);
-    if (has_joints) {
-        joints_.end_tick(state, solver_.joints());
-        joint_energy_.settle({config, state, active_.slots(), integrations_.all(), solver_, joints_,
-                              state.interventions.sweeps_continued != hits});
+    if (may_gain) {
+        const bool has_touched = any_far_ && continuous_.has_changed_any();
+        energy_.settle(energy_tick(config, state), has_touched ? &continuous_ : nullptr);
     }
+    if (has_kinematics) kinematics_.end_tick(state);
     active_.clear();
     report_hand_forces(config, state);
     if (steady_.is_possible && !bounced && !changed) look_for_steadiness(config, state);
@@ -146,7 +132,6 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 {
     on_body_shifted(state, body);
     hand_contacts_.forget(state.bodies, body);
-    joints_.on_placed(state, body);
 }
 
 template <BroadPhase broad_phase>
@@ -154,7 +139,7 @@ void RigidStepper<broad_phase>::on_body_shifted(WorldState& state, BodyId body)
 {
     steady_.is_likely = false;
     // The bodies that it left and those that it now touches wake.
-    if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
+    sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(state.bodies, body);
     boxes_.forget(state.bodies, body);
 }
@@ -162,7 +147,7 @@ void RigidStepper<broad_phase>::on_body_shifted(WorldState& state, BodyId body)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::wake(WorldState& state, BodyId body)
 {
-    if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
+    sleep_.wake(body, state.bodies, pairs_);
 }
 
 template <BroadPhase broad_phase>
@@ -172,7 +157,7 @@ TickCost RigidStepper<broad_phase>::tick_cost_bound(const WorldConfig& config) c
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
     // Overlaps are looked at once more where a body is held back, sleepers by what carries them, by
     // what touches them and when that woke, velocities and springs where an island is solved anew.
-    return {.pairs = (sleeps ? 4 : 1) * pairs_.pairs_max(),
+    return {.pairs = 4 * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = 2 * solver_.visits_bound(velocity_limits()) +
                       2 * solver_.visits_bound(position_limits()),
@@ -190,9 +175,8 @@ SolverLimits RigidStepper<broad_phase>::velocity_limits() const
 template <BroadPhase broad_phase>
 SolverLimits RigidStepper<broad_phase>::position_limits() const
 {
-    const double length = scales_.size * scales_.rate;
-    return {overlap_tolerance * length, overlap_converged * length, sweeps_max, overlap_sweeps_min,
-            overlap_visits_max};
+    return {overlap_tolerance * scales_.rate, overlap_converged * scales_.rate, sweeps_max,
+            overlap_sweeps_min, overlap_visits_max};
 }
 
 template <BroadPhase broad_phase>
@@ -226,26 +210,22 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
     }
     if (hand_contacts_.feels_planes()) hand_contacts_.feel_planes(config, state);
     if (hand_contacts_.any_friction()) hand_contacts_.add_friction(config, state, target_of);
-    if constexpr (sleeps) {
-        for (const HandContacts::Spring& spring : hand_contacts_.springs())
-            sleep_.wake(spring.body, bodies, pairs_);
-    }
+    for (const HandContacts::Spring& spring : hand_contacts_.springs())
+        sleep_.wake(spring.body, bodies, pairs_);
 }
 
 /// Wakes what is pushed, and what a moving body hits.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
 {
-    if constexpr (sleeps) {
-        Bodies& bodies = state.bodies;
-        for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
-        const auto are_touching = [&](PairIndex index) {
-            ++state.tick_cost.pairs;
-            return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
-        };
-        if (bodies.moving != bodies.movable) wake_carried(state, are_touching);
-        sleep_.wake_touched(bodies, pairs_, are_touching);
-    }
+    Bodies& bodies = state.bodies;
+    for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
+    const auto are_touching = [&](PairIndex index) {
+        ++state.tick_cost.pairs;
+        return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
+    };
+    if (bodies.moving != bodies.movable) wake_carried(state, are_touching);
+    sleep_.wake_touched(bodies, pairs_, are_touching);
 }
 
 /// Wakes what touches a body that moves by itself, and keeps it awake.
@@ -253,23 +233,20 @@ template <BroadPhase broad_phase>
 template <typename AreTouching>
 void RigidStepper<broad_phase>::wake_carried(WorldState& state, const AreTouching& are_touching)
 {
-    if constexpr (sleeps) {
-        Bodies& bodies = state.bodies;
-        const PairSet& pairs = pairs_.all_pairs();
-        for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
-            if (!kinematics_.of(bodies, slot).moves) continue;
-            const BodyId id = bodies.properties[slot].id;
-            const auto wake = [&](PairIndex index, PartId other) {
-                const bool is_awake = bodies.slot_of[other] < bodies.awake;
-                const bool touches_it =
-                    is_awake ? touches(pairs[index].memory) : are_touching(index);
-                if (touches_it) sleep_.wake(other, bodies, pairs_);
-            };
-            bodies.for_parts(id, [&](PartId part) {
-                pairs.for_first(part, [&](PairIndex i) { wake(i, pairs[i].b); });
-                pairs.for_second(part, [&](PairIndex i) { wake(i, pairs[i].a); });
-            });
-        }
+    Bodies& bodies = state.bodies;
+    const PairSet& pairs = pairs_.all_pairs();
+    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
+        if (!kinematics_.of(bodies, slot).moves) continue;
+        const BodyId id = bodies.properties[slot].id;
+        const auto wake = [&](PairIndex index, PartId other) {
+            const bool is_awake = bodies.slot_of[other] < bodies.awake;
+            const bool touches_it = is_awake ? touches(pairs[index].memory) : are_touching(index);
+            if (touches_it) sleep_.wake(other, bodies, pairs_);
+        };
+        bodies.for_parts(id, [&](PartId part) {
+            pairs.for_first(part, [&](PairIndex i) { wake(i, pairs[i].b); });
+            pairs.for_second(part, [&](PairIndex i) { wake(i, pairs[i].a); });
+        });
     }
 }
 
@@ -301,23 +278,7 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     solver_.response(slot + 1) = response_of(
         properties, properties.has_parts() ? axes_of(first.orientation) : first.box.axes);
     reset(integrations_[slot + 1]);
-}
-
-/// All bodies that joints hold take part in the tick.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::begin_joints(const WorldState& state)
-{
-    const Bodies& bodies = state.bodies;
-    joints_.begin_contacts(bodies, solver_);
-    for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group) {
-        if (!solver_.joints().groups()[group].is_awake) continue;
-        for (const BodyId body : joints_.bodies_of(group)) {
-            activate(bodies, bodies.slot_of[body]);
-            integrations_[bodies.slot_of[body] + 1].is_joined = true;
-        }
-    }
-    joints_.begin_tick(state, solver_);
-    joint_energy_.begin_tick(state);
+    integrations_[slot + 1].least_near = properties.least_half;
 }
 
 /// A block for the solver; null without a point or room.
@@ -335,7 +296,7 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, Conta
     }
     ContactBlock& block = solver_.add();
     block.memory = &memory;
-    block.bounce_impulse = 0.0;
+    block.bounce_impulse = block.locked_load = 0.0;
     return &block;
 }
 
@@ -343,7 +304,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
 {
     for (std::uint32_t i = 0; i < block.count; ++i)
-        block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
+        block.speed_min[i] = velocity_bias(block, i, scales_);
 }
 
 /// The same of the mean velocities.
@@ -351,7 +312,24 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_least_ways(ContactBlock& block)
 {
     for (std::uint32_t i = 0; i < block.count; ++i)
-        block.speed_min[i] = position_bias(block.separation[i], scales_);
+        block.speed_min[i] = position_bias(block, i, scales_);
+}
+
+/// A body that is locked along the normal presses on what it lies on all the same.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::set_locked_load(const WorldConfig& config, const WorldState& state,
+                                                Slot slot, ContactBlock& block)
+{
+    const BodyProperties& body = state.bodies.properties[slot];
+    const glm::dvec3& light = body.inverse_mass;
+    if (light.x > 0.0 && light.y > 0.0 && light.z > 0.0) return;
+    const std::span<const double> gaps{block.separation.data(), block.count};
+    if (*std::min_element(gaps.begin(), gaps.end()) > touch_distance * block.size) return;
+    const glm::dvec3 all = body.mass * config.gravity + state.pushes[body.id];
+    const glm::dvec3 locked{light.x > 0.0 ? 0.0 : all.x, light.y > 0.0 ? 0.0 : all.y,
+                            light.z > 0.0 ? 0.0 : all.z};
+    const double into = block.a == 0 ? -1.0 : 1.0;
+    block.locked_load = std::max(0.0, into * scales_.tick * glm::dot(locked, block.normal));
 }
 
 template <BroadPhase broad_phase>
@@ -373,12 +351,13 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
             contact.find({pair.a, pair.b, plane.normal, height, now.reach, box.axes,
                           now.orientation, box.half, box.rounding});
         const BodyProperties& properties = bodies.properties[slot];
-        const bool is_dragged =
-            properties.drag > 0.0 &&
-            (touches(pair.memory) || contact.lies_on(touch_distance * scales_.size));
+        const double size = smallest_half(box);
+        const bool is_dragged = properties.drag > 0.0 &&
+                                (touches(pair.memory) || contact.lies_on(touch_distance * size));
         ContactBlock* const block = add_contact(points, pair.memory);
         if (block == nullptr) continue;
         contact.prepare(*block, pair.memory);
+        block->size = size;
         if (properties.has_parts()) block->arm_a = block->arm_b += now.offset;
         set_least_speeds(*block);
         activate(bodies, slot);
@@ -388,6 +367,7 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
+        set_locked_load(config, state, slot, *block);
         if (is_dragged) {
             integrations_[block->b].drag = properties.drag / properties.mass;
             integrations_[block->b].support_normal = plane.normal;
@@ -404,30 +384,44 @@ SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pa
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
+void RigidStepper<broad_phase>::collide_bodies(const WorldConfig& config, WorldState& state)
 {
     const Bodies& bodies = state.bodies;
     state.tick_cost.pairs += pairs_.pairs().size();
-    const auto index_of_active = [&](Slot slot) -> SolverIndex {
-        if (slot < bodies.awake) activate(bodies, slot);
-        return index_of(bodies, slot);
-    };
     for (const PairIndex index : pairs_.pairs()) {
         Pair& pair = pairs_.pair(index);
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
-        const SweptContact swept = collide_pair(state, pair);
+        SweptContact swept = collide_pair(state, pair);
+        if (config.internal_faces.any()) {
+            config.internal_faces.leave_outer({pair.a, boxes_.at(bodies, pair.a).box},
+                                              {pair.b, boxes_.at(bodies, pair.b).box},
+                                              swept.manifold);
+        }
         // Whatever becomes of them, ContinuousCollision looks at their ways.
-        for (const Slot slot : {a, b})
-            if (swept.may_pass && slot < bodies.awake) activate(bodies, slot);
+        const double size =
+            smallest_half(boxes_.at(bodies, pair.a).box, boxes_.at(bodies, pair.b).box);
+        const auto note_near = [&](Slot slot) {
+            if (slot >= bodies.awake) return;
+            activate(bodies, slot);
+            double& least = integrations_[slot + 1].least_near;
+            least = std::min(least, size);
+        };
+        if (swept.may_pass) {
+            note_near(a);
+            note_near(b);
+        }
         ContactBlock* const block = add_contact(swept.manifold.count, pair.memory);
         if (block == nullptr) continue;
         prepare(*block, swept.manifold, swept.centres, pair.memory);
+        block->size = size;
         set_least_speeds(*block);
         const Material material =
             combined(bodies.properties[a].material, bodies.properties[b].material);
-        block->a = index_of_active(a);
-        block->b = index_of_active(b);
+        note_near(a);
+        note_near(b);
+        block->a = index_of(bodies, a);
+        block->b = index_of(bodies, b);
         if (any_round_)
             block->set_roundings(boxes_.at(bodies, pair.a).box.rounding,
                                  boxes_.at(bodies, pair.b).box.rounding);
@@ -438,6 +432,8 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
             FirstTouch& first = integrations_[body].first_touch;
             if (swept.first_touch < first.time) first = {swept.first_touch, normal, other, own};
         };
+        if (block->a == 0 || block->b == 0)
+            set_locked_load(config, state, block->a == 0 ? b : a, *block);
         note(block->a, block->normal, pair.b, pair.a);
         note(block->b, -block->normal, pair.a, pair.b);
     }
@@ -456,7 +452,7 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
             store_impulses(block, weight, *block.memory);
         }
         block.memory->normal_impulse_of_tick = block.normal_sum() + block.bounce_impulse;
-        if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
+        if (!(block.friction_limit() > 0.0)) continue;
         if (block.a != 0) ++integrations_[block.a].friction_contacts;
         if (block.b != 0) ++integrations_[block.b].friction_contacts;
     }
@@ -473,14 +469,11 @@ bool RigidStepper<broad_phase>::correct_positions(WorldState& state)
         if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
-    if (!joints_.is_empty()) joints_.set_way_targets(state, solver_, integrations_.all());
     const std::uint64_t visits = solver_.correct_positions(position_limits()).visits;
     state.tick_cost.visits += visits;
-    if (!joints_.is_empty()) joints_.bound_ways(solver_);
     // A body that is thrown off its path is held back; the others go as far as that lets them.
     if (!hold_back(state)) return visits > 0;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
-    if (!joints_.is_empty()) joints_.bound_ways(solver_);
     hold_back(state);
     return true;
 }
@@ -493,15 +486,6 @@ bool RigidStepper<broad_phase>::hold_back(WorldState& state)
         keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
     any_far_ = ways.any_far;
     return ways.any_kept;
-}
-
-/// Takes away what the impulses of the tick would gain out of nothing. A body that loses most of
-/// its speed by that does not go where it would have taken it.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
-{
-    if (!account_.settle(energy_tick(config, state))) return;
-    if (hold_back(state)) account_.settle(energy_tick(config, state));
 }
 
 template <BroadPhase broad_phase>
@@ -526,15 +510,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
-    if (continuous_.has_changed_any()) {
-        account_.settle_touches(energy_tick(config, state), continuous_);
-        account_.cut_ways(energy_tick(config, state), continuous_);
-        grounded_energy(config, state).leave_pushed(continuous_);
-    }
     state.tick_cost.looks = continuous_.looks();
-    if constexpr (sleeps) {
-        for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
-    }
+    for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
 }
 
 template <BroadPhase broad_phase>
@@ -546,7 +523,7 @@ void RigidStepper<broad_phase>::report_hand_forces(const WorldConfig& config, Wo
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::update_sleep(WorldState& state)
 {
-    if constexpr (sleeps) sleep_.update(state.bodies, pairs_, state.ticks);
+    sleep_.update(state.bodies, pairs_, state.ticks);
 }
 
 template class RigidStepper<BroadPhase::none>;

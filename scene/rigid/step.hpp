@@ -5,13 +5,10 @@
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/sweep.hpp"
 #include "scene/rigid/continuous.hpp"
-#include "scene/rigid/energy_account.hpp"
 #include "scene/rigid/free_flight.hpp"
-#include "scene/rigid/grounded_energy.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
-#include "scene/rigid/joint_energy.hpp"
-#include "scene/rigid/joints.hpp"
+#include "scene/rigid/island_energy.hpp"
 #include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/restitution.hpp"
 #include "scene/rigid/sleep.hpp"
@@ -19,7 +16,6 @@
 #include "scene/solver/plane_contact.hpp"
 #include "scene/state.hpp"
 
-#include <type_traits>
 #include <vector>
 
 namespace hapnet::scene {
@@ -60,11 +56,6 @@ public:
     [[nodiscard]] const PairFinder<search>& pairs() const { return pairs_; }
 
 private:
-    static constexpr bool sleeps = broad_phase != BroadPhase::none;
-    struct NoSleep {
-        NoSleep(const WorldConfig& /*config*/, const Bodies& /*bodies*/) {}
-    };
-
     // Instead of the stages, where everything goes on.
     bool step_steadily(const WorldConfig& config, WorldState& state);
     [[nodiscard]] bool finds_the_same(const WorldConfig& config, WorldState& state);
@@ -76,9 +67,10 @@ private:
     void collide_hands(const WorldConfig& config, WorldState& state);
     void wake_disturbed(WorldState& state);
     void begin_contacts(const WorldState& state);
-    void begin_joints(const WorldState& state);
     void collide_planes(const WorldConfig& config, WorldState& state);
-    void collide_bodies(WorldState& state);
+    void collide_bodies(const WorldConfig& config, WorldState& state);
+    void set_locked_load(const WorldConfig& config, const WorldState& state, Slot slot,
+                         ContactBlock& block);
     bool solve_velocities(TickCost& cost);
     void integrate_hand_springs_on(const WorldConfig& config, WorldState& state,
                                    const HandContacts::Spring& spring);
@@ -88,14 +80,9 @@ private:
     void store_contact_impulses(const WorldState& state);
     bool correct_positions(WorldState& state);
     bool hold_back(WorldState& state);
-    void settle_energy(const WorldConfig& config, WorldState& state);
-    EnergyAccount::Tick energy_tick(const WorldConfig& config, WorldState& state)
+    IslandEnergy::Tick energy_tick(const WorldConfig& config, WorldState& state)
     {
-        return {config, state, scales_, active_, integrations_.all(), solver_, hand_contacts_};
-    }
-    GroundedEnergy grounded_energy(const WorldConfig& config, WorldState& state)
-    {
-        return {config, state.bodies, active_, integrations_.all()};
+        return {config, state, scales_, active_, integrations_.all(), solver_};
     }
     void integrate_positions(const WorldConfig& config, WorldState& state);
     void integrate_free_bodies(WorldState& state);
@@ -117,7 +104,7 @@ private:
 
     Scales scales_;
     PairFinder<search> pairs_;
-    std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
+    Sleep sleep_;
     HandContacts hand_contacts_;
     Scratch<PressedModes> modes_; // of the body that a hand presses, by the first hand on it
     SweptBoxes boxes_;
@@ -128,9 +115,7 @@ private:
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
     Restitution restitution_;
-    EnergyAccount account_;
-    Joints joints_;
-    JointEnergy joint_energy_;
+    IslandEnergy energy_;
     ContinuousCollision continuous_;
     /// What the last tick leaves for one in which everything goes on; the rest of it lies where
     /// that left it.

@@ -24,9 +24,8 @@ bool RigidStepper<broad_phase>::can_be_steady(const WorldConfig& config,
 {
     const Bodies& bodies = state.bodies;
     return bodies.movable > 0 && bodies.moving == bodies.movable && bodies.parts.empty() &&
-           !any_round_ && joints_.is_empty() && !restitution_.is_needed() &&
-           !hand_contacts_.feels_planes() && !hand_contacts_.any_friction() &&
-           config.hands.count > 0;
+           !any_round_ && !restitution_.is_needed() && !hand_contacts_.feels_planes() &&
+           !hand_contacts_.any_friction() && config.hands.count > 0;
 }
 
 /// Whether the next tick may go on as the last one, which ended in balance.
@@ -136,7 +135,7 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     counts_.change = 0.0;
     ++counts_.steady_ticks;
     pressing.report(config, state, impulse);
-    if constexpr (sleeps) sleep_.keep_awake(bodies, steady_.body);
+    sleep_.keep_awake(bodies, steady_.body);
     update_sleep(state);
     steady_.is_likely = true;
     return true;

@@ -67,6 +67,7 @@ bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
     for (ContactBlock& block : solver_.blocks()) {
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);
+        restitution_.leave_coming(block, integrations_.all());
     }
     const SolverOutcome outcome = solver_.solve_velocities(velocity_limits());
     cost.contacts = solver_.blocks().size();
@@ -74,7 +75,6 @@ bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
     counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
-    if (!joints_.is_empty()) joints_.soften(solver_);
     set_mean_motions();
     return !outcome.in_balance;
 }
@@ -100,7 +100,7 @@ void RigidStepper<broad_phase>::set_mean_motions()
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_anew_what_gains(const WorldConfig& config, WorldState& state)
 {
-    const std::span<const std::uint8_t> gaining = account_.gaining(energy_tick(config, state));
+    const std::span<const std::uint8_t> gaining = energy_.gaining(energy_tick(config, state));
     if (gaining.empty()) return;
     const auto is_gaining = [&](const ContactBlock& block) {
         return gaining[solver_.responding_of(block)] != 0;
@@ -123,7 +123,9 @@ void RigidStepper<broad_phase>::solve_anew_what_gains(const WorldConfig& config,
             integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
         if (restitution_.is_needed()) begin_bounces(integration);
     }
-    restitution_.apply(solver_, integrations_.all(), scales_, state.interventions, gaining);
+    restitution_.apply(solver_, integrations_.all(), state.interventions, gaining);
+    for (ContactBlock& block : solver_.blocks())
+        if (is_gaining(block)) restitution_.leave_coming(block, integrations_.all());
     for (const Slot slot : active_.slots()) {
         if (gaining[slot + 1] != 0)
             solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;

@@ -195,6 +195,7 @@ private:
     {
         return answer_.normal[0] + answer_.normal[1] + answer_.normal[2] + answer_.normal[3];
     }
+    [[nodiscard]] double load() const { return normal_sum() + block_.locked_load; }
     double slip_once(double step);
     [[nodiscard]] Friction within_limit(Friction f);
 
@@ -311,8 +312,9 @@ template <bool sticks>
 void Trial::hold_points(const PointSet& set)
 {
     if (set.count == 0) {
-        answer_ = {};
-        modal_ = {};
+        answer_.normal = {};
+        modal_[0] = modal_[1] = modal_[2] = 0.0;
+        if (sticks || block_.locked_load == 0.0) set_friction(0.0, 0.0, 0.0);
         set_given();
     } else if (set.count <= 2) {
         hold_few<sticks>(set);
@@ -335,7 +337,7 @@ bool Trial::stick(double tolerance)
         set = rest;
     }
     const Friction f = scaled_friction();
-    const double limit = block_.friction * normal_sum();
+    const double limit = block_.friction * load();
     if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
     return opens(tolerance);
 }
@@ -375,7 +377,7 @@ void Trial::push_for_friction(double tolerance)
 /// The largest friction in that direction, where it is more than the normal impulses allow.
 Friction Trial::within_limit(Friction f)
 {
-    const double limit = block_.friction * normal_sum();
+    const double limit = block_.friction * load();
     const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
     is_at_limit_ = size > limit;
     if (is_at_limit_) {
@@ -409,7 +411,7 @@ bool Trial::slip(double tolerance, int rounds_max)
         const double change = slip_once(step);
         reached = is_at_limit_;
         push_for_friction(tolerance);
-        has_settled_ = change <= settled * normal_sum();
+        has_settled_ = change <= settled * load();
         if (has_settled_) return reached;
     }
     const Friction f = within_limit(scaled_friction());
@@ -464,7 +466,7 @@ bool is_solved(const ContactBlock& block, const ContactVector& velocity, double 
     if (!normals_are_solved(block, velocity, tolerance)) return false;
     if (block.friction == 0.0) return true;
     const double arm = block.torsion_arm;
-    const double limit = block.friction * block.normal_sum();
+    const double limit = block.friction_limit();
     const Friction slip{velocity[3], velocity[4], velocity[5] * arm};
     const Friction held{block.impulse.tangent_1, block.impulse.tangent_2,
                         arm > 0.0 ? block.impulse.torsion / arm : 0.0};
@@ -487,7 +489,7 @@ bool is_slipping(const ContactBlock& block, const ContactVector& velocity, doubl
     const ContactImpulse& held = block.impulse;
     const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
     const double size2 = held.tangent_1 * held.tangent_1 + held.tangent_2 * held.tangent_2;
-    const double limit = block.friction * block.normal_sum();
+    const double limit = block.friction_limit();
     constexpr double nearly = 0.99;
     return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
            along * along > tolerance * tolerance * size2;
@@ -502,6 +504,10 @@ ContactVector solve(ContactBlock& block, const ContactVector& velocity, double t
     const bool slips = is_slipping(block, velocity, still);
     Trial first{block, velocity};
     const ContactVector start = first.impulse();
+    if (block.locked_load > 0.0) {
+        first.slip(still, rounds);
+        return finish(block, first, start);
+    }
     if (slips) {
         if (first.slip(still, rounds) && first.has_settled()) return finish(block, first, start);
         Trial sticking = first;
@@ -522,6 +528,10 @@ ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double
     bool& slipped = block.factors.slipped;
     Trial first{block, velocity};
     const ContactVector start = first.impulse();
+    if (block.locked_load > 0.0) {
+        first.slip(still, 1);
+        return finish(block, first, start);
+    }
     if (slipped) {
         if (first.slip(still, 1)) return finish(block, first, start);
         Trial sticking = first;

@@ -212,22 +212,6 @@ void forget_impulses(ContactBlock& block)
     block.bounce_impulse = 0.0;
 }
 
-void scale_impulses(ContactBlock& block, double share)
-{
-    for (double& impulse : block.impulse.normal) impulse *= share;
-    block.impulse.tangent_1 *= share;
-    block.impulse.tangent_2 *= share;
-    block.impulse.torsion *= share;
-}
-
-void scale_impulses(ContactMemory& memory, double share)
-{
-    for (double& impulse : memory.normal_impulse) impulse *= share;
-    memory.friction_impulse *= share;
-    memory.torsion_impulse *= share;
-    memory.normal_impulse_of_tick *= share;
-}
-
 namespace {
 
 /// Of `b` against `a` where they touch.

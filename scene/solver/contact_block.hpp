@@ -77,6 +77,7 @@ struct ContactBlock {
     SolverIndex b = 0;
     std::uint32_t count = 0;
     double friction = 0.0;
+    double size = 0.0;        // m: the smallest half edge of the two
     double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
     glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
     glm::dvec3 arm_a{0.0}, arm_b{0.0};         // from the centres to the anchor
@@ -90,6 +91,7 @@ struct ContactBlock {
         start_impulse{}; // the normal impulses that it started from
     Wrench start_push{}; // all of the impulses that it started from
     double restitution = 0.0;
+    double locked_load = 0.0;        // N s, what a lock bears of the load; friction counts it
     double bounce_impulse = 0.0;     // N s, along the normal, of this tick
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
     ContactVector
@@ -115,6 +117,8 @@ struct ContactBlock {
     {
         return impulse.normal[0] + impulse.normal[1] + impulse.normal[2] + impulse.normal[3];
     }
+    /// The largest impulse of friction, N s.
+    [[nodiscard]] double friction_limit() const { return friction * (normal_sum() + locked_load); }
 };
 
 /// For a face under even pressure, the mean distance from the middle of a square over the distance
@@ -153,11 +157,6 @@ void store_impulses(const ContactBlock& block, double weight, ContactMemory& mem
 
 /// Starts from no impulses.
 void forget_impulses(ContactBlock& block);
-
-/// Takes but a share of its impulses.
-void scale_impulses(ContactBlock& block, double share);
-
-void scale_impulses(ContactMemory& memory, double share);
 
 [[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
                                         const BodyMotion& b);

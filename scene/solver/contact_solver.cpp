@@ -63,7 +63,7 @@ double distance2(std::span<const double> a, std::span<const double> b)
 
 } // namespace
 
-ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks, JointSolver joints)
+ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
     : responses_{bodies + 1},
       end_motions_{bodies + 1},
       mean_motions_{bodies + 1},
@@ -73,15 +73,13 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks, JointSolver
       contacts_{bodies + 1},
       islands_{bodies + 1},
       starts_{bodies + 2},
-      order_{blocks + joints.groups().size()},
+      order_{blocks},
       before_{numbers_per_block * std::min(blocks, mixed_max)},
       after_{numbers_per_block * std::min(blocks, mixed_max)},
       good_{numbers_per_block * std::min(blocks, mixed_max)},
       saved_{bodies + 1},
       anderson_{numbers_per_block * std::min(blocks, mixed_max)},
-      held_{bodies, blocks},
-      joints_{std::move(joints)},
-      changes_of_joints_{joints_.groups().size()}
+      held_{bodies, blocks}
 {}
 
 /// The first look, and then for each island either its share or the few sweeps of any.
@@ -89,10 +87,7 @@ std::uint64_t ContactSolver::visits_bound(const SolverLimits& limits) const
 {
     const std::uint64_t any = limits.sweeps_min * blocks_max_;
     const std::uint64_t all = std::uint64_t{limits.sweeps_max} * blocks_max_;
-    const std::uint64_t contacts =
-        blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
-    // All joints of a group are visited with every sweep of its island.
-    return contacts + (std::uint64_t{1} + limits.sweeps_max) * joints_.joints();
+    return blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
 }
 
 void ContactSolver::begin(std::size_t bodies, std::size_t kinematic)
@@ -116,7 +111,6 @@ SolverOutcome ContactSolver::solve_velocities_anew(const SolverLimits& limits,
     const Task task{Mode::contacts, end_motions_.all(), limits};
     count_contacts();
     find_islands();
-    for (double& change : changes_of_joints_.all()) change = 0.0;
     SolverOutcome outcome{.sweeps = 1, .in_balance = false};
     for (ContactBlock& block : blocks_.all()) {
         block.change = 0.0;
@@ -143,9 +137,7 @@ SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
         return overlaps(block, velocity, limits);
     };
     const std::span<ContactBlock> blocks = blocks_.all();
-    if (std::none_of(blocks.begin(), blocks.end(), overlaps_now) &&
-        (joints_.is_empty() || !joints_.corrects_ways()))
-        return {};
+    if (std::none_of(blocks.begin(), blocks.end(), overlaps_now)) return {};
     // The new part of the impulses counts half in the mean velocities, as a force's would. For an
     // impact it should count whole, from its moment on: a good start.
     for (ContactBlock& block : blocks) {
@@ -166,16 +158,13 @@ SolverOutcome ContactSolver::correct_positions_again(const SolverLimits& limits)
         block.impulse = {};
         block.has_matrix = false;
     }
-    for (std::uint32_t i = 0; i < joints_.joints(); ++i) {
-        for (JointRow& row : joints_.joint(i).rows) row.way_impulse = 0.0;
-    }
     return run({Mode::positions, mean_motions_.all(), limits});
 }
 
 SolverOutcome ContactSolver::run(const Task& task)
 {
     SolverOutcome outcome{.sweeps = 1};
-    const bool is_only_one = blocks_.size() == 1 && joints_.is_empty();
+    const bool is_only_one = blocks_.size() == 1;
     if (!is_only_one) count_contacts();
     for (ContactBlock& block : blocks_.all()) {
         const bool has_no_other = is_only_one || is_alone(block);
@@ -184,9 +173,8 @@ SolverOutcome ContactSolver::run(const Task& task)
         outcome.change = std::max(outcome.change, block.change);
     }
     outcome.visits = blocks_.size();
-    if (!joints_.is_empty()) run_joints(task, outcome);
     outcome.in_balance = outcome.change <= task.limits.converged;
-    if (outcome.in_balance || !has_several()) return outcome;
+    if (outcome.in_balance || blocks_.size() < 2) return outcome;
     find_islands();
     const SolverOutcome rest = run_islands(task);
     outcome.sweeps = rest.sweeps;
@@ -207,13 +195,8 @@ SolverOutcome ContactSolver::run_islands(const Task& task)
         its.limits.sweeps_max, std::max(its.limits.sweeps_min, static_cast<std::uint32_t>(share)));
     for_moving_islands(task, [&](Island island) {
         const SolverOutcome one = run_island(its, island);
-        const Island contacts = contacts_of(island);
         outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
-        outcome.visits += (one.sweeps - 1) * contacts.size();
-        for (const std::uint32_t i : island.subspan(contacts.size())) {
-            const JointSolver::Group& group = joints_.groups()[i - blocks_.size()];
-            outcome.visits += (one.sweeps - 1) * (group.end - group.begin);
-        }
+        outcome.visits += (one.sweeps - 1) * island.size();
         outcome.change = std::max(outcome.change, one.change);
     });
     return outcome;
@@ -223,11 +206,7 @@ SolverOutcome ContactSolver::run_islands(const Task& task)
 template <typename Do>
 void ContactSolver::for_moving_islands(const Task& task, Do&& act)
 {
-    const auto moves = [&](std::uint32_t i) {
-        const double change =
-            i < blocks_.size() ? blocks_[i].change : changes_of_joints_[i - blocks_.size()];
-        return change > task.limits.converged;
-    };
+    const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.converged; };
     std::uint32_t begin = 0;
     for (const std::uint32_t end : starts_.all()) {
         const Island island = order_.all().subspan(begin, end - begin);
@@ -236,61 +215,21 @@ void ContactSolver::for_moving_islands(const Task& task, Do&& act)
     }
 }
 
-/// The first visit of all groups.
-void ContactSolver::run_joints(const Task& task, SolverOutcome& outcome)
-{
-    const std::span<const JointSolver::Group> groups = joints_.groups();
-    changes_of_joints_.resize(groups.size());
-    awake_groups_ = 0;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        changes_of_joints_[i] = 0.0;
-        if (!groups[i].is_awake) continue;
-        ++awake_groups_;
-        changes_of_joints_[i] = solve_joints(groups[i], task);
-        outcome.change = std::max(outcome.change, changes_of_joints_[i]);
-        outcome.visits += groups[i].end - groups[i].begin;
-    }
-}
-
-double ContactSolver::solve_joints(const JointSolver::Group& group, const Task& task)
-{
-    const auto mode =
-        task.mode == Mode::positions ? JointSolver::Mode::ways : JointSolver::Mode::velocities;
-    return joints_.solve(group, {mode, responses_.all(), task.motions, task.limits.tolerance});
-}
-
-double ContactSolver::sweep_joints(const Task& task, Island groups)
-{
-    double change = 0.0;
-    for (const std::uint32_t i : groups)
-        change = std::max(change, solve_joints(joints_.groups()[i - blocks_.size()], task));
-    return change;
-}
-
-/// The blocks come before the groups of joints.
-ContactSolver::Island ContactSolver::contacts_of(Island island) const
-{
-    if (joints_.is_empty()) return island;
-    const auto end = std::lower_bound(island.begin(), island.end(), blocks_.size());
-    return island.first(static_cast<std::size_t>(end - island.begin()));
-}
-
-SolverOutcome ContactSolver::run_unmixed(const Task& task, Island whole)
+SolverOutcome ContactSolver::run_unmixed(const Task& task, Island island)
 {
     SolverOutcome outcome{.sweeps = 1};
     while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
-        outcome.change = sweep(task, whole);
+        outcome.change = sweep(task, island);
         outcome.sweeps += 2;
         if (outcome.change <= task.limits.converged) break;
     }
     return outcome;
 }
 
-SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
+SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
     SolverOutcome outcome{.sweeps = 1};
-    const Island island = contacts_of(whole);
-    if (island.size() > mixed_max || island.empty()) return run_unmixed(task, whole);
+    if (island.size() > mixed_max) return run_unmixed(task, island);
     before_.resize(numbers_per_block * island.size());
     after_.resize(numbers_per_block * island.size());
     good_.resize(numbers_per_block * island.size());
@@ -301,7 +240,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
     bool has_jumped = false;
     bool has_tried_to_hold = false;
     while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
-        outcome.change = sweep(task, whole);
+        outcome.change = sweep(task, island);
         outcome.sweeps += 2;
         if (outcome.change <= task.limits.converged) break;
         read_impulses(island, after_.all());
@@ -310,7 +249,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
         // A mixture that leads astray, because something opens or slips there, is taken back.
         constexpr double astray = 4.0;
         if (has_jumped && !(step2 <= astray * shortest2)) {
-            undo_mixture(task, whole);
+            undo_mixture(task, island);
             anderson_.begin(numbers_per_block * island.size());
             std::copy(good_.all().begin(), good_.all().end(), before_.all().begin());
             has_jumped = false;
@@ -320,11 +259,11 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
         if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
         // It is checked by the next pair of sweeps, as a mixture is; and one more if it is astray.
         if (!has_tried_to_hold && outcome.sweeps + held_sweeps + 4 <= task.limits.sweeps_max &&
-            may_hold(task, whole)) {
+            may_hold(task, island)) {
             has_tried_to_hold = true;
             outcome.sweeps += held_sweeps;
             if (held_.solve(held_task(task, island))) {
-                take_held(task, whole);
+                take_held(task, island);
                 has_jumped = true;
                 continue;
             }
@@ -337,24 +276,20 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
             anderson_.begin(numbers_per_block * island.size());
             has_jumped = false;
         }
-        if (has_jumped) take_mixture(task, whole);
+        if (has_jumped) take_mixture(task, island);
     }
     return outcome;
 }
 
-/// To and fro. Joints come last: nothing is left of what they miss.
-double ContactSolver::sweep(const Task& task, Island whole)
+/// To and fro.
+double ContactSolver::sweep(const Task& task, Island island)
 {
     double change = 0.0;
-    const Island island = contacts_of(whole);
-    const Island groups = whole.subspan(island.size());
     for (const std::uint32_t i : island)
         change = std::max(change, solve_block(blocks_[i], task, Effort::one_iteration));
-    if (!groups.empty()) change = std::max(change, sweep_joints(task, groups));
     for (std::size_t i = island.size(); i-- > 0;) {
         change = std::max(change, solve_block(blocks_[island[i]], task, Effort::one_iteration));
     }
-    if (!groups.empty()) change = std::max(change, sweep_joints(task, groups));
     return change;
 }
 
@@ -369,12 +304,10 @@ HeldIsland::Task ContactSolver::held_task(const Task& task, Island island)
     return {blocks_.all(), island, responses_.all(), task.motions};
 }
 
-/// Whether an island stands as far as its contacts know: without joints, which they do not know.
-bool ContactSolver::may_hold(const Task& task, Island whole)
+/// Whether an island stands as far as its contacts know.
+bool ContactSolver::may_hold(const Task& task, Island island)
 {
-    const Island island = contacts_of(whole);
-    return task.mode == Mode::contacts && island.size() == whole.size() &&
-           held_.begin(held_task(task, island));
+    return task.mode == Mode::contacts && held_.begin(held_task(task, island));
 }
 
 /// From after_ to what HeldIsland found.
@@ -386,13 +319,10 @@ void ContactSolver::take_held(const Task& task, Island island)
 }
 
 /// From after_ to before_; the way back is kept.
-void ContactSolver::take_mixture(const Task& task, Island whole)
+void ContactSolver::take_mixture(const Task& task, Island island)
 {
-    const Island island = contacts_of(whole);
     std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
     save(task, island);
-    for (const std::uint32_t i : whole.subspan(island.size()))
-        joints_.save(joints_.groups()[i - blocks_.size()], task.motions);
     for (std::size_t i = 0; i < island.size(); ++i) {
         ContactBlock& block = blocks_[island[i]];
         ContactVector change = contact_vector(block, block.impulse);
@@ -403,12 +333,9 @@ void ContactSolver::take_mixture(const Task& task, Island whole)
     }
 }
 
-void ContactSolver::undo_mixture(const Task& task, Island whole)
+void ContactSolver::undo_mixture(const Task& task, Island island)
 {
-    const Island island = contacts_of(whole);
     restore(task, island);
-    for (const std::uint32_t i : whole.subspan(island.size()))
-        joints_.restore(joints_.groups()[i - blocks_.size()], task.motions);
     for (std::size_t i = 0; i < island.size(); ++i) {
         write(blocks_[island[i]], &good_[numbers_per_block * i]);
     }
@@ -437,8 +364,8 @@ double ContactSolver::solve_block(ContactBlock& block, const Task& task, Effort 
     if (block.turns) {
         for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.centripetal_velocity[i];
     }
-    const double tolerance = task.limits.tolerance;
     const bool pushes_only = task.mode == Mode::positions;
+    const double tolerance = task.limits.tolerance * (pushes_only ? block.size : 1.0);
     if (pushes_only ? normals_are_solved(block, velocity, tolerance)
                     : is_solved(block, velocity, tolerance)) {
         return 0.0;
@@ -453,7 +380,7 @@ double ContactSolver::solve_block(ContactBlock& block, const Task& task, Effort 
     const double arm = block.torsion_arm;
     double most = std::max({std::abs(gained[0]), std::abs(gained[3]), std::abs(gained[4])});
     for (const std::size_t turn : {1U, 2U, 5U}) most = std::max(most, arm * std::abs(gained[turn]));
-    return most;
+    return pushes_only ? most / block.size : most;
 }
 
 ContactVector ContactSolver::solve_alone(ContactBlock& block, const ContactVector& velocity,
@@ -482,13 +409,6 @@ void ContactSolver::count_contacts()
         ++contacts_[block.a];
         ++contacts_[block.b];
     }
-    for (const JointSolver::Group& group : joints_.groups()) {
-        if (!group.is_awake) continue;
-        for (const JointBlock& joint : joints_.joints_of(group)) {
-            ++contacts_[joint.a];
-            ++contacts_[joint.b];
-        }
-    }
 }
 
 /// Whether no other block has to do with its bodies.
@@ -507,25 +427,16 @@ void ContactSolver::find_islands()
     for (const ContactBlock& block : blocks_.all()) {
         if (responds(block.a) && responds(block.b)) islands_.join(block.a, block.b);
     }
-    const std::span<const JointSolver::Group> groups = joints_.groups();
-    join_joined(joints_, islands_);
     starts_.resize(bodies + 1);
     for (std::uint32_t& start : starts_.all()) start = 0;
     const auto root_of_block = [&](const ContactBlock& block) {
         return islands_.root_of(responds(block.a) ? block.a : block.b);
     };
     for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
-    for (const JointSolver::Group& group : groups)
-        if (group.is_awake) ++starts_[islands_.root_of(joints_.body_of(group)) + 1];
     for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];
-    order_.resize(blocks_.size() + awake_groups_);
+    order_.resize(blocks_.size());
     for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
         order_[starts_[root_of_block(blocks_[i])]++] = i;
-    }
-    for (std::uint32_t i = 0; i < groups.size(); ++i) {
-        if (!groups[i].is_awake) continue;
-        order_[starts_[islands_.root_of(joints_.body_of(groups[i]))]++] =
-            static_cast<std::uint32_t>(blocks_.size()) + i;
     }
     // Now every entry has become the end of its island.
     starts_.resize(bodies);

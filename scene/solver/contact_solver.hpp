@@ -7,7 +7,6 @@
 #include "scene/solver/block_solver.hpp"
 #include "scene/solver/held_island.hpp"
 #include "scene/solver/islands.hpp"
-#include "scene/solver/joint_solver.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -37,10 +36,10 @@ struct SolverOutcome {
 /// (projected Gauss-Seidel). A contact that is in balance already costs a look, and what is at
 /// rest or nearly so is done with one sweep. Bodies that touch each other and are not are an
 /// island: swept again and again, to and fro, with Anderson mixing, which is what holds a heavy
-/// body on a light one, and a stack. Joints take part as blocks of their own, one for each group.
+/// body on a light one, and a stack.
 class ContactSolver {
 public:
-    ContactSolver(std::size_t bodies, std::size_t blocks, JointSolver joints = {});
+    ContactSolver(std::size_t bodies, std::size_t blocks);
 
     /// Begins a tick: no contacts, bodies 1 .. `bodies`, and after them `kinematic` ones, which
     /// move by themselves: their responses have to be zero.
@@ -69,21 +68,22 @@ public:
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
     [[nodiscard]] std::span<ContactBlock> blocks() { return blocks_.all(); }
-    [[nodiscard]] JointSolver& joints() { return joints_; }
 
     /// Changes the impulses of the contacts and the velocities at the end of the tick.
     SolverOutcome solve_velocities(const SolverLimits& limits);
-    /// Once more, of the islands with `picked` bodies (1 at their solver index) and without joints.
+    /// Once more, of the islands with `picked` bodies (1 at their solver index).
     SolverOutcome solve_velocities_anew(const SolverLimits& limits,
                                         std::span<const std::uint8_t> picked);
     /// The same for the mean velocities, without friction, and impulses that begin at zero.
     SolverOutcome correct_positions(const SolverLimits& limits);
-    /// Whether a contact with such mean velocities overlaps more than it may at the end.
+    /// Whether a contact with such mean velocities overlaps more than it may at the end. The limits
+    /// of corrections are rates: they hold for a contact of size 1 m, and for others by their size.
     [[nodiscard]] static bool overlaps(const ContactBlock& block, const ContactVector& velocity,
                                        const SolverLimits& limits)
     {
         for (std::size_t i = 0; i < block.count; ++i) {
-            if (block.normal_speed(velocity, i) < block.speed_min[i] - limits.tolerance)
+            if (block.normal_speed(velocity, i) <
+                block.speed_min[i] - limits.tolerance * block.size)
                 return true;
         }
         return false;
@@ -106,7 +106,7 @@ private:
     /// on.
     enum class Effort : std::uint8_t { full, one_iteration };
 
-    /// Its blocks, and its groups of joints with the number of blocks added.
+    /// Its blocks.
     using Island = std::span<const std::uint32_t>;
 
     SolverOutcome run(const Task& task);
@@ -114,22 +114,13 @@ private:
     void for_moving_islands(const Task& task, Do&& act);
     SolverOutcome run_islands(const Task& task);
     SolverOutcome run_island(const Task& task, Island island);
-    SolverOutcome run_unmixed(const Task& task, Island whole);
+    SolverOutcome run_unmixed(const Task& task, Island island);
     void save(const Task& task, Island island);
     void restore(const Task& task, Island island);
     double sweep(const Task& task, Island island);
-    double sweep_joints(const Task& task, Island groups);
-    double solve_joints(const JointSolver::Group& group, const Task& task);
-    void run_joints(const Task& task, SolverOutcome& outcome);
-    [[nodiscard]] Island contacts_of(Island island) const;
-    /// Groups of joints alone do not meet each other.
-    [[nodiscard]] bool has_several() const
-    {
-        return blocks_.size() > 0 && blocks_.size() + awake_groups_ > 1;
-    }
     void read_impulses(Island island, std::span<double> impulses) const;
     [[nodiscard]] HeldIsland::Task held_task(const Task& task, Island island);
-    [[nodiscard]] bool may_hold(const Task& task, Island whole);
+    [[nodiscard]] bool may_hold(const Task& task, Island island);
     void take_held(const Task& task, Island island);
     void take_mixture(const Task& task, Island island);
     void undo_mixture(const Task& task, Island island);
@@ -158,10 +149,6 @@ private:
     Scratch<BodyMotion> saved_;             // of its bodies
     Anderson anderson_;
     HeldIsland held_;
-
-    JointSolver joints_;
-    std::size_t awake_groups_ = 0;      // of joints
-    Scratch<double> changes_of_joints_; // m/s, what the last visit changed, by group
 };
 
 } // namespace hapnet::scene

@@ -196,26 +196,6 @@ std::string Orientation::print(const glm::dquat& value) const
                        base::value_text(value.z));
 }
 
-void BodyName::read(const Node& node, std::string& target, Reading& reading) const
-{
-    if (const auto* name = std::get_if<std::string>(&node.value)) {
-        if (name->starts_with('#')) {
-            return reading.complain(node.place, "a body whose name begins with # goes by its "
-                                                "number: the first body is 0");
-        }
-        target = *name;
-        return;
-    }
-    const auto number = base::count_of(node, bodies_max - 1);
-    if (!number) return base::complain_of(node, describe(), reading);
-    target = fmt::format("#{}", *number);
-}
-
-std::string BodyName::print(const std::string& value) const
-{
-    return value.starts_with('#') ? value.substr(1) : base::quoted(value);
-}
-
 void Axes::read(const Node& node, LockedAxes& target, Reading& reading) const
 {
     const auto* list = std::get_if<Node::List>(&node.value);

@@ -71,14 +71,6 @@ struct Orientation {
     }
 };
 
-/// A body that a joint joins: its name, or its number in the scene, from 0. A number is kept as
-/// "#7".
-struct BodyName {
-    void read(const base::Node& node, std::string& target, base::Reading& reading) const;
-    [[nodiscard]] std::string print(const std::string& value) const;
-    [[nodiscard]] std::string describe() const { return "the name of a body, or its number"; }
-};
-
 /// A list of axes: ["x", "y"].
 struct Axes {
     void read(const base::Node& node, LockedAxes& target, base::Reading& reading) const;

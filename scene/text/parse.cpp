@@ -7,6 +7,7 @@
 #include "scene/text/fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -87,7 +88,6 @@ struct Growing {
     Description scene;
     std::vector<Place> body_places;
     std::vector<Place> plane_places;
-    std::vector<Place> joint_places;
 };
 
 void read_array(TableReader& table, Growing& growing)
@@ -159,68 +159,18 @@ void read_bodies(TableReader& table, Growing& growing)
     }
 }
 
-/// The body with that name, or number.
-std::optional<std::uint32_t> body_called(const std::string& name, const Node& node,
-                                         const Growing& growing, Reading& reading)
+/// A scene of an earlier version may have joints.
+void refuse_joints(TableReader& table)
 {
-    const auto& bodies = growing.scene.bodies;
-    if (name.starts_with('#')) return static_cast<std::uint32_t>(std::stoul(name.substr(1)));
-    const auto is_called = [&](const BodyDescription& body) { return body.name == name; };
-    const auto found = std::find_if(bodies.begin(), bodies.end(), is_called);
-    if (found == bodies.end()) {
-        reading.complain(node.place, fmt::format("no body is called '{}'", name));
-        return std::nullopt;
-    }
-    if (std::find_if(found + 1, bodies.end(), is_called) != bodies.end()) {
-        reading.complain(node.place, fmt::format("several bodies are called '{}': write the number "
-                                                 "of one, the first body is 0",
-                                                 name));
-        return std::nullopt;
-    }
-    return static_cast<std::uint32_t>(found - bodies.begin());
-}
-
-template <typename Keys>
-void read_joint(const Node& node, JointKind kind, Growing& growing, Reading& reading)
-{
-    TableReader table{std::get<Node::Table>(node.value), node.place, reading};
-    Keys keys;
-    base::read_fields(table, keys);
-    table.finish();
-    if (!reading.is_good()) return;
-    keys.kind = kind;
-    const auto body = body_called(keys.of, *table.find("body"), growing, reading);
-    if (table.find("to") != nullptr)
-        keys.to = body_called(keys.with, *table.find("to"), growing, reading);
-    if (body) keys.body = *body;
-    growing.scene.joints.push_back(keys);
-    growing.joint_places.push_back(node.place);
-}
-
-/// Joints of all kinds in the order of the text, which is that of their numbers.
-void read_joints(TableReader& table, Growing& growing)
-{
-    Reading& reading = table.reading();
-    std::vector<std::pair<const Node*, JointKind>> nodes;
-    for (const JointKind kind :
-         {JointKind::hinge, JointKind::slider, JointKind::ball, JointKind::spring}) {
-        const std::string_view key = base::name_of(kind);
-        with_each(table.find(key), key, reading,
-                  [&](const Node& node) { nodes.emplace_back(&node, kind); });
-    }
-    std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) {
-        const Place& p = a.first->place;
-        const Place& q = b.first->place;
-        return std::pair{p.line, p.column} < std::pair{q.line, q.column};
-    });
-    for (const auto& [node, kind] : nodes) {
-        switch (kind) {
-        case JointKind::hinge: read_joint<text::Hinge>(*node, kind, growing, reading); break;
-        case JointKind::slider: read_joint<text::Slider>(*node, kind, growing, reading); break;
-        case JointKind::ball: read_joint<text::Ball>(*node, kind, growing, reading); break;
-        case JointKind::spring: read_joint<text::Spring>(*node, kind, growing, reading); break;
-        }
-        if (!reading.is_good()) return;
+    for (const std::string_view key : {"hinge", "slider", "ball", "spring"}) {
+        const Node* const node = table.find(key);
+        if (node == nullptr) continue;
+        table.reading().complain(
+            node->place,
+            fmt::format("scenes have no joints since version 0.3: leave out [[{}]]; a body that "
+                        "slides has locked axes, one that turns about an axis has 'turning', and "
+                        "a [[field]] with 'stiffness' pulls bodies as a spring does",
+                        key));
     }
 }
 
@@ -237,12 +187,30 @@ Place culprit(const Growing& growing, Place otherwise)
         alone.bodies = {growing.scene.bodies[i]};
         if (!check(alone)) return growing.body_places[i];
     }
-    alone.bodies = growing.scene.bodies;
-    for (std::size_t i = 0; i < growing.scene.joints.size(); ++i) {
-        alone.joints = {growing.scene.joints[i]};
-        if (!check(alone)) return growing.joint_places[i];
-    }
     return otherwise;
+}
+
+template <typename Keys>
+bool has_key(std::string_view key)
+{
+    const auto& rows = base::field_table<Keys>().rows;
+    return std::any_of(rows.begin(), rows.end(),
+                       [key](const base::FieldRow& row) { return row.key == key; });
+}
+
+/// Where a key belongs, or by what other key a scene says the same; "" for a key of no table.
+std::string advice_on_key(std::string_view key)
+{
+    if (key == "radius" || key == "diameter") {
+        return "the size of a sphere is its diameter: write size = \"40mm\"";
+    }
+    if (has_key<Description>(key)) return "write it at the top, above the first [[table]]";
+    if (key == "mass" || key == "density" || has_key<BodyDescription>(key))
+        return "it belongs to a body: write it below its [[body]]";
+    if (has_key<text::Array>(key)) return "it belongs to many bodies: write it below [[array]]";
+    if (has_key<decltype(Description::hands)>(key))
+        return "it belongs to the hands: write it below [hips]";
+    return "";
 }
 
 } // namespace
@@ -250,6 +218,7 @@ Place culprit(const Growing& growing, Place otherwise)
 base::Result<Description> parse_scene(std::string_view text, const std::string& source)
 {
     Reading reading{source};
+    reading.advise_on_keys(advice_on_key);
     const auto document = base::parse_document(text, scene_bytes_max);
     if (!document) {
         reading.complain(document.error().place, document.error().message);
@@ -268,7 +237,7 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
     });
     read_planes(table, growing);
     read_bodies(table, growing);
-    if (reading.is_good()) read_joints(table, growing);
+    if (reading.is_good()) refuse_joints(table);
     table.finish();
     if (reading.is_good()) {
         if (const auto fine = check(scene); !fine) {
@@ -279,9 +248,32 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
     return std::move(scene);
 }
 
+namespace {
+
+/// Where a scene went that earlier versions had; "" for others.
+std::string removed_scene(std::string_view name)
+{
+    constexpr std::array<std::string_view, 3> with_joints{"door", "drawer", "button"};
+    constexpr std::array<std::string_view, 7> of_benches{"cubes-100", "cubes-1000", "cubes-10000",
+                                                         "stack-10",  "conveyor",   "soft-and-hard",
+                                                         "stick-slip"};
+    const auto is_one_of = [name](const auto& names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (is_one_of(with_joints)) return "scenes have no joints";
+    if (!is_one_of(of_benches)) return "";
+    return fmt::format("it is the file tests/bench/scenes/{}.toml of the source code", name);
+}
+
+} // namespace
+
 base::Result<Description> load_scene(const std::string& file_or_name, const base::OpenFile& open)
 {
     const auto found = base::find_text(file_or_name, built_in_scenes(), "a scene", open);
+    const std::string went = found ? "" : removed_scene(file_or_name);
+    if (!went.empty())
+        return base::fail(
+            fmt::format("no scene is called '{}' since version 0.3: {}", file_or_name, went));
     if (!found) return tl::unexpected{found.error()};
     return parse_scene(found->text, found->source);
 }

@@ -21,39 +21,6 @@ std::string lines(const T& value)
     return text;
 }
 
-/// A body by its name, or by its number where others are called so, too.
-std::string name_of_body(const Description& scene, std::uint32_t body)
-{
-    const std::string& name = scene.bodies[body].name;
-    const auto count =
-        std::count_if(scene.bodies.begin(), scene.bodies.end(),
-                      [&](const BodyDescription& other) { return other.name == name; });
-    if (name.empty() || name.starts_with('#') || count > 1) return fmt::format("#{}", body);
-    return name;
-}
-
-template <typename Keys>
-std::string joint_lines(const Description& scene, const JointDescription& joint)
-{
-    Keys keys;
-    static_cast<JointDescription&>(keys) = joint;
-    keys.of = name_of_body(scene, joint.body);
-    if (joint.to) keys.with = name_of_body(scene, *joint.to);
-    return lines(keys);
-}
-
-std::string joint_text(const Description& scene, const JointDescription& joint)
-{
-    std::string text = fmt::format("\n[[{}]]\n", base::name_of(joint.kind));
-    switch (joint.kind) {
-    case JointKind::hinge: return text + joint_lines<text::Hinge>(scene, joint);
-    case JointKind::slider: return text + joint_lines<text::Slider>(scene, joint);
-    case JointKind::ball: return text + joint_lines<text::Ball>(scene, joint);
-    case JointKind::spring: break;
-    }
-    return text + joint_lines<text::Spring>(scene, joint);
-}
-
 } // namespace
 
 std::string to_text(const Description& description)
@@ -70,7 +37,6 @@ std::string to_text(const Description& description)
         text += "\n[[body]]\n" + lines(body);
         for (const PartDescription& part : body.parts) text += "\n[[body.part]]\n" + lines(part);
     }
-    for (const JointDescription& joint : description.joints) text += joint_text(description, joint);
     return text;
 }
 

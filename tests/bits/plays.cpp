@@ -6,6 +6,7 @@
 #include "proto/base/math.hpp"
 #include "scene/text/text.hpp"
 #include "scene/world.hpp"
+#include "tests/support/scene/bench_scenes.hpp"
 
 #include <array>
 
@@ -16,16 +17,16 @@ namespace {
 constexpr std::array all{
     Play{"paper"},     Play{"push-6dof"},       Play{"stack-10"}, Play{"mass-ratio-1000"},
     Play{"cubes-100"}, Play{"stack-10", false}, Play{"conveyor"}, Play{"soft-and-hard"},
-    Play{"guide"},     Play{"stick-slip"},      Play{"rolling"},  Play{"door"},
-    Play{"drawer"},    Play{"hammer"},
+    Play{"guide"},     Play{"stick-slip"},      Play{"rolling"},  Play{"hammer"},
 };
 
 scene::World world_of(const Play& play)
 {
     const base::OpenFile no_files = [](const std::string&) { return base::fail("no files"); };
-    const auto description = scene::load_scene(std::string{play.scene}, no_files);
-    base::ensure(description.has_value());
-    auto world = scene::World::freeze(*description, {.sleeping = play.sleeping});
+    const auto built_in = scene::load_scene(std::string{play.scene}, no_files);
+    const scene::Description description =
+        built_in ? *built_in : test::bench_scene(std::string{play.scene});
+    auto world = scene::World::freeze(description, {.sleeping = play.sleeping});
     base::ensure(world.has_value());
     return *std::move(world);
 }

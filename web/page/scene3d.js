@@ -46,16 +46,20 @@ export const makePainter = (container) => {
     /** The quality to begin with, for a Rhythm; it may be set to another. */
     level: startLevel,
     setLevel,
-    /** `views`: {pane, scene, picture} of each world. */
+    /**
+     * `views`: {pane, scene, picture} of each world; where its `name(places)` is there, it is told
+     * where the names of the picture belong.
+     */
     paint(views, orbit) {
       if (lost) return;
       const whole = container.getBoundingClientRect();
       space.clear(whole.width, whole.height, Math.min(quality.ratio, devicePixelRatio));
-      for (const { pane, scene, picture } of views) {
+      for (const { pane, scene, picture, name } of views) {
         const { left, bottom, width, height } = pane.getBoundingClientRect();
         if (width < 2 || height < 2) continue;
         const part = { left: left - whole.left, bottom: whole.bottom - bottom, width, height };
-        space.paint(part, scene, picture, orbit);
+        const places = space.paint(part, scene, picture, orbit);
+        name?.(places);
       }
     },
   };

@@ -27,13 +27,14 @@ const stillOf = (scene) => {
 const placeOf = (at) => at.map((value) => value.toFixed(1)).join(", ");
 
 /** "cube at 1.0, 0.0, 0.0 mm; hand at ..." */
-const wordsOf = (scene, { solids, hands }) => {
+const wordsOf = (scene, { solids, hands, names }) => {
   const nameOf = ({ body }) => scene.bodies.find((one) => one.id === body)?.name || "body";
   const bodies = solids.filter((solid) => solid.look === "cube")
     .map((solid) => `${nameOf(solid)} at ${placeOf(solid.at)} mm`);
   const own = hands.filter((hand) => hand.look === "hand")
     .map((hand) => `hand at ${placeOf(hand.at)} mm`);
-  return [...bodies, ...own].join("; ");
+  const others = names.map(({ name, at }) => `with ${name} its top at ${placeOf(at)} mm`);
+  return [...bodies, ...others, ...own].join("; ");
 };
 
 export const makePainter = () => {

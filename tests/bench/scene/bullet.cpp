@@ -73,7 +73,6 @@ public:
         if (!options.is_stock) tune();
         for (std::size_t i = 0; i < all.solids.size(); ++i) add(scene_.bodies[i], all.solids[i]);
         for (const auto& plane : scene_.planes) add(plane);
-        for (const auto& joint : scene_.joints) add(joint, all.solids[joint.body].frame);
         if (options.hip_force == HipForce::native) {
             for (std::uint32_t i = 0; i < scene_.hands.count; ++i) add_hip();
         }
@@ -81,7 +80,6 @@ public:
 
     ~Bullet() override
     {
-        for (const auto& joint : joints_) world_.removeConstraint(joint.get());
         for (const auto& body : bodies_) world_.removeRigidBody(body.get());
     }
 
@@ -245,44 +243,6 @@ private:
         world_.addRigidBody(&body);
     }
 
-    /// Between a body and the world.
-    void add(const scene::JointDescription& joint, const scene::MassFrame& frame)
-    {
-        btRigidBody& body = *bodies_[joint.body];
-        const glm::dquat back = glm::conjugate(frame.orientation);
-        const btVector3 pivot = bullet_of(back * (joint.position - frame.centre).value);
-        const btVector3 axis = bullet_of(back * joint.axis);
-        if (joint.kind == scene::JointKind::hinge) {
-            joints_.push_back(std::make_unique<btHingeConstraint>(body, pivot, axis));
-        } else if (joint.kind == scene::JointKind::ball) {
-            joints_.push_back(std::make_unique<btPoint2PointConstraint>(body, pivot));
-        } else if (joint.kind == scene::JointKind::slider) {
-            const btTransform along{shortestArcQuat(btVector3{1, 0, 0}, axis), pivot};
-            joints_.push_back(std::make_unique<btSliderConstraint>(body, along, true));
-        } else {
-            joints_.push_back(spring_of(joint, body, back, pivot));
-        }
-        world_.addConstraint(joints_.back().get());
-    }
-
-    /// Along its first direction, in which every scene here leaves it.
-    static std::unique_ptr<btTypedConstraint> spring_of(const scene::JointDescription& joint,
-                                                        btRigidBody& body, const glm::dquat& back,
-                                                        const btVector3& pivot)
-    {
-        const glm::dvec3 line = (joint.position - joint.to_position).value;
-        const double length = glm::length(line);
-        const btTransform along{
-            shortestArcQuat(btVector3{1, 0, 0}, bullet_of(back * (line / length))), pivot};
-        auto spring = std::make_unique<btGeneric6DofSpring2Constraint>(body, along);
-        for (int i = 0; i < 6; ++i) spring->setLimit(i, 1, -1); // free
-        spring->enableSpring(0, true);
-        spring->setStiffness(0, scalar_of(joint.stiffness));
-        spring->setDamping(0, scalar_of(joint.damping));
-        spring->setEquilibriumPoint(0, scalar_of(joint.rest.value_or(length) - length));
-        return spring;
-    }
-
     void apply_fields()
     {
         for (scene::BodyId i = 0; i < scene_.bodies.size(); ++i) {
@@ -356,7 +316,6 @@ private:
     HeldHands hands_;
     std::vector<std::unique_ptr<btCollisionShape>> shapes_;
     std::vector<std::unique_ptr<btRigidBody>> bodies_; // bodies, planes, hands
-    std::vector<std::unique_ptr<btTypedConstraint>> joints_;
     std::vector<std::size_t> dragged_;
     std::vector<std::size_t> driven_; // kinematic
     int steps_ = 0;                   // that these have been driven

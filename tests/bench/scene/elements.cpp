@@ -92,77 +92,6 @@ Scenario sledge()
         [=](double) { return start + speed * speed / (2.0 * friction * gravity) * way; });
 }
 
-scene::Description hung(const scene::BodyDescription& body, const scene::JointDescription& joint)
-{
-    scene::Description scene = on_platform(body);
-    scene.planes.clear();
-    scene.joints = {joint};
-    return scene;
-}
-
-/// The angle below level of a pendulum that was let go there, in steps so short that rounding is
-/// the rest: Runge and Kutta's fourth order.
-double swung(double gravity_over_length, double time_s)
-{
-    constexpr int steps = 20'000;
-    const double h = time_s / steps;
-    double angle = 0.0, rate = 0.0;
-    const auto pull = [=](double at) { return gravity_over_length * std::cos(at); };
-    for (int i = 0; i < steps; ++i) {
-        const double a1 = rate, b1 = pull(angle);
-        const double a2 = rate + 0.5 * h * b1, b2 = pull(angle + 0.5 * h * a1);
-        const double a3 = rate + 0.5 * h * b2, b3 = pull(angle + 0.5 * h * a2);
-        const double a4 = rate + h * b3, b4 = pull(angle + h * a3);
-        angle += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
-        rate += h / 6.0 * (b1 + 2.0 * b2 + 2.0 * b3 + b4);
-    }
-    return angle;
-}
-
-Scenario pendulum()
-{
-    scene::BodyDescription rod = cube();
-    rod.half = {0.1, 0.01, 0.01};
-    rod.position = {{0.1, 0.0, 0.0}};
-    const double length = rod.half.x;
-    const double moment = scene::inertia_of(rod).z + rod.mass_kg * length * length;
-    const double swing = rod.mass_kg * gravity * length / moment;
-    const scene::JointDescription hinge{
-        .name = "hinge", .kind = scene::JointKind::hinge, .axis = {0.0, 0.0, 1.0}};
-    return ends_at("l hinge: a pendulum from level", "rk4", {hung(rod, hinge), 2.0, {}},
-                   [=](double t) {
-                       const double angle = swung(swing, t);
-                       return length * glm::dvec3{std::cos(angle), -std::sin(angle), 0.0};
-                   });
-}
-
-Scenario drawer()
-{
-    const glm::dvec3 down{std::sqrt(0.75), -0.5, 0.0}; // 30 degrees
-    const scene::JointDescription slider{
-        .name = "slider", .kind = scene::JointKind::slider, .axis = down};
-    return ends_at("l slider down a slope", "analytic", {hung(cube(), slider), 0.5, {}},
-                   [=](double t) { return 0.25 * gravity * t * t * down; });
-}
-
-Scenario conical_pendulum()
-{
-    constexpr double length = 0.1, lean = std::numbers::pi / 6.0;
-    const double turn = std::sqrt(gravity / (length * std::cos(lean)));
-    const auto place = [=](double t) {
-        const double out = length * std::sin(lean);
-        return glm::dvec3{out * std::cos(turn * t), -length * std::cos(lean),
-                          -out * std::sin(turn * t)};
-    };
-    scene::BodyDescription bob = cube(); // a cube, so that it does not wobble
-    bob.position = {place(0.0)};
-    bob.angular_velocity = {0.0, turn, 0.0};
-    bob.velocity = {glm::cross(bob.angular_velocity, place(0.0))};
-    const scene::JointDescription ball{.name = "ball", .kind = scene::JointKind::ball};
-    return ends_at("l ball joint: a conical pendulum", "analytic", {hung(bob, ball), 1.0, {}},
-                   place);
-}
-
 /// Of a damped oscillator that starts at rest, 1 from where it comes to.
 double swings(double mass, double stiffness, double damping, double time_s)
 {
@@ -170,22 +99,6 @@ double swings(double mass, double stiffness, double damping, double time_s)
     const double rate = std::sqrt(stiffness / mass - decay * decay);
     return std::exp(-decay * time_s) *
            (std::cos(rate * time_s) + decay / rate * std::sin(rate * time_s));
-}
-
-Scenario weight_on_a_spring()
-{
-    const scene::BodyDescription weight = cube();
-    scene::JointDescription spring{.name = "spring", .kind = scene::JointKind::spring};
-    spring.to_position = {{0.0, 0.2, 0.0}};
-    spring.stiffness = 50.0;
-    spring.damping = 0.1;
-    const double sag = weight.mass_kg * gravity / spring.stiffness;
-    return ends_at("l spring joint: a weight let go", "analytic", {hung(weight, spring), 1.0, {}},
-                   [=](double t) {
-                       const double left =
-                           swings(weight.mass_kg, spring.stiffness, spring.damping, t);
-                       return glm::dvec3{0.0, sag * (left - 1.0), 0.0};
-                   });
 }
 
 Scenario guided_cube()
@@ -334,17 +247,8 @@ Scenario stick_and_slip()
 
 std::vector<Scenario> element_scenarios()
 {
-    return {ball_that_rolls(),
-            capsule_that_rolls(),
-            sledge(),
-            pendulum(),
-            drawer(),
-            conical_pendulum(),
-            weight_on_a_spring(),
-            guided_cube(),
-            cube_on_a_belt(),
-            hand_on_a_plane(),
-            stick_and_slip()};
+    return {ball_that_rolls(), capsule_that_rolls(), sledge(),        guided_cube(),
+            cube_on_a_belt(),  hand_on_a_plane(),    stick_and_slip()};
 }
 
 } // namespace hapnet::bench

@@ -82,7 +82,7 @@ public:
             words_of(scene_.gravity), options_.is_stock ? 1 : 100, integrator());
         for (const auto& plane : scene_.planes) text += geometry(plane);
         for (scene::BodyId i = 0; i < scene_.bodies.size(); ++i) text += element(i);
-        return text + sites() + "</worldbody>\n" + tendons() + "</mujoco>\n";
+        return text + "</worldbody>\n</mujoco>\n";
     }
 
 private:
@@ -124,9 +124,6 @@ private:
     [[nodiscard]] std::string joints(scene::BodyId id) const
     {
         const auto& body = scene_.bodies[id];
-        for (const auto& joint : scene_.joints) {
-            if (joint.body == id && joint.kind != scene::JointKind::spring) return element(joint);
-        }
         const auto& locked = body.locked;
         const bool is_free =
             body.turning == scene::Turning::free && !locked.x && !locked.y && !locked.z;
@@ -134,19 +131,6 @@ private:
         return fmt::format("{}{}{}", locked.x ? "" : "<joint type='slide' axis='1 0 0'/>",
                            locked.y ? "" : "<joint type='slide' axis='0 1 0'/>",
                            locked.z ? "" : "<joint type='slide' axis='0 0 1'/>");
-    }
-
-    /// In place of a free joint.
-    [[nodiscard]] std::string element(const scene::JointDescription& joint) const
-    {
-        const scene::MassFrame& frame = all_.solids[joint.body].frame;
-        const glm::dquat back = glm::conjugate(frame.orientation);
-        const char* const type = joint.kind == scene::JointKind::hinge  ? "hinge"
-                                 : joint.kind == scene::JointKind::ball ? "ball"
-                                                                        : "slide";
-        return fmt::format("<joint type='{}' axis='{}' pos='{}'/>", type,
-                           words_of(back * joint.axis),
-                           words_of(back * (joint.position - frame.centre).value));
     }
 
     [[nodiscard]] std::string element(const scene::BodyPart& part, double mass,
@@ -176,44 +160,9 @@ private:
                                   body.mass_kg, words_of(solid.moments));
         }
         for (const auto& part : solid.parts) inside += element(part, body.mass_kg, body.material);
-        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            const auto& joint = scene_.joints[i];
-            if (joint.body != id || joint.kind != scene::JointKind::spring) continue;
-            const glm::dvec3 at = glm::conjugate(solid.frame.orientation) *
-                                  (joint.position - solid.frame.centre).value;
-            inside += fmt::format("<site name='on{}' pos='{}'/>", i, words_of(at));
-        }
         return fmt::format("<body pos='{}' quat='{}'>{}</body>\n",
                            words_of(solid.frame.centre.value), words_of(solid.frame.orientation),
                            inside);
-    }
-
-    /// Where springs hold the world.
-    [[nodiscard]] std::string sites() const
-    {
-        std::string text;
-        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            const auto& joint = scene_.joints[i];
-            if (joint.kind != scene::JointKind::spring) continue;
-            text +=
-                fmt::format("<site name='to{}' pos='{}'/>\n", i, words_of(joint.to_position.value));
-        }
-        return text;
-    }
-
-    [[nodiscard]] std::string tendons() const
-    {
-        std::string text;
-        for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-            const auto& joint = scene_.joints[i];
-            if (joint.kind != scene::JointKind::spring) continue;
-            const double length = glm::length((joint.position - joint.to_position).value);
-            text += fmt::format("<tendon><spatial stiffness='{:.17g}' damping='{:.17g}' "
-                                "springlength='{:.17g}'><site site='on{}'/><site site='to{}'/>"
-                                "</spatial></tendon>\n",
-                                joint.stiffness, joint.damping, joint.rest.value_or(length), i, i);
-        }
-        return text;
     }
 
     const Translation& all_;
@@ -274,7 +223,6 @@ public:
         state.position = scene_.bodies[body].position;
         state.orientation = scene_.bodies[body].orientation;
         const int joints = model_->body_jntnum[id_of(body)];
-        if (!scene_.joints.empty()) return joined_state(body);
         for (int i = 0; i < joints; ++i) add(state, model_->body_jntadr[id_of(body)] + i);
         return state;
     }
@@ -289,17 +237,6 @@ private:
     static int id_of(scene::BodyId body) { return static_cast<int>(body) + 1; }
 
     [[nodiscard]] bool is_free(int joint) const { return model_->jnt_type[joint] == mjJNT_FREE; }
-
-    /// Where a body with joints of its own is; how fast no scene here asks.
-    [[nodiscard]] scene::BodyState joined_state(scene::BodyId body) const
-    {
-        mj_kinematics(model_.get(), data_.get());
-        scene::BodyState state;
-        const mjtNum* const turn = data_->xquat + 4 * id_of(body);
-        state.position.value = from_numbers(data_->xpos + 3 * id_of(body));
-        state.orientation = {turn[0], turn[1], turn[2], turn[3]};
-        return state;
-    }
 
     /// Drag as damping of the two level coordinates, which the integrator treats implicitly.
     void resist(scene::BodyId body)

@@ -54,7 +54,6 @@ public:
         skins_.reserve(geometries_of(all) + scene.planes.size() + scene.hands.count);
         for (const auto& plane : scene.planes) add(plane);
         for (std::size_t i = 0; i < all.solids.size(); ++i) add(scene.bodies[i], all.solids[i]);
-        for (const auto& joint : scene.joints) add(joint);
         if (options.hip_force == HipForce::native) {
             for (std::uint32_t i = 0; i < scene.hands.count; ++i) add_hip();
         }
@@ -225,44 +224,6 @@ private:
         if (part.at == glm::dvec3{0.0} && turn == glm::dquat{1.0, 0.0, 0.0, 0.0}) return;
         dGeomSetOffsetPosition(geom, part.at.x, part.at.y, part.at.z);
         dGeomSetOffsetQuaternion(geom, array_of(turn).data());
-    }
-
-    /// Between a body and the world.
-    void add(const scene::JointDescription& joint)
-    {
-        const glm::dvec3 at = joint.position.value, axis = joint.axis;
-        dJointID id = nullptr;
-        if (joint.kind == scene::JointKind::hinge) {
-            id = dJointCreateHinge(world_, nullptr);
-            dJointAttach(id, bodies_[joint.body], nullptr);
-            dJointSetHingeAnchor(id, at.x, at.y, at.z);
-            dJointSetHingeAxis(id, axis.x, axis.y, axis.z);
-        } else if (joint.kind == scene::JointKind::slider) {
-            id = dJointCreateSlider(world_, nullptr);
-            dJointAttach(id, bodies_[joint.body], nullptr);
-            dJointSetSliderAxis(id, axis.x, axis.y, axis.z);
-        } else if (joint.kind == scene::JointKind::ball) {
-            id = dJointCreateBall(world_, nullptr);
-            dJointAttach(id, bodies_[joint.body], nullptr);
-            dJointSetBallAnchor(id, at.x, at.y, at.z);
-        } else {
-            add_spring(joint);
-        }
-    }
-
-    /// A distance that gives way as error reduction and constraint force mixing say.
-    void add_spring(const scene::JointDescription& joint)
-    {
-        const glm::dvec3 at = joint.position.value, to = joint.to_position.value;
-        const dJointID id = dJointCreateDBall(world_, nullptr);
-        dJointAttach(id, bodies_[joint.body], nullptr);
-        dJointSetDBallAnchor1(id, at.x, at.y, at.z);
-        dJointSetDBallAnchor2(id, to.x, to.y, to.z);
-        dJointSetDBallDistance(id, joint.rest.value_or(glm::length(at - to)));
-        const double h = options_.tick_s;
-        const double mixing = 1.0 / (h * joint.stiffness + joint.damping);
-        dJointSetDBallParam(id, dParamERP, h * joint.stiffness * mixing);
-        dJointSetDBallParam(id, dParamCFM, mixing);
     }
 
     void apply_fields()

@@ -119,6 +119,7 @@ std::vector<Scenario> all_scenarios(bool is_quick)
     all.push_back(tumble());
     all.push_back(off_centre_push());
     for (Scenario& one : element_scenarios()) all.push_back(std::move(one));
+    for (Scenario& one : everyday_scenarios()) all.push_back(std::move(one));
     return all;
 }
 

@@ -57,8 +57,10 @@ struct Scenario {
 [[nodiscard]] Scenario steady_push_on_own_plane();
 
 /// One for each thing that a scene may have beside these: spheres, capsules, bodies of several
-/// parts, joints, fields, kinematic bodies, planes that hands feel, and hands with friction.
+/// parts, fields, kinematic bodies, planes that hands feel, and hands with friction.
 [[nodiscard]] std::vector<Scenario> element_scenarios();
+/// Everyday scenes that are no engine's best case.
+[[nodiscard]] std::vector<Scenario> everyday_scenarios();
 
 /// The paper's scene, pushed to and fro between two hands: as it is, or with a cube that can turn
 /// and has dry friction.

@@ -253,22 +253,24 @@ TEST(Guards, ActInNoHeapOfTheBench)
 TEST(Heaps, OverlapLessThanThoseOfTheEngines)
 {
     const Course course = bin(200, 0.3);
-    const auto deepest_and_last = [&](Engine& engine) {
-        double deepest = 0.0, last = 0.0;
-        run(engine, course, 1e-3, [&](double) {
-            last = deepest_overlap(course.scene, engine);
-            deepest = std::max(deepest, last);
+    // In the last tenth of a second together, since what one tick shows is a matter of chance.
+    const auto deepest_and_late = [&](Engine& engine) {
+        double deepest = 0.0, late = 0.0;
+        run(engine, course, 1e-3, [&](double time_s) {
+            const double overlap = deepest_overlap(course.scene, engine);
+            deepest = std::max(deepest, overlap);
+            if (time_s > course.duration_s - 0.1) late += overlap;
         });
-        return std::pair{deepest, last};
+        return std::pair{deepest, late};
     };
-    const auto [deepest, last] = deepest_and_last(*make_hapnet(course.scene, {}));
+    const auto [deepest, late] = deepest_and_late(*make_hapnet(course.scene, {}));
     for (const Subject& subject : subjects()) {
         // The others take many times as long.
         if (subject.name != "bullet" && subject.name != "ode-quick") continue;
         const auto engine = subject.make(course.scene, {});
-        const auto its = deepest_and_last(*engine);
+        const auto its = deepest_and_late(*engine);
         EXPECT_LT(deepest, its.first) << subject.name;
-        EXPECT_LT(last, its.second) << subject.name;
+        EXPECT_LT(late, its.second) << subject.name;
     }
 }
 

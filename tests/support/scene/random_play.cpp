@@ -231,54 +231,6 @@ void add_parts(std::uint64_t seed, Description& drawn)
     }
 }
 
-scene::JointDescription random_joint(Dice& dice, const Description& drawn, std::uint32_t body)
-{
-    scene::JointDescription joint;
-    joint.kind = static_cast<scene::JointKind>(dice.below(4));
-    joint.body = body;
-    const auto other = static_cast<std::uint32_t>(dice.below(drawn.bodies.size()));
-    if (other != body && !dice.one_in(4)) joint.to = other;
-    const BodyDescription& form = drawn.bodies[body];
-    const double size = std::max({form.half.x, form.half.y, form.half.z});
-    joint.position.value = form.position.value + form.orientation * (form.half * dice.vector());
-    joint.to_position.value = joint.position.value + size * dice.vector();
-    joint.axis = dice.vector();
-    joint.axis /= std::sqrt(glm::dot(joint.axis, joint.axis));
-    joint.collides = dice.one_in(4);
-    const bool is_hinge = joint.kind == scene::JointKind::hinge;
-    const double unit = is_hinge ? 1.0 : size;
-    if ((is_hinge || joint.kind == scene::JointKind::slider) && dice.one_in(2)) {
-        joint.lowest = -unit * dice.share();
-        joint.highest = *joint.lowest + unit * dice.between(0.01, 1.0);
-        if (dice.one_in(2)) joint.restitution = dice.share();
-    }
-    if (joint.kind != scene::JointKind::ball && !dice.one_in(3)) {
-        const double lever = is_hinge ? size * size : 1.0;
-        const double most =
-            is_hinge ? scene::torsion_max_n_m_per_rad : scene::stiffness_max_n_per_m;
-        joint.stiffness = std::min(most, lever * dice.power(1.0, 1e8));
-        if (dice.one_in(2)) joint.damping = std::min(1e3, lever * dice.power(0.01, 100.0));
-        if (dice.one_in(2)) joint.rest = unit * dice.share();
-    }
-    return joint;
-}
-
-/// Between neighbours in the list, as in a chain, or any.
-void add_joints(Dice& dice, Description& drawn)
-{
-    const bool is_chain = dice.one_in(2);
-    const std::uint64_t most = std::min<std::uint64_t>(drawn.bodies.size(), 12);
-    for (auto left = 1 + dice.below(most); left > 0; --left) {
-        const auto body = static_cast<std::uint32_t>(dice.below(drawn.bodies.size()));
-        scene::JointDescription joint = random_joint(dice, drawn, body);
-        if (is_chain && body > 0) joint.to = body - 1;
-        const BodyDescription& one = drawn.bodies[body];
-        const BodyDescription& other = drawn.bodies[joint.to.value_or(body)];
-        if (one.kinematic || other.kinematic) continue;
-        if (one.movable || other.movable) drawn.joints.push_back(joint);
-    }
-}
-
 } // namespace
 
 RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
@@ -294,10 +246,6 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
         add_elements(seed, play);
     else if (seed >= round_plays_from)
         make_round(seed, play.description);
-    if (limits.joints) {
-        Dice own{base::Seed{seed}.stream("joints")};
-        add_joints(own, play.description);
-    }
     if (limits.compounds) {
         add_parts(seed, play.description);
         play.overlaps = true;

@@ -53,7 +53,6 @@ struct PlayLimits {
     std::uint32_t ticks_min = 20;
     std::uint32_t ticks_max = 60;
     // What is added to the scene that the seed gives without.
-    bool joints = false;
     bool compounds = false; // further parts
 };
 

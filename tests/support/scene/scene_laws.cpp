@@ -139,24 +139,6 @@ SceneLaws::SceneLaws(const RandomPlay& play) : play_{play}, moments_(play.descri
         const bool locked = form.locked.x || form.locked.y || form.locked.z;
         if (!form.movable || locked) nothing_is_fixed_ = false;
     }
-    for (const scene::JointDescription& joint : play.description.joints)
-        if (!joint.to) nothing_is_fixed_ = false;
-}
-
-/// From where the bodies are: a hinge's angle is the world's, which counts its turns.
-double SceneLaws::stored_by(const World& world) const
-{
-    double sum = 0.0;
-    const auto& joints = play_.description.joints;
-    for (scene::JointId id = 0; id < joints.size(); ++id) {
-        const scene::JointDescription& joint = joints[id];
-        const bool is_spring = joint.kind == scene::JointKind::spring;
-        const double slack =
-            is_spring ? length(joint.position.value - joint.to_position.value) : 0.0;
-        const double bend = world.joint(id).coordinate - joint.rest.value_or(slack);
-        sum += 0.5 * joint.stiffness * bend * bend;
-    }
-    return sum;
 }
 
 SceneLaws::Moment SceneLaws::moment_of(const World& world, BodyId id) const
@@ -175,7 +157,6 @@ void SceneLaws::before(const World& world)
         for (const scene::FieldDescription& field : world.frozen().fields)
             moments_[id].field += force_on_body(field, world.frozen(), bodies, bodies.slot_of[id]);
     }
-    stored_ = stored_by(world);
 }
 
 std::optional<std::string> SceneLaws::after(const World& world)
@@ -324,13 +305,6 @@ void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const 
     balance.angular += length(twist);
 }
 
-bool SceneLaws::is_joined(BodyId id) const
-{
-    const auto& joints = play_.description.joints;
-    return std::any_of(joints.begin(), joints.end(),
-                       [id](const auto& joint) { return joint.body == id || joint.to == id; });
-}
-
 void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
 {
     const BodyDescription& form = play_.description.bodies[id];
@@ -347,11 +321,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     const glm::dquat& rotated = was.state.orientation;
     balance.kinetic_before +=
         0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, rotated, was.angular_momentum);
-    double spinning = spinning_energy(form, rotated, now.angular_momentum);
-    // A joint turns the angular momentum with the body: the inertia is that of where it came to.
-    if (is_joined(id))
-        spinning =
-            std::min(spinning, spinning_energy(form, now.state.orientation, now.angular_momentum));
+    const double spinning = spinning_energy(form, rotated, now.angular_momentum);
     balance.kinetic_after += 0.5 * mass * glm::dot(v1, v1) + spinning;
     balance.work += std::max(glm::dot(force, steady), glm::dot(force, moved));
     const glm::dvec3 torque = steady_torque(world, id);
@@ -457,11 +427,9 @@ std::optional<std::string> SceneLaws::check_energy(const World& world, const Bal
     for (std::uint32_t i = 0; i < play_.description.hands.count; ++i)
         hands += most_from_hand(world, i, balance.fastest);
     const double driven = driven_energy(world, balance);
-    const double stored = stored_by(world);
-    const double gained = balance.kinetic_after - balance.kinetic_before + stored - stored_ -
-                          balance.work - hands - driven;
-    const double there =
-        balance.kinetic_before + balance.kinetic_after + std::abs(balance.work) + stored + stored_;
+    const double gained =
+        balance.kinetic_after - balance.kinetic_before - balance.work - hands - driven;
+    const double there = balance.kinetic_before + balance.kinetic_after + std::abs(balance.work);
     const double tolerated = energy_tolerance * there + balance.slack;
     if (tolerated > 0.0) worst_.energy = std::max(worst_.energy, gained / tolerated);
     if (gained <= tolerated) return std::nullopt;

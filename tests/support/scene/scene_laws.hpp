@@ -23,7 +23,7 @@ struct LawFigures {
 ///   a tick than twice the way of the fastest, and his own size; or, in a tick with several touches
 ///   of continuous collision, than the energy that there is can make him;
 /// - a hand exerts no more than its greatest force (1e-6 of it tolerated);
-/// - kinetic energy, with that of the springs of joints, grows by no more than the work of gravity,
+/// - kinetic energy grows by no more than the work of gravity,
 ///   pushes and hands (tolerated: 1e-6 of
 ///   what is there, and for each body m v^2 with v twice what its forces add in a tick, and what
 ///   its energy of turning may differ by for the same angular momentum when it turns far);
@@ -90,7 +90,6 @@ private:
     void add_driven(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
                                               const Moment& now, double angle);
-    [[nodiscard]] bool is_joined(scene::BodyId id) const;
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] double most_from_hand(const scene::World& world, std::uint32_t hand,
                                         double fastest) const;
@@ -104,15 +103,12 @@ private:
                                                             const Balance& balance);
     [[nodiscard]] Moment moment_of(const scene::World& world, scene::BodyId id) const;
 
-    [[nodiscard]] double stored_by(const scene::World& world) const;
-
     const RandomPlay& play_;
     bool nothing_is_fixed_ = true;
     double movable_ = 0.0;             // how many
     double size_ = scene::size_max_m;  // the smallest half edge, m
     std::uint64_t touches_before_ = 0; // of continuous collision, up to the tick
     std::vector<Moment> moments_;
-    double stored_ = 0.0; // J, by the springs of joints before the tick
     LawFigures worst_;
 };
 

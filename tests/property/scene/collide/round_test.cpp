@@ -108,7 +108,10 @@ TEST(RoundManifold, HasTheNearestPlaceAndNoneThatIsFartherThanTheMargin)
         const Manifold manifold = collide(two.a, two.b, margin, memory);
         ASSERT_EQ(manifold.count == 0, found.distance > margin) << i;
         if (manifold.count == 0) continue;
-        ASSERT_LT(length(manifold.normal + found.direction), 1e-12) << i;
+        // What lies along a face but for a degree is pushed along the face's normal.
+        constexpr double along_sine = 1.0 / 64.0;
+        const double most = manifold.count == 2 ? along_sine : 1e-12;
+        ASSERT_LT(length(manifold.normal + found.direction), most) << i;
         double least = margin;
         for (const ContactPoint& point : manifold.touching()) {
             least = std::min(least, point.separation);

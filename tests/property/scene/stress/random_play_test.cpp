@@ -50,44 +50,6 @@ TEST(RandomPlay, IsTheSameEveryTime)
     }
 }
 
-TEST(RandomPlay, WithJointsKeepsTheLaws)
-{
-    for (std::uint64_t seed = 900'020'000; seed < 900'020'000 + seeds(200); ++seed) {
-        const PlayOutcome outcome = judge(random_play(seed, {.joints = true}), seed);
-        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
-    }
-}
-
-/// Few hostile scenes with joints break a law (docs/results/limitations.md), but never these.
-TEST(RandomPlay, WithJointsStaysFiniteAndHasTheSameFutureAfterASnapshot)
-{
-    for (std::uint64_t seed = 0; seed < seeds(200); ++seed) {
-        const RandomPlay play = random_play(seed, {.joints = true});
-        auto world = scene::World::freeze(play.description, play.options);
-        ASSERT_TRUE(world) << seed << world.error().message;
-        const std::uint64_t half = play.ticks.size() / 2;
-        std::optional<scene::World::Snapshot> snapshot;
-        for (const TickInputs& inputs : play.ticks) {
-            if (world->ticks() == half) snapshot = world->snapshot();
-            feed(*world, inputs);
-            world->tick();
-            for (scene::BodyId id = 0; id < play.description.bodies.size(); ++id) {
-                const scene::BodyState body = world->body(id);
-                ASSERT_TRUE(base::is_finite(body.position) && base::is_finite(body.velocity) &&
-                            base::is_finite(body.angular_velocity))
-                    << seed;
-            }
-        }
-        const std::uint64_t end = world->hash();
-        world->restore(*snapshot);
-        while (world->ticks() < play.ticks.size()) {
-            feed(*world, play.ticks[world->ticks()]);
-            world->tick();
-        }
-        ASSERT_EQ(world->hash(), end) << seed;
-    }
-}
-
 /// A seed that broke a law once, and what was wrong then.
 struct Scar {
     std::uint64_t seed;

@@ -29,7 +29,6 @@ public:
         for (auto left = std::min<std::uint64_t>(below(3), drawn.hands.count); left > 0; --left)
             drawn.own_hands.push_back(feel());
         for (auto left = below(3); left > 0; --left) drawn.fields.push_back(field());
-        for (auto left = drawn.bodies.size() > 1 ? below(3) : 0; left > 0; --left) joint(drawn);
         if (below(2) == 0) drawn.gravity = vector(gravity_max_m_per_s2);
         return drawn;
     }
@@ -93,36 +92,6 @@ private:
         drawn.on_hands = below(2) == 0;
         drawn.on_bodies = below(2) == 0;
         return drawn;
-    }
-
-    /// Between two bodies, or a body and the world, if that is possible.
-    void joint(Description& scene)
-    {
-        JointDescription drawn{.name = name()};
-        drawn.kind = static_cast<JointKind>(below(4));
-        drawn.body = static_cast<std::uint32_t>(below(scene.bodies.size()));
-        const auto other = static_cast<std::uint32_t>(below(scene.bodies.size()));
-        if (other != drawn.body) drawn.to = other;
-        const BodyDescription& one = scene.bodies[drawn.body];
-        const BodyDescription& two = scene.bodies[drawn.to.value_or(drawn.body)];
-        if (one.kinematic || two.kinematic || !(one.movable || two.movable)) return;
-        const bool is_hinge = drawn.kind == JointKind::hinge;
-        const bool is_slider = drawn.kind == JointKind::slider;
-        if (!is_slider) drawn.position.value = vector(reach_max_m);
-        if (is_hinge || is_slider) {
-            drawn.axis = unit();
-            if (below(2) == 0) drawn.lowest = -std::abs(within(10.0)) - 1e-3;
-            if (below(2) == 0) drawn.highest = std::abs(within(10.0)) + 1e-3;
-            drawn.restitution = std::abs(within(1.0));
-        }
-        if (drawn.kind == JointKind::spring) drawn.to_position.value = vector(reach_max_m);
-        if (drawn.kind != JointKind::ball) {
-            drawn.stiffness = std::abs(within(torsion_max_n_m_per_rad));
-            drawn.damping = std::abs(within(torsion_damping_max_n_m_s_per_rad));
-            if (below(2) == 0) drawn.rest = std::abs(within(10.0));
-        }
-        drawn.collides = below(2) == 0;
-        scene.joints.push_back(drawn);
     }
 
     Feel feel()

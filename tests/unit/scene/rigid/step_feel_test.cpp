@@ -4,6 +4,7 @@
 // Bodies and hands with a stiffness and a damping of their own.
 #include "proto/base/math.hpp"
 #include "scene/text/text.hpp"
+#include "tests/support/scene/bench_scenes.hpp"
 #include "tests/unit/scene/rigid/scenes.hpp"
 
 #include <array>
@@ -219,22 +220,21 @@ TEST(Feel, CostsAFeatureAndAHashOnlyWhereItIs)
 
 TEST(Feel, TheSceneOfSoftAndHardCubesIsFeltSo)
 {
-    const auto scene = load_scene("soft-and-hard", {});
-    ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(parse_scene(to_text(*scene), "again").value(), *scene);
-    World world = World::freeze(*scene).value();
+    const Description scene = test::bench_scene("soft-and-hard");
+    EXPECT_EQ(parse_scene(to_text(scene), "again").value(), scene);
+    World world = World::freeze(scene).value();
     const std::array<std::array<double, 3>, 2> stiffness{
         {{100.0, 500.0, 5000.0}, {100.0, 250.0, 5000.0}}};
     for (const std::uint32_t hand : {0U, 1U}) {
         for (const std::size_t cube : {0U, 1U, 2U}) {
-            const double x = scene->bodies[cube].position.x() - half - 0.0049;
+            const double x = scene.bodies[cube].position.x() - half - 0.0049;
             ASSERT_FALSE(world.set_hand(hand, hand_at({x, 0.0, 0.0})));
             world.tick();
             EXPECT_NEAR(world.touch(hand).on_hand_at_start.x(), -1e-4 * stiffness[hand][cube],
                         1e-3);
             ASSERT_FALSE(world.set_hand(hand, {.position = {}, .velocity = {}, .present = false}));
             for (const BodyId body : {0U, 1U, 2U})
-                ASSERT_FALSE(world.place(body, {.position = scene->bodies[body].position}));
+                ASSERT_FALSE(world.place(body, {.position = scene.bodies[body].position}));
         }
     }
 }

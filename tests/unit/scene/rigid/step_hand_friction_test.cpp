@@ -4,6 +4,7 @@
 // Hands that stick to what they press, and slide over it.
 #include "proto/base/math.hpp"
 #include "scene/text/text.hpp"
+#include "tests/support/scene/bench_scenes.hpp"
 #include "tests/unit/scene/rigid/scenes.hpp"
 
 #include <algorithm>
@@ -389,10 +390,9 @@ TEST(HandFriction, IsTheHandsOwnThenThatOfAllHandsAndTheBodysOwnThenThatOfItsMat
 
 TEST(HandFriction, TheSceneOfStickAndSlipIsReadPrintedAndPlayed)
 {
-    const auto scene = load_scene("stick-slip", {});
-    ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(parse_scene(to_text(*scene), "again").value(), *scene);
-    World world = World::freeze(*scene).value();
+    const Description scene = test::bench_scene("stick-slip");
+    EXPECT_EQ(parse_scene(to_text(scene), "again").value(), scene);
+    World world = World::freeze(scene).value();
     for (const std::uint32_t hand : {0U, 1U}) { // over the block
         for (int i = 0; i < 200; ++i) {
             ASSERT_FALSE(world.set_hand(hand, {.position = {{0.1 + 1e-4 * i, half + 0.004, 0.0}},

@@ -6,6 +6,7 @@
 #include "scene/query.hpp"
 #include "scene/rigid/driven_energy.hpp"
 #include "scene/text/text.hpp"
+#include "tests/support/scene/bench_scenes.hpp"
 #include "tests/unit/scene/rigid/scenes.hpp"
 
 #include <array>
@@ -34,18 +35,11 @@ Description plate_with_cube()
     return scene;
 }
 
-TEST(DrivenEnergy, IsAtMostWhatTheOtherTakesAndWhatItsMomentumExplains)
+TEST(DrivenEnergy, IsAtMostWhatTheOtherTakes)
 {
     EXPECT_NEAR(driven_energy(5.0, 2.0), 2.0, 1e-11);
     EXPECT_DOUBLE_EQ(driven_energy(1.0, 2.0), 1.0);
     EXPECT_DOUBLE_EQ(driven_energy(-1.0, 2.0), -1.0);
-    EXPECT_DOUBLE_EQ((DrivenEnergy{3.0, 2.0}.within(1.0)), 2.0);
-    EXPECT_DOUBLE_EQ((DrivenEnergy{1.0, 2.0}.within(1.0)), 1.0);
-    EXPECT_DOUBLE_EQ((DrivenEnergy{-3.0, 2.0}.within(0.0)), -3.0); // what a surface takes, it takes
-    DrivenEnergy sum{3.0, 2.0};
-    sum.add({-1.0, 5.0});
-    EXPECT_DOUBLE_EQ(sum.energy, 2.0);
-    EXPECT_DOUBLE_EQ(sum.speed, 5.0);
 }
 
 TEST(Kinematic, ACubeOnAPlateThatStartsAtOnceSlidesUntilItGoesAlong)
@@ -491,12 +485,11 @@ TEST(Kinematic, ADescriptionSaysWhatItCannotBe)
 
 TEST(Kinematic, TheConveyorTakesItsCubesAlongAndTheTurntableTurnsOne)
 {
-    const auto scene = load_scene("conveyor", {});
-    ASSERT_TRUE(scene) << scene.error().message;
-    World world = World::freeze(*scene).value();
+    const Description scene = test::bench_scene("conveyor");
+    World world = World::freeze(scene).value();
     run(world, 1000);
     for (BodyId cube = 4; cube < 10; ++cube) {
-        const double gone = world.position(cube).x() - scene->bodies[cube].position.x();
+        const double gone = world.position(cube).x() - scene.bodies[cube].position.x();
         EXPECT_NEAR(gone, 0.1 - 0.5 * 0.01 / (0.5 * gravity), 1e-9) << cube;
     }
     EXPECT_NEAR(world.body(3).angular_velocity.y, 1.0, 1e-6);
