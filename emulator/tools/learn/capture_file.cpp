@@ -253,6 +253,7 @@ public:
         ++seen_;
         return fail(why);
     }
+    void end_within_packet() { capture_.cut_off_in = seen_ + 1; }
     [[nodiscard]] Capture finished() { return std::move(capture_); }
 
 private:
@@ -272,6 +273,17 @@ std::string refusal_of_link(std::uint32_t link)
                        link);
 }
 
+std::string refusal_of_fraction(std::uint64_t fraction, std::uint64_t steps, bool is_big_endian)
+{
+    constexpr std::uint64_t microseconds = 1'000'000;
+    constexpr std::uint64_t nanoseconds = 1'000'000'000;
+    const auto text = fmt::format("its time is {} of {} parts of a second", fraction, steps);
+    if (steps != microseconds || fraction >= nanoseconds) return text + ": damaged";
+    return fmt::format("{}: the head of the file says microseconds, but its times are nanoseconds; "
+                       "write {} over its first four bytes, or save it as pcapng",
+                       text, is_big_endian ? "a1 b2 3c 4d" : "4d 3c b2 a1");
+}
+
 constexpr std::size_t frame_bytes_max = std::size_t{1} << 20;
 
 base::Result<Capture> read_pcap(Bytes bytes)
@@ -287,14 +299,25 @@ base::Result<Capture> read_pcap(Bytes bytes)
     };
     if (order.u32(bytes, 0) == pcap_nanoseconds) interface.steps = 1'000'000'000;
     if (!is_readable(interface.link)) return collector.fail_next(refusal_of_link(interface.link));
-    for (auto left = bytes.subspan(head); left.size() >= record;) {
+    for (auto left = bytes.subspan(head); !left.empty();) {
+        if (left.size() < record) {
+            collector.end_within_packet();
+            break;
+        }
         const std::size_t captured = order.u32(left, 8);
         if (captured > frame_bytes_max) {
             return collector.fail_next(fmt::format("it has {} bytes: damaged", captured));
         }
-        if (left.size() - record < captured) break;
-        const std::uint64_t steps =
-            order.u32(left, 0) * interface.steps + std::uint64_t{order.u32(left, 4)};
+        if (left.size() - record < captured) {
+            collector.end_within_packet();
+            break;
+        }
+        const std::uint64_t fraction = order.u32(left, 4);
+        if (fraction >= interface.steps) {
+            return collector.fail_next(
+                refusal_of_fraction(fraction, interface.steps, order.is_big));
+        }
+        const std::uint64_t steps = order.u32(left, 0) * interface.steps + fraction;
         const auto added = collector.add(interface, 0, steps, left.subspan(record, captured));
         if (!added) return tl::unexpected{added.error()};
         left = left.subspan(record + captured);
@@ -312,6 +335,7 @@ public:
         while (left_.size() >= block_bytes_min) {
             if (const auto taken = take_block(); !taken) return tl::unexpected{taken.error()};
         }
+        if (!left_.empty()) collector_.end_within_packet();
         return collector_.finished();
     }
 
@@ -333,7 +357,8 @@ private:
         if (length < block_bytes_min || length % 4 != 0) {
             return collector_.fail_next(fmt::format("a block has {} bytes: damaged", length));
         }
-        if (length > left_.size()) { // cut off
+        if (length > left_.size()) {
+            collector_.end_within_packet();
             left_ = {};
             return {};
         }

@@ -54,6 +54,7 @@ struct SeenPacket {
 struct Capture {
     std::vector<SeenPacket> packets; // their payloads lie in the bytes that were read
     std::size_t passed_over = 0;     // others: fragments, other protocols, acknowledgements
+    std::size_t cut_off_in = 0; // the number of the packet within which the file ends; 0: whole
 };
 
 inline constexpr std::size_t captured_packets_max = 2'000'000;
@@ -63,9 +64,9 @@ inline constexpr std::size_t captured_packets_max = 2'000'000;
 
 /// Reads pcap, with times in microseconds or nanoseconds, or pcapng, of either byte order, whose
 /// interfaces are Ethernet (with VLAN tags), raw IP, Linux cooked (1 and 2) or loopback. A last
-/// packet that is cut off ends it. The formats: draft-ietf-opsawg-pcap, draft-ietf-opsawg-pcapng.
-/// libpcap is not used: it reads files, not bytes, and does not tell the interfaces of a pcapng
-/// apart. Errors name the packet.
+/// packet that is cut off ends it and is told. The formats: draft-ietf-opsawg-pcap,
+/// draft-ietf-opsawg-pcapng. libpcap is not used: it reads files, not bytes, and does not tell the
+/// interfaces of a pcapng apart. Errors name the packet.
 [[nodiscard]] base::Result<Capture> read_capture(std::string_view text);
 
 } // namespace hapnet::emulator::tools

@@ -24,6 +24,21 @@ double milliseconds_of(base::Duration duration)
     return std::chrono::duration<double, std::milli>{duration}.count();
 }
 
+/// So many arrived after one that was sent later, where times and delays say so.
+std::size_t overtaken(const MeasuredWay& way)
+{
+    if (!way.spacing) return 0;
+    base::Duration last = base::Duration::min();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < way.delays.size(); ++i) {
+        if (!way.delays[i]) continue;
+        const auto at = *way.spacing * static_cast<base::Duration::rep>(i) + *way.delays[i];
+        if (at < last) ++count;
+        last = std::max(last, at);
+    }
+    return count;
+}
+
 /// Writes what it finds about one way into conditions and remarks.
 class WayLearner {
 public:
@@ -51,9 +66,7 @@ public:
             say(fmt::format("delay: {} independent delays are too few to test a law",
                             fit.independent));
         } else if (*nearest.p_value < significance) {
-            say(fmt::format("delay: no law passes; {} is the nearest. The measured values "
-                            "themselves are jitter = {{ law = \"table\", file = ... }}",
-                            nearest.name));
+            say(fmt::format("delay: no law passes; {} is the nearest", nearest.name));
         }
         if (fit.correlation_time > base::Duration{0}) {
             const auto n = static_cast<double>(measured.delays.size());
@@ -91,11 +104,24 @@ public:
 
     void learn_order(const MeasuredWay& measured)
     {
-        if (measured.reordered == 0) return;
+        const auto reordered = measured.reordered > 0 ? measured.reordered : overtaken(measured);
+        if (reordered == 0) return;
         way_.order = Order::free;
         say(fmt::format("order: {:.3g} % arrived after one that was sent later: order = \"free\"",
-                        100.0 * static_cast<double>(measured.reordered) /
+                        100.0 * static_cast<double>(reordered) /
                             static_cast<double>(measured.lost.size())));
+    }
+
+    /// Where laws do not do: the measured values themselves, which `conditions` read from a file.
+    void take(const Conditions& conditions, const std::string& file, LearnedForm form)
+    {
+        way_.delay = conditions.delay;
+        way_.jitter = conditions.jitter;
+        if (form == LearnedForm::trace) {
+            if (!conditions.loss.empty()) way_.loss = conditions.loss;
+            return say(fmt::format("delay: {} is replayed", file));
+        }
+        say(fmt::format("delay: drawn from the values in {}", file));
     }
 
 private:
@@ -157,16 +183,138 @@ bool has_no_delay(const std::optional<MeasuredWay>& way)
            std::ranges::none_of(way->delays, [](const auto& one) { return one.has_value(); });
 }
 
-void learn_way(WayLearner learner, const MeasuredWay& measured, bool with_losses)
-{
-    learner.learn_delays(measured);
-    if (with_losses) learner.learn_losses(measured);
-    learner.learn_order(measured);
-}
+/// One way of a measurement: chooses the form by the first half, and learns the whole in it.
+class WayCourse {
+public:
+    /// `with_losses`: the losses are those of this way.
+    WayCourse(std::string name, const MeasuredWay& measured, bool with_losses,
+              const LearnSettings& settings)
+        : name_{std::move(name)}, measured_{measured}, with_losses_{with_losses}
+    {
+        const auto table = settings.tables.find(name_);
+        if (table != settings.tables.end()) table_ = table->second;
+        replays_ = settings.replays && table_;
+    }
+
+    [[nodiscard]] base::Result<Conditions> learn(Lesson& lesson) const
+    {
+        WayLesson way{.way = name_, .form = LearnedForm::laws, .likeness = {}};
+        Lesson unsaid;
+        const auto [first, second] = halves_of(measured_);
+        const bool can_judge =
+            first.delays.size() >= half_rows_min && has_delay(first) && has_delay(second);
+        bool is_fine = true;
+        if (replays_) {
+            way.form = LearnedForm::trace;
+        } else if (can_judge) {
+            const auto chosen = form_of(first);
+            is_fine = chosen.has_value();
+            way.form = table_ ? chosen.value_or(LearnedForm::trace) : LearnedForm::laws;
+        }
+        auto all = in_form(way.form, measured_, table_, lesson);
+        if (!all) return all;
+        if (can_judge) {
+            auto half = in_form(way.form, first, named_table(first_half, first), unsaid);
+            if (!half) return half;
+            way.likeness = likeness_of(*half, first, second);
+            say(lesson, way, is_fine);
+        }
+        lesson.ways.push_back(std::move(way));
+        return all;
+    }
+
+private:
+    static constexpr std::size_t half_rows_min = 200;
+    static constexpr const char* first_half = "the first half";
+
+    [[nodiscard]] static bool has_delay(const MeasuredWay& way)
+    {
+        return std::ranges::any_of(way.delays, [](const auto& one) { return one.has_value(); });
+    }
+
+    /// The simplest form that gives the delays of the half that it was learned from; nullopt: laws
+    /// do not, and nothing else can be named.
+    [[nodiscard]] std::optional<LearnedForm> form_of(const MeasuredWay& half) const
+    {
+        Lesson unsaid;
+        for (const LearnedForm form : {LearnedForm::laws, LearnedForm::table}) {
+            const auto conditions = in_form(form, half, named_table(first_half, half), unsaid);
+            if (conditions && is_near(*conditions, half)) {
+                const bool can_be_named = form == LearnedForm::laws || table_;
+                return can_be_named ? std::optional{form} : std::nullopt;
+            }
+        }
+        return table_ ? std::optional{LearnedForm::trace} : std::nullopt;
+    }
+
+    [[nodiscard]] base::Result<Conditions> in_form(LearnedForm form, const MeasuredWay& measured,
+                                                   const std::optional<MeasuredTable>& table,
+                                                   Lesson& lesson) const
+    {
+        Conditions way;
+        WayLearner learner{name_, way, lesson};
+        learner.learn_delays(measured);
+        if (with_losses_) learner.learn_losses(measured);
+        learner.learn_order(measured);
+        if (form == LearnedForm::laws) return way;
+        const auto least = std::get<ConstantLaw>(way.delay.law).value;
+        auto read = form == LearnedForm::trace
+                        ? replayed(*table)
+                        : drawn_from(*table, std::max(least, base::Duration{0}),
+                                     way.jitter.correlation_time);
+        if (!read) return read;
+        learner.take(*read, table->file, form);
+        return way;
+    }
+
+    void say(Lesson& lesson, const WayLesson& way, bool is_fine) const
+    {
+        const auto add = [&](const std::string& words) {
+            lesson.remarks.push_back(name_ + ": " + words);
+        };
+        const Likeness& like = *way.likeness;
+        if (way.form == LearnedForm::table) {
+            add("no law gives the delays that were measured (at most 0.03 apart), so they are "
+                "drawn from the measured values");
+        } else if (way.form == LearnedForm::trace && !replays_) {
+            add("neither a law nor drawn values give the correlation that was measured, of delays "
+                "or of delay and loss, so the measurement is replayed");
+        } else if (!is_fine) {
+            add("no law gives the delays that were measured, and no profile can name these files: "
+                "--trace FILE writes the values themselves, and a profile that replays them");
+        }
+        add(fmt::format("the first half alone, learned so and played, is {:.3f} from the second "
+                        "half (Kolmogorov-Smirnov); the measured first half is {:.3f} from it",
+                        like.model_apart, like.halves_apart));
+        for (const CorrelationAt& at : like.correlations) {
+            add(fmt::format("correlation of delays {:.3g} s apart: {:.2f}; first half {:.2f}, "
+                            "second half {:.2f}",
+                            base::to_seconds(at.lag), at.model, at.first, at.second));
+        }
+        if (like.loss_when_slow) {
+            const auto& [model, low, high] = *like.loss_when_slow;
+            add(fmt::format("losses after a delay above the 90th percentile: {:.3g} %; second half "
+                            "{:.3g} to {:.3g} %",
+                            100.0 * model, 100.0 * low, 100.0 * high));
+        }
+        if (!like.is_stationary()) {
+            add("the two halves differ by more than 0.1: the path itself changed, and nothing that "
+                "is learned from one part is right for another");
+        }
+    }
+
+    std::string name_;
+    const MeasuredWay& measured_;
+    bool with_losses_;
+    std::optional<MeasuredTable> table_;
+    bool replays_ = false;
+};
 
 } // namespace
 
-base::Result<Lesson> learn(const Measurement& measurement)
+std::string LearnReport::profile() const { return to_text(lesson->profile); }
+
+base::Result<Lesson> learn(const Measurement& measurement, const LearnSettings& settings)
 {
     const auto& [round_trip, measured_up, measured_down, mixes_losses, remarks] = measurement;
     base::ensure(round_trip || measured_up || measured_down);
@@ -178,16 +326,34 @@ base::Result<Lesson> learn(const Measurement& measurement)
     lesson.profile.name = "learned";
     auto& [up, down] = lesson.profile.path;
     if (round_trip) {
-        learn_way({"round trip", down, lesson}, *round_trip, true);
-        const auto whole = std::get<ConstantLaw>(down.delay.law).value;
-        up.delay = constant(whole / 2);
-        down.delay = constant(whole - whole / 2);
-        lesson.remarks.emplace_back("A round trip does not tell its two ways apart: each has half "
-                                    "of the least delay, and all jitter, loss and order are down");
+        auto learned = WayCourse{"round trip", *round_trip, true, settings}.learn(lesson);
+        if (!learned) return tl::unexpected{learned.error()};
+        down = *std::move(learned);
+        if (const auto* least = std::get_if<ConstantLaw>(&down.delay.law)) {
+            const auto whole = least->value;
+            up.delay = constant(whole / 2);
+            down.delay = constant(whole - whole / 2);
+            lesson.remarks.emplace_back(
+                "A round trip does not tell its two ways apart: each has half "
+                "of the least delay, and all jitter, loss and order are down");
+        } else {
+            lesson.remarks.emplace_back("A round trip does not tell its two ways apart: all of it "
+                                        "is down");
+        }
         return lesson;
     }
-    if (measured_down) learn_way({"down", down, lesson}, *measured_down, true);
-    if (measured_up) learn_way({"up", up, lesson}, *measured_up, !mixes_losses);
+    const auto learn_way = [&](const char* name, const std::optional<MeasuredWay>& measured,
+                               bool with_losses, Conditions& way) -> base::Result<void> {
+        if (!measured) return {};
+        auto learned = WayCourse{name, *measured, with_losses, settings}.learn(lesson);
+        if (!learned) return tl::unexpected{learned.error()};
+        way = *std::move(learned);
+        return {};
+    };
+    if (auto fine = learn_way("down", measured_down, true, down); !fine)
+        return tl::unexpected{fine.error()};
+    if (auto fine = learn_way("up", measured_up, !mixes_losses, up); !fine)
+        return tl::unexpected{fine.error()};
     if (mixes_losses) {
         lesson.remarks.emplace_back("The file does not say on which way a datagram was lost: all "
                                     "losses are put into the way down");

@@ -3,24 +3,93 @@
 #pragma once
 
 #include "emulator/core/profile/profile.hpp"
+#include "emulator/tools/learn/likeness.hpp"
+#include "emulator/tools/learn/measured_table.hpp"
 #include "emulator/tools/learn/measurement.hpp"
+#include "proto/base/describe.hpp"
+#include "proto/base/names.hpp"
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hapnet::emulator::tools {
+
+/// What the delays of a way come from.
+enum class LearnedForm : std::uint8_t {
+    laws,  // drawn by a law with the parameters that were found
+    table, // drawn from the values that were measured
+    trace, // replayed as measured
+};
+constexpr auto names_of(base::Tag<LearnedForm>) { return base::names("laws", "table", "trace"); }
+
+/// What was learned of one way, or of a round trip.
+struct WayLesson {
+    std::string way;
+    LearnedForm form = LearnedForm::laws;
+    std::optional<Likeness> likeness;
+};
+constexpr auto fields_of(base::Tag<WayLesson>)
+{
+    using W = WayLesson;
+    return base::fields(
+        "learned way", base::member("way", &W::way, "`round trip`, `up` or `down`."),
+        base::member("form", &W::form,
+                     "`laws`: drawn by a law. `table`: drawn from the values that were measured. "
+                     "`trace`: replayed."),
+        base::member("likeness", &W::likeness,
+                     "How like the second half is what was learned from the first half alone, in "
+                     "this form. null: fewer than 400 datagrams."));
+}
 
 /// A profile that does to datagrams what was measured, and how sure that is.
 struct Lesson {
     Profile profile;
     std::vector<std::string> remarks; // for people, one a line
     std::vector<std::string> plots;   // for a terminal, of several lines each
+    std::vector<WayLesson> ways;
+};
+
+/// What --json prints.
+struct LearnReport {
+    const Lesson* lesson = nullptr;
+
+    [[nodiscard]] std::string profile() const;
+};
+constexpr auto fields_of(base::Tag<LearnReport>)
+{
+    using L = LearnReport;
+    return base::fields(
+        "lesson",
+        base::computed<L>(
+            "profile", [](const L& one) { return one.profile(); },
+            "The profile as TOML, without comments."),
+        base::computed<L>(
+            "ways", [](const L& one) -> const auto& { return one.lesson->ways; },
+            "What was learned of each way, as a list of [these](#a-way-that-was-learned)."),
+        base::computed<L>(
+            "remarks", [](const L& one) -> const auto& { return one.lesson->remarks; },
+            "What `learn` says for people, one sentence or figure each."));
+}
+
+struct LearnSettings {
+    /// Files in which laws find the measured values, by the name of the way; none: no file can be
+    /// named.
+    std::map<std::string, MeasuredTable> tables{};
+    bool replays = false; // traces, whatever laws would do
 };
 
 /// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law
 /// of delays is rejected when a right one would look so one time in a thousand; if all are, the
-/// nearest is taken, and a remark says so. The error: nothing arrived.
-[[nodiscard]] base::Result<Lesson> learn(const Measurement& measurement);
+/// nearest is taken, and a remark says so. Where what is learned from the first half does not give
+/// the delays of that half (see is_near), the measured values take its place: drawn, or replayed if
+/// their correlation asks for it. How like the unseen second half the choice is, is told; then all
+/// rows are learned in the form that was chosen. The error: nothing arrived, or a table cannot be
+/// read.
+[[nodiscard]] base::Result<Lesson> learn(const Measurement& measurement,
+                                         const LearnSettings& settings = {});
 
 /// The profile as TOML, with the remarks as comments before it.
 [[nodiscard]] std::string to_text(const Lesson& lesson);

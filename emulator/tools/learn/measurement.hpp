@@ -45,8 +45,8 @@ struct MeasuredFile {
     std::string bytes;
 };
 
-/// Reads what `ping` has printed, what `probe --csv` has written, irtt's JSON, or a CSV of delays
-/// (see read_trace_rows). Errors name the line.
+/// Reads what a ping has printed (see read_ping), what `probe --csv` has written, irtt's JSON, or a
+/// table of delays (see read_trace_rows). Errors name the line.
 [[nodiscard]] base::Result<Measurement> read_measurement(std::string_view text,
                                                          const Columns& columns = {});
 

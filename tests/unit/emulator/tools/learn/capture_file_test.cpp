@@ -180,10 +180,31 @@ TEST(CaptureFile, EndsWhereALastPacketIsCutOff)
     const auto whole = file.bytes().size();
     file.add(1s, udp_packet("second"));
     for (auto size = whole; size < file.bytes().size(); ++size) {
-        EXPECT_EQ(read_capture(file.bytes().substr(0, size))->packets.size(), 1U);
+        const auto capture = read_capture(file.bytes().substr(0, size));
+        EXPECT_EQ(capture->packets.size(), 1U);
+        EXPECT_EQ(capture->cut_off_in, size == whole ? 0U : 2U);
     }
+    EXPECT_EQ(read_capture(file.bytes())->cut_off_in, 0U);
     const auto next = pcapng(6, 1);
-    EXPECT_EQ(read_capture(next.substr(0, next.size() - 1))->packets.size(), 0U);
+    EXPECT_EQ(read_capture(next)->cut_off_in, 0U);
+    const auto cut = read_capture(next.substr(0, next.size() - 1));
+    EXPECT_EQ(cut->packets.size(), 0U);
+    EXPECT_EQ(cut->cut_off_in, 1U);
+}
+
+TEST(CaptureFile, RefusesNanosecondsWhereItsHeadSaysMicroseconds)
+{
+    const auto of = [](std::uint32_t fraction) {
+        const auto head = PacketBytes{}.u32(0xa1b2'c3d4).text() + PcapFile{}.bytes().substr(4);
+        return error_of(head + PacketBytes{}.u32(1).u32(fraction).u32(0).u32(0).text());
+    };
+    EXPECT_EQ(of(999'999), "none");
+    EXPECT_EQ(of(1'000'000),
+              "packet 1: its time is 1000000 of 1000000 parts of a second: the head of the file "
+              "says microseconds, but its times are nanoseconds; write a1 b2 3c 4d over its first "
+              "four bytes, or save it as pcapng");
+    EXPECT_EQ(of(1'000'000'000),
+              "packet 1: its time is 1000000000 of 1000000 parts of a second: damaged");
 }
 
 TEST(CaptureFile, NamesThePacketThatItCannotRead)

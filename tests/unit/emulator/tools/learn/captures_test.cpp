@@ -220,6 +220,27 @@ TEST(Captures, OfOneEndTellTheRoundTripsOfPing)
     EXPECT_TRUE(says(*found, "ping 10.0.0.1 > 10.0.0.2: 45 datagrams have an answer"));
 }
 
+TEST(Captures, SayThatOneIsCutOffAndWhere)
+{
+    PcapFile file;
+    for (std::uint16_t i = 1; i <= 8; ++i) {
+        file.add(begin + 100ms * i, echo_packet(false, i, "payload"));
+        file.add(begin + 100ms * i + 30ms, echo_packet(true, i, "payload"));
+    }
+    const std::array whole{MeasuredFile{"a.pcap", file.bytes()}};
+    EXPECT_FALSE(says(*read_measurements(whole), "is cut off"));
+    const std::array cut{MeasuredFile{"a.pcap", file.bytes().substr(0, file.bytes().size() - 1)}};
+    const auto found = read_measurements(cut);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->round_trip->delays.size(), 7U);
+    EXPECT_TRUE(says(*found, "a.pcap is cut off within packet 16: only what comes before is "
+                             "learned"));
+    const std::array packed{MeasuredFile{"a.pcap.gz", "\x1f\x8b\x08"}};
+    EXPECT_EQ(read_measurements(packed).error().message,
+              "a.pcap.gz: the file is compressed (gzip): unpack it first, for example with gunzip "
+              "-k");
+}
+
 TEST(Captures, KnowTheAnswersOfProbeAndOfWhatComesBackUnchanged)
 {
     for (const bool is_probe : {true, false}) {

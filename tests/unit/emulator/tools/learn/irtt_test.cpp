@@ -120,7 +120,7 @@ TEST(Irtt, IsOneOfSeveralFilesOfTheSamePath)
               0U);
     const std::array bad{monday, MeasuredFile{"p.txt", "PING x\nnothing\n"}};
     EXPECT_EQ(read_measurements(bad).error().message,
-              "p.txt: line 2: no line has icmp_seq= and time=: nothing answered");
+              "p.txt: line 2: nothing answered: no line has a time, such as time=20.5 ms");
 }
 
 } // namespace

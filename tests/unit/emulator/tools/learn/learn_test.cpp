@@ -5,9 +5,12 @@
 #include "emulator/core/pipeline.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/tools/learn/delays.hpp"
+#include "emulator/tools/learn/likeness.hpp"
 #include "emulator/tools/learn/losses.hpp"
+#include "emulator/tools/learn/measured_table.hpp"
 #include "tests/support/seeds.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -210,15 +213,123 @@ TEST(ReadMeasurement, ReadsBothWaysOfAProbeWithOneClockAndTheRoundTripOfTwo)
 
 TEST(ReadMeasurement, NamesWhatItCannotRead)
 {
-    EXPECT_EQ(read_measurement("PING x\nnothing\n").error().message,
-              "line 2: no line has icmp_seq= and time=: nothing answered");
-    EXPECT_EQ(read_measurement("PING x\nicmp_seq=70000 time=1 ms\n").error().message,
-              "line 2: icmp_seq must be a whole number from 0 to 65535");
     EXPECT_EQ(read_measurement("a,b\n1,2\n").error().message,
-              "line 1: no column is named delay_ns, delay_us, delay_ms or delay_s");
+              "line 1: no column is named delay_ns, delay_us, delay_ms or delay_s: rename one, or "
+              "say which it is, such as columns \"delay=b:ms\"");
+    EXPECT_EQ(
+        read_measurement("some words\n").error().message,
+        "line 1: 'some words' is no measurement: ping of Linux (iputils, BusyBox), BSD, macOS "
+        "and Windows, and fping; probe, irtt, captures and tables with a column such as "
+        "delay_ms can be read");
+    const std::vector<MeasuredFile> packed{{"a.csv.gz", "\x1f\x8b\x08"}};
+    EXPECT_EQ(read_measurements(packed).error().message,
+              "a.csv.gz: the file is compressed (gzip): unpack it first, for example with gunzip "
+              "-k");
     MeasuredWay silent;
     silent.add(std::nullopt, true);
     EXPECT_FALSE(learn({.round_trip = silent}));
+}
+
+LearnSettings with_table(const char* way, const MeasuredWay& measured)
+{
+    LearnSettings settings;
+    settings.tables.emplace(way, named_table("measured.csv", measured));
+    return settings;
+}
+
+/// Values that no law has: three steps.
+MeasuredWay three_steps(std::size_t count)
+{
+    MeasuredWay way{.spacing = 100ms};
+    std::uint64_t state = 1; // of Knuth's generator, MMIX
+    for (std::size_t i = 0; i < count; ++i) {
+        state = state * 6364136223846793005U + 1442695040888963407U;
+        const auto number = (state >> 33U) % 10;
+        way.add(number < 5 ? 10ms : number < 9 ? 30ms : 200ms, false);
+    }
+    return way;
+}
+
+TEST(Learn, DrawsFromTheMeasuredValuesWhereNoLawIsNearThem)
+{
+    const auto way = three_steps(2000);
+    const auto lesson = learn({.up = way}, with_table("up", way));
+    ASSERT_TRUE(lesson) << lesson.error().message;
+    ASSERT_EQ(lesson->ways.size(), 1U);
+    EXPECT_EQ(lesson->ways[0].form, LearnedForm::table);
+    ASSERT_TRUE(lesson->ways[0].likeness);
+    const Likeness& like = *lesson->ways[0].likeness;
+    EXPECT_LE(like.model_apart, like.halves_apart + 0.03);
+    EXPECT_NE(to_text(*lesson).find(R"(law = "table", file = "measured.csv")"), std::string::npos)
+        << to_text(*lesson);
+    // Its values come out again.
+    const auto again = played(lesson->profile.path.up, 2000, 100ms, 1ms);
+    EXPECT_LE(distance_between(again, way), 0.03);
+}
+
+TEST(Learn, ReplaysAMeasurementWhoseCorrelationNoDrawHas)
+{
+    MeasuredWay way{.spacing = 100ms}; // a period of 15 s, as of a satellite's handover
+    for (int i = 0; i < 6000; ++i) way.add(i % 150 < 75 ? 20ms : 40ms, i % 150 == 0);
+    const auto lesson = learn({.up = way}, with_table("up", way));
+    ASSERT_TRUE(lesson) << lesson.error().message;
+    EXPECT_EQ(lesson->ways.at(0).form, LearnedForm::trace);
+    const auto& up = lesson->profile.path.up;
+    const auto again = played(up, 3000, 100ms, 1ms);
+    EXPECT_NEAR(autocorrelation(again, 15s).value(), autocorrelation(way, 15s).value(), 0.05);
+    EXPECT_EQ(std::ranges::count(again.lost, true), 20);
+}
+
+TEST(Learn, ReplaysLossesThatComeWithSlowDatagrams)
+{
+    MeasuredWay way{.spacing = 10ms};
+    for (int i = 0; i < 20'000; ++i) way.add(i % 100 < 8 ? 80ms : 20ms, i % 100 == 6);
+    const auto lesson = learn({.up = way}, with_table("up", way));
+    ASSERT_TRUE(lesson) << lesson.error().message;
+    EXPECT_EQ(lesson->ways.at(0).form, LearnedForm::trace);
+    ASSERT_TRUE(lesson->ways[0].likeness->loss_when_slow);
+    const auto& [model, low, high] = *lesson->ways[0].likeness->loss_when_slow;
+    EXPECT_TRUE(low <= model && model <= high) << low << " " << model << " " << high;
+}
+
+TEST(Learn, KeepsALawThatIsNearWhatWasMeasured)
+{
+    Conditions conditions{.delay = constant(20ms)};
+    conditions.jitter.law = GammaLaw{5ms, 3ms};
+    const auto way = measured(conditions, 4000);
+    const auto lesson = learn({.down = way}, with_table("down", way));
+    ASSERT_TRUE(lesson);
+    EXPECT_EQ(lesson->ways.at(0).form, LearnedForm::laws);
+    EXPECT_LT(lesson->ways.at(0).likeness->model_apart, 0.05);
+    EXPECT_TRUE(lesson->ways.at(0).likeness->is_stationary());
+}
+
+TEST(Learn, SaysWhereNoProfileCanNameTheMeasuredValues)
+{
+    const auto lesson = learn({.up = three_steps(2000)});
+    ASSERT_TRUE(lesson);
+    EXPECT_EQ(lesson->ways.at(0).form, LearnedForm::laws);
+    EXPECT_NE(to_text(*lesson).find("--trace FILE"), std::string::npos) << to_text(*lesson);
+}
+
+TEST(Learn, SaysThatThePathChangedBetweenTheHalves)
+{
+    MeasuredWay way{.spacing = 100ms};
+    for (int i = 0; i < 2000; ++i)
+        way.add(i < 1000 ? 10ms + (i % 7) * 1ms : 40ms + (i % 5) * 1ms, false);
+    const auto lesson = learn({.up = way}, with_table("up", way));
+    ASSERT_TRUE(lesson);
+    EXPECT_FALSE(lesson->ways.at(0).likeness->is_stationary());
+    EXPECT_NE(to_text(*lesson).find("the path itself changed"), std::string::npos);
+}
+
+TEST(Learn, LetsDatagramsOvertakeWhereTimesSayThatTheyDid)
+{
+    MeasuredWay way{.spacing = 10ms};
+    for (int i = 0; i < 500; ++i) way.add(i % 3 == 0 ? 50ms : 20ms, false);
+    const auto lesson = learn({.up = way});
+    ASSERT_TRUE(lesson);
+    EXPECT_EQ(lesson->profile.path.up.order, Order::free);
 }
 
 } // namespace

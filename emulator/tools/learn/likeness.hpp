@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/tools/learn/measurement.hpp"
+#include "proto/base/describe.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+// How like a series is what was learned from another one of the same path.
+
+/// Both halves of a series, in order; the first has the odd row.
+[[nodiscard]] std::pair<MeasuredWay, MeasuredWay> halves_of(const MeasuredWay& way);
+
+/// The step that all delays of a series are multiples of: 1 ms, 100 us, 10 us or 1 us.
+[[nodiscard]] base::Duration resolution_of(const MeasuredWay& way);
+
+/// What a measurement of one way under these conditions would say: so many datagrams at even
+/// distances, delays rounded to `resolution`. `spacing` > 0. The seed is always the same.
+[[nodiscard]] MeasuredWay played(const Conditions& conditions, std::size_t rows,
+                                 base::Duration spacing, base::Duration resolution);
+
+/// The largest distance of the distribution functions of two series of delays (Kolmogorov and
+/// Smirnov), from 0 to 1. Each has a delay.
+[[nodiscard]] double distance_between(const MeasuredWay& a, const MeasuredWay& b);
+
+/// The correlation of delays that are `lag` apart, of those that both arrived; nullopt: the series
+/// is too short, or its spacing is not known. 0 where delays do not vary.
+[[nodiscard]] std::optional<double> autocorrelation(const MeasuredWay& way, base::Duration lag);
+
+/// The share of losses right after a delay above the 90th percentile, of so many such delays.
+struct SlowLosses {
+    double share = 0.0;
+    std::size_t delays = 0;
+};
+/// nullopt: fewer than 30 losses, or no such delay.
+[[nodiscard]] std::optional<SlowLosses> losses_when_slow(const MeasuredWay& way);
+
+/// The correlation of delays at one distance.
+struct CorrelationAt {
+    base::Duration lag{};
+    double first = 0.0;
+    double second = 0.0;
+    double model = 0.0;
+};
+constexpr auto fields_of(base::Tag<CorrelationAt>)
+{
+    using C = CorrelationAt;
+    return base::fields("correlation of delays",
+                        base::member("lag_s", &C::lag, "How far apart in time."),
+                        base::member("first_half", &C::first, "Of the half that was learned."),
+                        base::member("second_half", &C::second, "Of the half that was not."),
+                        base::member("model", &C::model, "Of what was learned, played."));
+}
+
+/// Losses right after delays above the 90th percentile.
+struct LossWhenSlow {
+    double model = 0.0;
+    double low = 0.0;
+    double high = 1.0;
+};
+constexpr auto fields_of(base::Tag<LossWhenSlow>)
+{
+    using L = LossWhenSlow;
+    return base::fields(
+        "loss when slow", base::member("model", &L::model, "Share of losses in what was learned."),
+        base::member("second_half_low", &L::low,
+                     "Lower end of the 95 % interval of the half that was not learned (Wilson)."),
+        base::member("second_half_high", &L::high, "Its upper end."));
+}
+
+/// How like the second half of a series is what was learned from its first half alone.
+struct Likeness {
+    std::size_t rows = 0;
+    double halves_apart = 0.0;
+    double model_apart = 0.0;
+    std::vector<CorrelationAt> correlations;
+    std::optional<LossWhenSlow> loss_when_slow;
+
+    /// Halves that differ so much are of no one law.
+    [[nodiscard]] bool is_stationary() const { return halves_apart <= 0.1; }
+};
+constexpr auto fields_of(base::Tag<Likeness>)
+{
+    using L = Likeness;
+    return base::fields(
+        "likeness", base::member("rows", &L::rows, "Datagrams in the half that was not learned."),
+        base::member("halves_apart", &L::halves_apart,
+                     "Largest distance of the distributions of the two halves' delays (Kolmogorov "
+                     "and Smirnov): what the best model of the first half would reach."),
+        base::member("model_apart", &L::model_apart,
+                     "The same of what was learned from the first half and the second half."),
+        base::computed<L>(
+            "stationary", [](const L& one) { return one.is_stationary(); },
+            "Whether the halves are at most 0.1 apart."),
+        base::member("correlations", &L::correlations,
+                     "Of delays 1, 5 and 15 s apart, as far as the halves reach."),
+        base::member("loss_when_slow", &L::loss_when_slow,
+                     "Losses right after delays above the 90th percentile. null: a half has fewer "
+                     "than 30 losses."));
+}
+
+/// `first` is what `conditions` were learned from.
+[[nodiscard]] Likeness likeness_of(const Conditions& conditions, const MeasuredWay& first,
+                                   const MeasuredWay& second);
+
+/// Whether conditions give the delays of the series that they were learned from, well enough for
+/// another half of it: distributions at most 0.03 apart, correlations at most 0.1, and losses right
+/// after slow datagrams within their 95 % interval.
+[[nodiscard]] bool is_near(const Conditions& conditions, const MeasuredWay& learned);
+
+} // namespace hapnet::emulator::tools

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/tools/learn/measurement.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <string>
+
+namespace hapnet::emulator::tools {
+
+/// A file with the delays and losses of one way, as laws read it.
+struct MeasuredTable {
+    std::string file;      // as a profile names it
+    std::string text;      // what is in it
+    std::string columns{}; // of a table with other names; see parse_columns()
+    base::Duration slot{}; // how far apart its rows are, where it does not say so; 0: it does
+    bool is_timed = false; // it has times, or slots
+    bool has_losses = false;
+};
+
+/// The series as a table: time_s where its spacing is known, and delay_ms, empty for a lost one.
+[[nodiscard]] std::string table_of(const MeasuredWay& way);
+
+/// The table that table_of() makes, under a name.
+[[nodiscard]] MeasuredTable named_table(std::string file, const MeasuredWay& way);
+
+/// Delays drawn from the table: `base` and a jitter, so that the whole is as measured. The error:
+/// the table cannot be read.
+[[nodiscard]] base::Result<Conditions> drawn_from(const MeasuredTable& table, base::Duration base,
+                                                  base::Duration correlation_time);
+
+/// Delays and losses as they were, one after the other.
+[[nodiscard]] base::Result<Conditions> replayed(const MeasuredTable& table);
+
+} // namespace hapnet::emulator::tools
