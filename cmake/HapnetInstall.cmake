@@ -29,6 +29,9 @@ endforeach()
 set_target_properties(${hapnet_archives} PROPERTIES EXCLUDE_FROM_ALL OFF)
 set_target_properties(hapnet_lab_core PROPERTIES EXPORT_NAME lab)
 add_custom_target(hapnet_libraries DEPENDS ${hapnet_archives})
+if(TARGET hapnet_link)
+    add_dependencies(hapnet_libraries hapnet_link)
+endif()
 
 set(hapnet_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hapnet)
 install(TARGETS ${hapnet_archives} hapnet_proto hapnet_requirements EXPORT hapnetTargets
@@ -47,8 +50,8 @@ install(FILES ${PROJECT_BINARY_DIR}/hapnetConfig.cmake
 
 # The headers keep their folders, below include/hapnet.
 foreach(folder proto/base proto/disk proto/wire proto/record proto/net scene emulator/core
-        device/governor device/omni device/replay device/simulated peer/core peer/line lab/metrics
-        lab/virtual_time)
+        device/governor device/omni device/page device/replay device/simulated peer/core peer/line
+        lab/metrics lab/virtual_time)
     file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
         ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
     list(APPEND hapnet_headers ${headers})
@@ -65,6 +68,14 @@ endforeach()
 # What is written in C, for algorithms that are no part of the programs, needs no other.
 install(FILES ${PROJECT_SOURCE_DIR}/peer/core/abi/algorithm.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hapnet COMPONENT hapnet-dev)
+
+# The emulated path for programs in C: the library is a package of its own, which they need to run.
+if(TARGET hapnet_link)
+    install(TARGETS hapnet_link LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        COMPONENT libhapnet-link0 NAMELINK_COMPONENT hapnet-dev)
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/emulator/abi/hapnet_link.h
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT hapnet-dev)
 
 # hapnet_pkg_config(NAME ABOUT [REQUIRES ...] [PRIVATE ...] ARCHIVES ...): NAME.pc. Archives that
 # need each other stand in one word, so that nobody takes one out. Everything is found from where
@@ -105,3 +116,15 @@ hapnet_pkg_config(hapnet-emulator-core "Hapnet: an emulated network path in virt
 hapnet_pkg_config(hapnet-lab "Hapnet: peers, and whole sessions in virtual time"
     REQUIRES hapnet-emulator-core hapnet-scene hapnet-proto
     ARCHIVES lab_core peer_line peer_core device)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/hapnet-link.pc @ONLY CONTENT [[
+prefix=${pcfiledir}/@hapnet_up@
+libdir=${prefix}/@libdir@
+
+Name: hapnet-link
+Description: Hapnet: an emulated network path, for C
+Version: @PROJECT_VERSION@
+Libs: -L${libdir} -lhapnet-link
+Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
+]])
+install(FILES ${PROJECT_BINARY_DIR}/hapnet-link.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT hapnet-dev)

@@ -98,6 +98,13 @@ function(hapnet_precompiled_headers name)
     endif()
 endfunction()
 
+# hapnet_also_shared(TARGET): a shared library has its code, too. Its names are nobody else's, so
+# that calls within it stay as direct as in a program.
+function(hapnet_also_shared target)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
 # hapnet_precompile(TARGET): said when all else is said of it. Clang reads what it has precompiled
 # only at the same level of optimisation: where cold code has one of its own, it also has headers of
 # its own. JSON is among those. GCC would spend 0.6 s on it in every unit, used or not.
@@ -106,7 +113,12 @@ function(hapnet_precompile name)
         return()
     endif()
     get_target_property(is_cold ${name} HAPNET_IS_COLD)
-    if(is_cold AND HAPNET_COLD)
+    get_target_property(is_shared ${name} POSITION_INDEPENDENT_CODE)
+    if(is_shared)
+        hapnet_precompiled_headers(hapnet_precompiled_shared)
+        hapnet_also_shared(hapnet_precompiled_shared)
+        target_precompile_headers(${name} REUSE_FROM hapnet_precompiled_shared)
+    elseif(is_cold AND HAPNET_COLD)
         hapnet_precompiled_headers(hapnet_precompiled_cold <nlohmann/json.hpp>)
         hapnet_cold(hapnet_precompiled_cold)
         target_precompile_headers(${name} REUSE_FROM hapnet_precompiled_cold)
@@ -141,11 +153,19 @@ function(hapnet_read_by_folder target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# hapnet_library(NAME [COLD] [SMALL] [FOLDERS ... [WITHOUT ...]] [SOURCES ...] [DEPENDS ...]): a
-# room of the map, built where it is needed. SMALL: where several files are read as one, all is.
-# WITHOUT: these files of the folders are in another library.
+# Sanitizers keep to programs.
+set(HAPNET_HAS_SHARED ON)
+if(HAPNET_SANITIZE)
+    set(HAPNET_HAS_SHARED OFF)
+endif()
+
+# hapnet_library(NAME [COLD] [SMALL] [ALSO_SHARED] [FOLDERS ... [WITHOUT ...]] [SOURCES ...]
+# [DEPENDS ...]): a room of the map, built where it is needed. SMALL: where several files are read
+# as one, all is. ALSO_SHARED: see hapnet_also_shared(). WITHOUT: these files of the folders are in
+# another library.
 function(hapnet_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "COLD;SMALL" "" "FOLDERS;WITHOUT;SOURCES;DEPENDS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "COLD;SMALL;ALSO_SHARED" ""
+        "FOLDERS;WITHOUT;SOURCES;DEPENDS")
     hapnet_sources(sources ${arg_FOLDERS})
     list(REMOVE_ITEM sources ${arg_WITHOUT})
     add_library(${name} STATIC EXCLUDE_FROM_ALL ${sources} ${arg_SOURCES})
@@ -158,6 +178,9 @@ function(hapnet_library name)
     endif()
     if(arg_COLD)
         hapnet_cold(${name})
+    endif()
+    if(arg_ALSO_SHARED AND HAPNET_HAS_SHARED)
+        hapnet_also_shared(${name})
     endif()
     hapnet_precompile(${name})
     set_property(GLOBAL APPEND PROPERTY HAPNET_LIBRARIES ${name})

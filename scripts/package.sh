@@ -8,9 +8,10 @@ set -euo pipefail
 usage="usage: scripts/package.sh --out DIR [--only emulator]
 Installs what is missing, builds the programs, and leaves in DIR the packages hapnet-emulator (with
 hapnet-ctl and no library of devices) and hapnet (hapnet-peer, hapnet-lab), each with manual pages,
-completions for bash, zsh and fish, and a unit of systemd; hapnet-web; hapnet-dev (libraries for
-C++) and python3-hapnet; a tarball of the programs that runs from any folder and needs no package; a
-wheel of the module for Python; and SHA256SUMS of all of them.
+completions for bash, zsh and fish, and a unit of systemd; hapnet-web; libhapnet-link0 (a
+path of the emulator for C); hapnet-dev (headers, and libraries for C++) and python3-hapnet; a
+tarball of the programs that runs from any folder and needs no package; a wheel of the module for
+Python; and SHA256SUMS of all of them.
 --only emulator makes the first package alone, a tarball with its programs, and SHA256SUMS.
 Install them with: apt-get install ./DIR/hapnet-emulator_*.deb
 Exits 0 when they are there, 1 when something failed, 2 for an unknown argument, 3 when something
@@ -56,7 +57,7 @@ make() {
 make -DHAPNET_STATIC=OFF
 rm -rf "$build/packages"
 cpack --config "$build/CPackConfig.cmake" -B "$build/packages"
-rm -f "$out"/{hapnet,hapnet-emulator,hapnet-web,hapnet-dev,python3-hapnet}_*.deb \
+rm -f "$out"/{hapnet,hapnet-emulator,hapnet-web,hapnet-dev,libhapnet-link0,python3-hapnet}_*.deb \
     "$out"/hapnet-*.tar.gz "$out"/hapnet-*.whl "$out/SHA256SUMS"
 cp "$build"/packages/*.deb "$out"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
-"""A peer in Python: the right hand of task T1, with a scene and an algorithm of its own.
+"""A peer in Python: side B of task T1, with a scene and an algorithm of its own.
 
 peer.py PORT HOST:PORT OUT.csv, and on the other side hapnet-peer --id 1 --task T1.
 """

@@ -165,11 +165,18 @@ import hapnet
 with hapnet.Emulator(delay="5ms") as network:
     print("from Python:", network.address_a, network.stats()["valid"])' ||
     fail "python3-hapnet does not drive the emulator"
+inside python3 -c '
+from hapnet.link import UP, Link
+with Link("lte", seed=1) as link:
+    link.push(UP, b"hello", now=0.0)
+    print("through the library:", link.pop(now=9.0))' ||
+    fail "python3-hapnet does not find libhapnet-link0"
+inside test -s /usr/include/hapnet_link.h || fail "hapnet-dev has no hapnet_link.h"
 grep -q three.module.min.js "$root/usr/bin/hapnet-web" ||
     fail "the page of hapnet-web has no modules"
 inside test -s /usr/include/hapnet/algorithm.h || fail "hapnet-dev has no hapnet/algorithm.h"
 inside hapnet-web --version
-nothing_left hapnet hapnet-emulator hapnet-web hapnet-dev python3-hapnet
+nothing_left hapnet hapnet-emulator hapnet-web hapnet-dev libhapnet-link0 python3-hapnet
 
 # The Dockerfiles, where images can be made.
 images=0

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The package hapnet-emulator, made of what is built already, looked at and unpacked, and the wheel,
-# which drives the unpacked emulator: in seconds what ship_test.sh does with all packages in a bare
-# root.
+# The packages hapnet-emulator and libhapnet-link0, made of what is built already, looked at and
+# unpacked, and the wheel, which drives the unpacked emulator: in seconds what ship_test.sh does
+# with all packages in a bare root.
 #   smoke_test.sh REPOSITORY BUILD_DIR WORK_DIR
 set -euo pipefail
 repository=$(realpath "$1")
@@ -24,13 +24,14 @@ done
 cleanup() { cmake -S "$repository" -B "$build" -DHAPNET_PACKAGES=OFF >"$work/after.log"; }
 trap cleanup EXIT
 cmake -S "$repository" -B "$build" -DHAPNET_PACKAGES=ON >"$work/configure.log"
-cmake --build "$build" --target hapnet-emulator hapnet-ctl pages-hapnet-emulator \
-    pages-hapnet-ctl changes-hapnet-emulator >"$work/build.log"
-cpack --config "$build/CPackConfig.cmake" -D CPACK_COMPONENTS_ALL=hapnet-emulator \
+cmake --build "$build" --target hapnet-emulator hapnet-ctl hapnet_link pages-hapnet-emulator \
+    pages-hapnet-ctl changes-hapnet-emulator changes-libhapnet-link0 >"$work/build.log"
+cpack --config "$build/CPackConfig.cmake" \
+    -D "CPACK_COMPONENTS_ALL=hapnet-emulator;libhapnet-link0" \
     -B "$work/packages" >"$work/cpack.log" || fail "cpack: $(tail -5 "$work/cpack.log")"
-lintian --allow-root --fail-on error "$work"/packages/hapnet-emulator_*.deb
+lintian --allow-root --fail-on error "$work"/packages/*.deb
 
-dpkg-deb -x "$work"/packages/hapnet-emulator_*.deb "$work/root"
+for package in "$work"/packages/*.deb; do dpkg-deb -x "$package" "$work/root"; done
 "$work/root/usr/bin/hapnet-emulator" --version
 "$work/root/usr/bin/hapnet-emulator" predict lte --packets 2000 >"$work/predict.log"
 "$work/root/usr/bin/hapnet-emulator" --listen-a 127.0.0.1:0 --listen-b 127.0.0.1:0 --delay 1ms \
@@ -44,6 +45,13 @@ for page in hapnet-emulator hapnet-ctl; do
 done
 [[ -s $work/root/lib/systemd/system/hapnet-emulator.service ]] ||
     [[ -s $work/root/usr/lib/systemd/system/hapnet-emulator.service ]] || fail "no unit of systemd"
+library=$(find "$work/root" -name libhapnet-link.so.0)
+LD_LIBRARY_PATH=$(dirname "$library") PYTHONPATH=$repository/python PYTHONDONTWRITEBYTECODE=1 \
+    HAPNET_BIN='' python3 -c '
+from hapnet.link import UP, Link
+with Link("up.delay = \"5ms\"") as link:
+    link.push(UP, b"hello", now=1.0)
+    assert link.next_deadline() == 1.005, link.next_deadline()' || fail "libhapnet-link0"
 needs=$(dpkg-deb -f "$work"/packages/hapnet-emulator_*.deb Depends)
 [[ $needs != *libusb* && $needs != *libhidapi* ]] || fail "it needs libraries of devices: $needs"
 echo "smoke_test: $(basename "$work"/packages/hapnet-emulator_*.deb) needs $needs"

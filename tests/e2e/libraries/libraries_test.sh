@@ -51,6 +51,10 @@ grep -Eq "^up  *60000 sent, $arrived, median (39.9|40.[01]) ms" <<<"$emulator" |
 grep -q "^down  *60000 sent, 60000 arrived, delay 35.0 to 85.0 ms" <<<"$emulator" ||
     fail "emulator: $emulator"
 [[ $(run emulator) == "$emulator" ]] || fail "the same seed gave something else"
+# Where a library lies that is in no place of the system's, the program is told.
+libdir=$(dirname "$(find "$prefix" -name libhapnet-link.so)")
+link=$(LD_LIBRARY_PATH=$libdir run link)
+grep -q "^31 of 1000 lost" <<<"$link" || fail "link: $link" # those of its seed
 session=$(run session)
 grep -q "^base: [0-9]* ticks" <<<"$session" || fail "session: $session"
 
@@ -75,6 +79,12 @@ if command -v pkg-config >/dev/null; then
             fail "pkg-config: $(cat "$work/pc.log")"
         [[ $("$work/by_pkg_config") == "$(run "${example%:*}")" ]] || fail "$example differs"
     done
+    # shellcheck disable=SC2046
+    cc -std=c11 -Wall -Wextra -Wpedantic -Werror \
+        $(PKG_CONFIG_PATH=$pc pkg-config --cflags hapnet-link) "$repository/examples/link/link.c" \
+        -o "$work/link_in_c" $(PKG_CONFIG_PATH=$pc pkg-config --libs hapnet-link) ||
+        fail "examples/link/link.c is no C for pkg-config's words"
+    [[ $(LD_LIBRARY_PATH=$libdir "$work/link_in_c") == "$link" ]] || fail "link differs"
 fi
 
 # Another version, and a component that there is not, are refused in words.
