@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/command_run.hpp"
 #include "emulator/commands.hpp"
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/wire_end.hpp"
 #include "proto/net/child_command.hpp"
@@ -48,6 +49,8 @@ base::Result<int> run(const BetweenOptions& options)
 {
     const auto scenario = scenario_of(options.run);
     if (!scenario) return tl::unexpected{scenario.error()};
+    const auto fits = validate_for_frames(scenario->profile.flows, options.frames.all_frames);
+    if (!fits) return tl::unexpected{fits.error()};
     const net::StopSignal stop{net::Hangup::stop};
     const auto end_a = end_of("wire-a", address_a, address_a6);
     const auto end_b = end_of("wire-b", address_b, address_b6);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/frame_session.hpp"
 #include "emulator/scenario.hpp"
 #include "proto/net/clock.hpp"
@@ -71,6 +72,8 @@ base::Result<int> run(const BridgeOptions& options)
 {
     const auto scenario = scenario_of(options.run);
     if (!scenario) return tl::unexpected{scenario.error()};
+    const auto fits = validate_for_frames(scenario->profile.flows, options.frames.all_frames);
+    if (!fits) return tl::unexpected{fits.error()};
     try {
         return relay_frames(options, *scenario);
     } catch (const std::system_error& error) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
+#include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/scenario.hpp"
@@ -8,6 +9,7 @@
 #include "emulator/tools/predict.hpp"
 #include "proto/net/program.hpp"
 
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <vector>
@@ -27,6 +29,27 @@ std::string in_words(std::string_view title, const Conditions& conditions,
         text += fmt::format("#   warning: {}\n", warning);
     }
     return text;
+}
+
+/// The conditions of a flow when the run begins.
+void print_flow(const Profile& profile, const Flow& flow, const CheckOptions& options)
+{
+    const Profile own = profile_of(profile, flow_path("", flow.name));
+    const Profile beginning{own.name, own.seed, own.path, {}};
+    const auto prediction =
+        predict(beginning, options.stream, seed_of(options.conditions, profile));
+    const auto& [up, down] = own.path;
+    const auto print = [&](std::string_view way, const Conditions& conditions,
+                           const tools::DirectionPrediction& of) {
+        net::print(in_words(fmt::format("flow {}{}{}", flow.name, way,
+                                        flow.passes        ? ": untouched"
+                                        : flow.shares_rate ? ", and then the rate of the rest"
+                                                           : ""),
+                            conditions, options.stream, of));
+    };
+    if (up == down) return print(", both ways", up, prediction.up);
+    print(", up", up, prediction.up);
+    print(", down", down, prediction.down);
 }
 
 } // namespace
@@ -52,7 +75,11 @@ base::Result<int> run(const CheckOptions& options)
         net::print(in_words(way_in_words(path, Direction::up), up, stream, prediction.up));
         net::print(in_words(way_in_words(path, Direction::down), down, stream, prediction.down));
     }
-    if (!profile->paths.empty()) {
+    for (const Flow& flow : profile->flows) {
+        if (path.empty()) print_flow(*profile, flow, options);
+    }
+    const auto has_path = [](const PathPatch& own) { return !parts_of(own.path).path.empty(); };
+    if (std::ranges::any_of(profile->paths, has_path)) {
         net::print(fmt::format("# where {} have nothing of their own: --link NAME describes one of "
                                "them\n",
                                fmt::join(paths_in(*profile), ", ")));

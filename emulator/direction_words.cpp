@@ -54,6 +54,11 @@ std::string in_words(std::string_view title, const DirectionReport& report)
                                 delay_in_words(*measured.delay));
         }
     }
+    if (report.unreachable > 0) {
+        text += fmt::format("; {} answers that no program listens: start it, or name the address "
+                            "at which it listens",
+                            report.unreachable);
+    }
     return text + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include "emulator/control_desk.hpp"
 #include "emulator/core/all_paths.hpp"
 #include "emulator/core/paths.hpp"
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/endpoints.hpp"
 #include "emulator/options.hpp"
@@ -262,6 +263,10 @@ private:
             return status_.say(
                 fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
+        if (const auto same = ensure_same_flows(scenario->profile, run_.paths.flows()); !same) {
+            return status_.say(
+                fmt::format("SIGHUP: the old profile stays: {}", same.error().message));
+        }
         const Scripts scripts{scenario->profile};
         const auto done = change(emulation, scripts.command(), scripts.mentioned(),
                                  net::monotonic_now(), ChangeCause::reload);
@@ -345,6 +350,7 @@ Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths
              base::TimePoint start)
 {
     const std::size_t threads = std::min(options.threads, paths);
+    const std::size_t ways = paths * (scenario.profile.flows.size() + 1);
     Plan plan{
         .options = options,
         .scenario = scenario,
@@ -352,14 +358,15 @@ Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths
                   .capture = options.capture,
                   .kept = options.keep.span,
                   .keep_in = options.keep.folder,
-                  .has_several_paths = true,
+                  .columns = {.has_paths = true, .has_flows = !scenario.profile.flows.empty()},
                   .lanes = threads},
         .parts = {threads,
                   {.seed = scenario.seed,
                    .start = start,
-                   .limits = QueueLimits::shared(options.in_flight_bytes, paths),
+                   .limits = QueueLimits::shared(options.in_flight_bytes, ways),
                    .replay = scenario.replay,
-                   .changes_max = std::max(ChangeLog::entries_max / paths, std::size_t{20})}}};
+                   .stream_detail = options.fates ? StreamDetail::over_time : StreamDetail::totals,
+                   .changes_max = std::max(ChangeLog::entries_max / ways, std::size_t{20})}}};
     for (Paths::Setup& part : plan.parts) {
         part.slab = std::make_shared<Slab>(options.in_flight_bytes / threads);
     }
@@ -379,17 +386,26 @@ CaptureNames capture_names(const std::string& link)
     return {name(first, second), name(second, first)};
 }
 
+base::Result<Scenario> scenario_of_datagrams(const Options& options, const PathNames& names = {})
+{
+    auto scenario = scenario_of(options, names);
+    if (!scenario) return scenario;
+    const auto fits = validate_for_datagrams(scenario->profile.flows);
+    if (!fits) return tl::unexpected{fits.error()};
+    return scenario;
+}
+
 } // namespace
 
 base::Result<int> run(const Options& options)
 {
-    const auto scenario = scenario_of(options);
+    const auto scenario = scenario_of_datagrams(options);
     if (!scenario) return tl::unexpected{scenario.error()};
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};
     const auto start = net::monotonic_now();
     Plan plan = plan_of(options, *scenario, 1, start);
-    plan.files.has_several_paths = false;
+    plan.files.columns.has_paths = false;
     return run_session<Run>(plan, start, [&](const auto& paths, Recorder& recorder) {
         return std::make_unique<ports::Links>(*places, paths, recorder);
     });
@@ -399,7 +415,7 @@ base::Result<int> run(const LinkOptions& options)
 {
     PathNames names;
     for (const TypedLink& link : options.links) names.links.push_back(link.name);
-    const auto scenario = scenario_of(options.run, names);
+    const auto scenario = scenario_of_datagrams(options.run, names);
     if (!scenario) return tl::unexpected{scenario.error()};
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};
@@ -420,7 +436,7 @@ base::Result<int> run(const LinkOptions& options)
 
 base::Result<int> run(const UpstreamOptions& options)
 {
-    const auto scenario = scenario_of(options.run, {.clients = true});
+    const auto scenario = scenario_of_datagrams(options.run, {.clients = true});
     if (!scenario) return tl::unexpected{scenario.error()};
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};

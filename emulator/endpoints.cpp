@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/endpoints.hpp"
 
+#include "proto/net/program.hpp"
+
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -25,10 +29,28 @@ struct Side {
     std::optional<net::AddressSet> allowed;
 };
 
+/// Looks up where datagrams go, and tells of a name that has several addresses: the program may
+/// listen on another one than the first.
+net::Endpoint look_up_destination(const net::HostPort& where, const std::string& option,
+                                  int family = AF_UNSPEC)
+{
+    const auto all = net::resolve_all(where, family);
+    if (all.size() > 1) {
+        std::vector<std::string> texts;
+        for (const net::Endpoint& one : all) texts.push_back(one.to_text());
+        net::say("hapnet-emulator",
+                 fmt::format("{} {}:{} has {} addresses, {}: datagrams go to the first; if the "
+                             "program there listens on another one, name that",
+                             option, where.host, where.port, all.size(),
+                             fmt::join(texts, " and ")));
+    }
+    return all.front();
+}
+
 base::Result<Side> side_of_one_peer(const TypedSide& typed, const net::Endpoint& listen)
 {
     const net::AddressPattern& end = typed.ends.front();
-    const auto peer = net::resolve({end.host, *end.port}, listen.family());
+    const auto peer = look_up_destination({end.host, *end.port}, typed.end_name, listen.family());
     if (listen.is_loopback() && !peer.is_loopback()) {
         return base::fail(fmt::format(
             "{0} {2} cannot be reached from {1} {3}: listen on {4}, or on an address of this "
@@ -129,8 +151,8 @@ base::Result<std::vector<NamedEndpoints>> look_up(const LinkOptions& options)
             return fmt::format("--link {}: {}", link.name, what);
         };
         auto endpoints =
-            look_up_sides({link.listen_1, link.end_1, part("LISTEN_1"), part("END_1")},
-                          {link.listen_2, link.end_2, part("LISTEN_2"), part("END_2")});
+            look_up_sides({link.listen_1, link.end_1, part("LISTEN_A"), part("END_A")},
+                          {link.listen_2, link.end_2, part("LISTEN_B"), part("END_B")});
         if (!endpoints) return tl::unexpected{endpoints.error()};
         links.push_back({link.name, *std::move(endpoints)});
     }
@@ -140,7 +162,7 @@ base::Result<std::vector<NamedEndpoints>> look_up(const LinkOptions& options)
 base::Result<ServerAndClients> look_up(const UpstreamOptions& options)
 {
     const auto listen = net::resolve(options.listen);
-    const auto server = net::resolve(options.upstream);
+    const auto server = look_up_destination(options.upstream, "--upstream");
     if (server.reaches(listen)) {
         return base::fail(
             fmt::format("--upstream {} is where the emulator itself listens: name the "

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/command_run.hpp"
 #include "emulator/commands.hpp"
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/wire_end.hpp"
 #include "emulator/world.hpp"
@@ -33,6 +34,8 @@ base::Result<int> run(const ExecOptions& options)
 {
     const auto scenario = scenario_of(options.run);
     if (!scenario) return tl::unexpected{scenario.error()};
+    const auto fits = validate_for_frames(scenario->profile.flows, options.frames.all_frames);
+    if (!fits) return tl::unexpected{fits.error()};
     const net::StopSignal stop{net::Hangup::stop};
     const WireEnd end{
         .wire = "wire-a", .addresses = {{World::address_of_command, 24}}, .router = World::router};

@@ -24,7 +24,13 @@ base::Result<FatesOfPaths> read_fates(const std::string& path)
     // Whatever else it is may have no end.
     std::string text(fates_header.size(), '\0');
     text.resize(static_cast<std::size_t>(file.read(text.data(), std::ssize(text)).gcount()));
-    if (text == fates_header || text.starts_with(fmt::format("{},direction", path_column))) {
+    const auto begins = [&](FateColumns columns) {
+        return head_of_fates(columns).starts_with(text);
+    };
+    const bool is_known = begins({}) || begins({.has_paths = true}) ||
+                          begins({.has_flows = true}) ||
+                          begins({.has_paths = true, .has_flows = true});
+    if (is_known && text.size() == fates_header.size()) {
         text.append(std::istreambuf_iterator<char>{file}, {});
     } else if (file) {
         text += '\n';

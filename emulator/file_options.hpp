@@ -37,7 +37,10 @@ struct LearnOptions {
     std::vector<std::string> files;
     std::string columns{};
     std::optional<base::Duration> spacing{}; // instead of the one in the files
-    bool with_plots = false;                 // also where stderr is no terminal
+    bool is_one_way = false;                 // a table has delays of one way
+    std::optional<std::string> trace{};      // where the measured values go, to be replayed
+    bool as_json = false;
+    bool with_plots = false; // also where stderr is no terminal
 };
 
 /// Adds the command to the program; after parse() the options hold what was typed.

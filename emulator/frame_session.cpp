@@ -30,16 +30,25 @@ std::string frames_in_words(const char* name, const InterfaceReport& side)
     return text + "\n";
 }
 
+/// Without flows the only path has all of the memory.
+QueueLimits limits_of(const Options& options, const Profile& profile)
+{
+    if (profile.flows.empty()) return QueueLimits::within(options.in_flight_bytes);
+    return QueueLimits::shared(options.in_flight_bytes, profile.flows.size() + 1);
+}
+
 } // namespace
 
 FrameSession::FrameSession(const Options& options, const Scenario& scenario, Setup setup)
     : start_{net::monotonic_now()},
       setup_{std::move(setup)},
-      recorder_{{.fates = options.fates}},
+      recorder_{
+          {.fates = options.fates, .columns = {.has_flows = !scenario.profile.flows.empty()}}},
       paths_{scenario.profile,
              {.seed = scenario.seed,
               .start = start_,
-              .limits = QueueLimits::within(options.in_flight_bytes),
+              .limits = limits_of(options, scenario.profile),
+              .slab = std::make_shared<Slab>(options.in_flight_bytes),
               .replay = scenario.replay}},
       frames_{setup_.frames, paths_, recorder_},
       run_{options, scenario, paths_, recorder_},

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
 #include <utility>
@@ -124,6 +125,7 @@ std::vector<Condition> listed_conditions()
     return {
         {"delay", "TIME", words<&ConstantLaw::value>()},
         {"jitter", "TIME", words<&UniformLaw::half_width>()},
+        {"correlation-time", "TIME", "Time in which jitter forgets where it was (default 0ms)"},
         {"order", "ORDER",
          "Whether jitter may reorder. keep (default): never; wide jitter then lengthens the mean "
          "delay. free: each datagram leaves at its own time. sorted: at the times of free, but in "
@@ -271,7 +273,7 @@ void add_run_options(cli::Command& program, Options& options, const ConditionsFo
                    "65 536; one that finds no room is dropped as queue_full",
                    cli::into(options.in_flight_bytes, parse_in_flight));
     program.option("--duration", "TIME", "End after this time (default: run until stopped)",
-                   cli::into(options.duration, base::Time{}));
+                   cli::into(options.duration, base::Time{std::chrono::milliseconds{1}}));
     program.option("--stats", "FILE", "Write statistics to FILE at the end; - is stdout",
                    cli::into(options.stats));
     program.option("--fates", "FILE", "Write the fate of each datagram to FILE (CSV)",
@@ -319,14 +321,6 @@ cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
     };
 }
 
-/// The path that a name of one of its ways belongs to.
-base::Result<std::string> parse_path_name(const std::string& text)
-{
-    const auto way = parse_way(text);
-    if (way && !way->path.empty()) return way->path;
-    return parse_link_name(text);
-}
-
 /// The options of check and of predict.
 void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools::Stream& stream)
 {
@@ -347,7 +341,9 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools
     command.option("--link", "NAME",
                    "Which path of a profile with several, with what holds on all of them: 1-2, "
                    "wan or client.3",
-                   cli::into(stream.path, parse_path_name));
+                   into_path(stream.path));
+    command.option("--flow", "NAME", "Which flow of a profile with flows (default: the rest)",
+                   into_flow(stream.path));
     add_conditions(command, conditions_from, {.has_own_rate = true});
 }
 
@@ -426,6 +422,11 @@ base::Result<void> require_addresses(const cli::Command& program)
 {
     const std::array required{std::pair{"--listen-a", "127.0.0.1:7001"},
                               std::pair{"--listen-b", "127.0.0.1:7002"}};
+    const bool has_pair = program.is_given("--listen-a") || program.is_given("--listen-b");
+    if (program.is_given("--listen") && !has_pair) {
+        return base::fail("--upstream is required with --listen: --upstream 127.0.0.1:9000, the "
+                          "server that its clients are sent on to");
+    }
     for (const auto& [option, example] : required) {
         if (program.is_given(option)) continue;
         return base::fail(

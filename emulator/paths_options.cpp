@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/paths_options.hpp"
 
+#include "emulator/core/flow/flow.hpp"
+#include "emulator/core/path_name.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
 
@@ -101,7 +103,7 @@ void add_upstream_options(cli::Command& program, UpstreamOptions& options)
 void add_link_options(cli::Command& program, LinkOptions& options)
 {
     program
-        .option("--link", "NAME=LISTEN_1,LISTEN_2[,END_1,END_2]",
+        .option("--link", "NAME=LISTEN_A,LISTEN_B[,END_A,END_B]",
                 "A pair of its own; may be repeated, up to 28 times. NAME is two numbers of "
                 "peers, 1-2, whose ways have the keys 1-2.delay and 2-1.delay, or a word, wan, "
                 "with wan.up.delay and wan.down.delay. END is what --a takes",
@@ -147,6 +149,25 @@ base::Result<void> require_links(const LinkOptions& options, const cli::Command&
     if (fine) fine = refuse_beside("--link", of_clients, program);
     if (!fine) return fine;
     return require_different(options.links);
+}
+
+cli::Take into_path(std::string& path)
+{
+    return [&path](const std::string& text) -> base::Result<void> {
+        const auto way = parse_way(text);
+        const auto name = way && !way->path.empty() ? way->path : parse_link_name(text);
+        if (!name) return tl::unexpected{name.error()};
+        path = flow_path(*name, parts_of(path).flow);
+        return {};
+    };
+}
+
+cli::Take into_flow(std::string& path)
+{
+    return [&path](const std::string& text) -> base::Result<void> {
+        path = flow_path(parts_of(path).path, text == rest_of_flows ? "" : text);
+        return {};
+    };
 }
 
 } // namespace hapnet::emulator

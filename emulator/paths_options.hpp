@@ -8,6 +8,7 @@
 #include "proto/net/address_set.hpp"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -22,6 +23,11 @@ void add_threads(cli::Command& program, std::size_t& threads);
 [[nodiscard]] base::Result<void> require_upstream(const cli::Command& program);
 [[nodiscard]] base::Result<void> require_links(const LinkOptions& options,
                                                const cli::Command& program);
+
+/// The path of a dry run, by the name of one of its ways, beside the flow that is named already.
+[[nodiscard]] cli::Take into_path(std::string& path);
+/// The flow of a dry run, or the rest, beside the path that is named already.
+[[nodiscard]] cli::Take into_flow(std::string& path);
 
 /// Patterns of addresses, one after the other.
 [[nodiscard]] cli::Take allow_into(std::vector<net::AddressPattern>& into);

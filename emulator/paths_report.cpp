@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/paths_report.hpp"
 
+#include "emulator/core/path_name.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/direction_words.hpp"
 #include "emulator/run_state.hpp"
 
@@ -30,15 +32,17 @@ struct Sums {
     std::uint64_t strangers_down = 0;
     std::uint64_t overflowed_up = 0;
     std::uint64_t overflowed_down = 0;
+    std::uint64_t unreachable_up = 0;
+    std::uint64_t unreachable_down = 0;
     std::size_t paths = 0; // at present
 
     [[nodiscard]] DirectionReport of_up(base::Duration budget) const
     {
-        return {&up, nullptr, strangers_up, overflowed_up, budget};
+        return {&up, nullptr, strangers_up, overflowed_up, unreachable_up, budget};
     }
     [[nodiscard]] DirectionReport of_down(base::Duration budget) const
     {
-        return {&down, nullptr, strangers_down, overflowed_down, budget};
+        return {&down, nullptr, strangers_down, overflowed_down, unreachable_down, budget};
     }
 };
 
@@ -51,14 +55,22 @@ Sums sums_of(const RunState& state)
               .strangers_down = server.departed.strangers_down,
               .overflowed_up = server.overflowed,
               .overflowed_down = server.departed.overflowed_down,
+              .unreachable_up = server.departed.unreachable_up,
+              .unreachable_down = server.unreachable,
               .paths = state.count};
+    for (const auto& flow : server.departed.flows) {
+        sums.up.add(flow.up);
+        sums.down.add(flow.down);
+    }
     for (const PathState& path : present(state)) {
-        sums.up.add(path.up.statistics);
-        sums.down.add(path.down.statistics);
+        sums.up.add(path.flows.empty() ? path.up.statistics : path.all_up);
+        sums.down.add(path.flows.empty() ? path.down.statistics : path.all_down);
         sums.strangers_up += path.up.strangers;
         sums.strangers_down += path.down.strangers;
         sums.overflowed_up += path.up.overflowed;
         sums.overflowed_down += path.down.overflowed;
+        sums.unreachable_up += path.up.unreachable;
+        sums.unreachable_down += path.down.unreachable;
     }
     return sums;
 }
@@ -69,8 +81,9 @@ ClientReport report_of(const PathState& client, const UpstreamRun& run, const Ru
             .name = client.name,
             .address = client.end_a->to_text(),
             .course = course_of(run, client),
-            .up = report_of(client.up, run, state),
-            .down = report_of(client.down, run, state)};
+            .up = report_of(client, Direction::up, run, state),
+            .down = report_of(client, Direction::down, run, state),
+            .flows = flows_of(client, run, state)};
 }
 
 LinkReport report_of(const PathState& link, const ports::Relay& relay, const LinksRun& run,
@@ -84,8 +97,57 @@ LinkReport report_of(const PathState& link, const ports::Relay& relay, const Lin
             .end_1 = text_of(link.end_a),
             .end_2 = text_of(link.end_b),
             .course = course_of(run, link),
-            .up = report_of(link.up, run, state),
-            .down = report_of(link.down, run, state)};
+            .up = report_of(link, Direction::up, run, state),
+            .down = report_of(link, Direction::down, run, state),
+            .flows = flows_of(link, run, state)};
+}
+
+/// Of each flow on all paths together, last of the rest.
+struct FlowSums {
+    std::vector<Statistics> up;
+    std::vector<Statistics> down;
+};
+
+FlowSums flow_sums_of(const RunState& state, std::size_t flows)
+{
+    const auto& departed = state.server.departed;
+    FlowSums sums{std::vector<Statistics>(flows + 1), std::vector<Statistics>(flows + 1)};
+    const auto add = [&](std::size_t flow, const Statistics& up, const Statistics& down) {
+        sums.up[flow].add(up);
+        sums.down[flow].add(down);
+    };
+    for (std::size_t i = 0; i < departed.flows.size(); ++i) {
+        add(i, departed.flows[i].up, departed.flows[i].down);
+    }
+    add(flows, departed.up, departed.down);
+    for (const PathState& path : present(state)) {
+        for (std::size_t i = 0; i < flows; ++i) {
+            add(i, path.flows[i].up.statistics, path.flows[i].down.statistics);
+        }
+        add(flows, path.up.statistics, path.down.statistics);
+    }
+    return sums;
+}
+
+/// The sums outlive the statistics.
+void tell_of_flows(RunStatistics& statistics, const AnyRun& run, const FlowSums& sums)
+{
+    const auto& flows = run.scenario.profile.flows;
+    if (flows.empty()) return;
+    auto& reports = statistics.flows.emplace();
+    for (std::size_t i = 0; i <= flows.size(); ++i) {
+        const auto name = i < flows.size() ? flows[i].name : std::string{rest_of_flows};
+        const auto path = i < flows.size() ? flow_path("", name) : "";
+        const auto budget = run.options.budget;
+        reports.emplace_back(name,
+                             FlowReport{.course = {.at_start = configuration_of(
+                                                       profile_of(run.scenario.profile, path).path),
+                                                   .at_end = {},
+                                                   .changes = {},
+                                                   .changes_omitted = {}},
+                                        .up = {.statistics = &sums.up[i], .budget = budget},
+                                        .down = {.statistics = &sums.down[i], .budget = budget}});
+    }
 }
 
 /// `reasons`: what is against the run apart from the sums, which it refers to.
@@ -108,6 +170,7 @@ std::vector<std::string> reasons_of_links(const LinksRun& run, const RunState& s
              {std::pair{Direction::up, &link.up}, std::pair{Direction::down, &link.down}}) {
             add_reasons(reasons, way_name(link.name, direction), report_of(*way, run, state));
         }
+        add_reasons(reasons, flows_of(link, run, state));
     }
     return reasons;
 }
@@ -146,6 +209,8 @@ nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
     const Sums sums = sums_of(state);
     RunStatistics statistics = statistics_of_any(run, state);
     statistics.course.at_start = configuration_of(run.scenario.profile.path);
+    const FlowSums flows = flow_sums_of(state, run.scenario.profile.flows.size());
+    tell_of_flows(statistics, run, flows);
     tell_of_sums(statistics, run, sums, reasons_of_links(run, state));
     auto& links = statistics.links.emplace();
     const auto& relays = run.port.relays();
@@ -167,6 +232,8 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& sta
     statistics.course.at_start = configuration_of(run.scenario.profile.path);
     // Of whoever comes now.
     statistics.course.at_end = configuration_of(*state.server.newcomers);
+    const FlowSums flows = flow_sums_of(state, run.scenario.profile.flows.size());
+    tell_of_flows(statistics, run, flows);
     tell_of_sums(statistics, run, sums, state.failures);
     auto& clients = statistics.clients.emplace();
     for (const PathState& client : present(state)) {

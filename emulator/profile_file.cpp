@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/profile_file.hpp"
 
+#include "emulator/core/profile/presets.hpp"
 #include "emulator/core/profile/text.hpp"
-#include "emulator/presets.hpp"
 #include "proto/base/built_in.hpp"
 #include "proto/net/text_file.hpp"
 

@@ -72,12 +72,11 @@ UdpAddress udp_address_of(const net::Endpoint& endpoint)
     return address;
 }
 
-Recorder::Fates::Fates(const std::string& path, bool of_several)
-    : file{path, "--fates"}, has_several_paths{of_several}, aside{open_nameless(path)}
+Recorder::Fates::Fates(const std::string& path, FateColumns its_columns)
+    : file{path, "--fates"}, columns{its_columns}, aside{open_nameless(path)}
 {
     ways[0].rows.reserve(2 * buffer_bytes);
-    ways[0].rows = has_several_paths ? fmt::format("{},{}\n", path_column, fates_header)
-                                     : fmt::format("{}\n", fates_header);
+    ways[0].rows = head_of_fates(columns) + '\n';
 }
 
 Recorder::Fates::Way& Recorder::Fates::way_of(const FateEntry& entry)
@@ -113,14 +112,13 @@ void Recorder::Fates::add(const FateEntry& entry)
 {
     Way& way = way_of(entry);
     const auto before = way.rows.size();
-    if (has_several_paths) {
+    if (columns != FateColumns{}) {
         if (entry.path >= names.size()) {
             const std::scoped_lock guard{coming_lock};
             std::move(coming.begin(), coming.end(), std::back_inserter(names));
             coming.clear();
         }
         way.rows += names.at(entry.path);
-        way.rows += ',';
     }
     append_row(way.rows, entry.direction, entry.number, entry.fate);
     if (&way == ways.data()) {
@@ -283,7 +281,7 @@ void Recorder::Capture::append(const Incomplete& complete)
 
 Recorder::Recorder(const Files& files)
 {
-    if (files.fates) fates_ = std::make_unique<Fates>(*files.fates, files.has_several_paths);
+    if (files.fates) fates_ = std::make_unique<Fates>(*files.fates, files.columns);
     if (files.capture || files.kept) capture_ = std::make_unique<Capture>(files);
     for (std::size_t i = 0; i < files.lanes; ++i) {
         lanes_.push_back(std::make_unique<Lane>(fates_ != nullptr, capture_ != nullptr));
@@ -300,9 +298,9 @@ Recorder::~Recorder()
 std::uint32_t Recorder::add_path(const std::string& name)
 {
     const std::scoped_lock guard{paths_lock_}; // numbers and names in one order
-    if (fates_ && fates_->has_several_paths) {
+    if (fates_ && fates_->columns != FateColumns{}) {
         const std::scoped_lock coming_guard{fates_->coming_lock};
-        fates_->coming.push_back(name);
+        fates_->coming.push_back(row_begin(fates_->columns, name));
     }
     return paths_++;
 }

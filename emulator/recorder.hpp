@@ -5,6 +5,7 @@
 #include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/fate.hpp"
+#include "emulator/core/fates/fates.hpp"
 #include "proto/base/rolling_bytes.hpp"
 #include "proto/base/time.hpp"
 #include "proto/disk/descriptor.hpp"
@@ -41,7 +42,7 @@ public:
         std::optional<base::Duration> kept{};            // of the capture's last packets, in memory
         std::string keep_in{};                           // the folder for them
         std::vector<CaptureNames> pairs{CaptureNames{}}; // of interfaces of the capture
-        bool has_several_paths = false;                  // the fates say of which path they are
+        FateColumns columns{};                           // of the fates
         std::size_t lanes = 1;                           // threads that hand over
     };
 
@@ -134,7 +135,7 @@ private:
     /// The rows of each way, in the order of the ways, whenever they come: those of the first way
     /// go to the file, those of the others to a file without a name, in pieces, until the end.
     struct Fates {
-        Fates(const std::string& path, bool of_several);
+        Fates(const std::string& path, FateColumns columns);
 
         void write(Queue<FateEntry>& queue);
         void finish();
@@ -155,13 +156,13 @@ private:
         void join();
 
         disk::ResultFile file;
-        bool has_several_paths;
+        FateColumns columns;
         disk::Descriptor aside; // the file without a name
         std::uint64_t aside_bytes = 0;
         std::size_t waiting_bytes = 0;   // in the rows of all ways but the first
         std::uint64_t waiting_first = 0; // rows of the first way that are not written yet
         std::vector<Way> ways{2};        // up and down of each path
-        std::vector<std::string> names;
+        std::vector<std::string> names;  // what stands before each row of a path
         std::mutex coming_lock;
         std::vector<std::string> coming; // names of paths that the writer has not seen yet
         Loss loss;                       // of rows

@@ -35,7 +35,7 @@ std::vector<ChangeReport> changes_of(const std::vector<ConditionChange>& changes
     std::vector<ChangeReport> list;
     for (const ConditionChange& change : changes) {
         ChangeReport& report = list.emplace_back();
-        if (name.empty()) report.generation = change.generation;
+        if (parts_of(name).path.empty()) report.generation = change.generation;
         report.elapsed = change.elapsed;
         report.effective_at = {change.effective_up, change.effective_down};
         report.by = change.by;
@@ -107,8 +107,52 @@ DirectionReport report_of(const WayState& way, const AnyRun& run, const RunState
             .stream = &way.stream,
             .strangers = way.strangers,
             .overflowed = way.overflowed,
+            .unreachable = way.unreachable,
             .budget = run.options.budget,
             .has_distributions = state.is_over && run.options.fates.has_value()};
+}
+
+DirectionReport report_of(const PathState& path, Direction direction, const AnyRun& run,
+                          const RunState& state)
+{
+    const bool is_up = direction == Direction::up;
+    auto report = report_of(is_up ? path.up : path.down, run, state);
+    if (path.flows.empty()) return report;
+    report.statistics = is_up ? &path.all_up : &path.all_down;
+    report.stream = nullptr;
+    report.has_distributions = false;
+    return report;
+}
+
+std::optional<FlowReports> flows_of(const PathState& path, const AnyRun& run, const RunState& state)
+{
+    if (path.flows.empty()) return std::nullopt;
+    FlowReports flows;
+    for (const PathState& flow : path.flows) {
+        flows.emplace_back(std::string{parts_of(flow.name).flow},
+                           FlowReport{.course = course_of(run, flow),
+                                      .up = report_of(flow.up, run, state),
+                                      .down = report_of(flow.down, run, state)});
+    }
+    // Of strangers and what the socket lost it is not known where they would have belonged.
+    const auto rest_of = [&](const WayState& way) {
+        auto report = report_of(way, run, state);
+        report.strangers = report.overflowed = report.unreachable = 0;
+        return report;
+    };
+    flows.emplace_back(std::string{rest_of_flows}, FlowReport{.course = course_of(run, path),
+                                                              .up = rest_of(path.up),
+                                                              .down = rest_of(path.down)});
+    return flows;
+}
+
+void add_reasons(std::vector<std::string>& reasons, const std::optional<FlowReports>& flows)
+{
+    if (!flows) return;
+    for (const auto& [name, flow] : *flows) {
+        add_reasons(reasons, fmt::format("flow {}, up", name), flow.up);
+        add_reasons(reasons, fmt::format("flow {}, down", name), flow.down);
+    }
 }
 
 void judge(RunStatistics& statistics, const AnyRun& run, std::vector<std::string> reasons)
@@ -131,11 +175,14 @@ void tell_of_path(RunStatistics& statistics, const AnyRun& run, const RunState& 
 {
     const PathState& path = state.paths.front();
     statistics.course = course_of(run, path);
-    statistics.up = report_of(path.up, run, state);
-    statistics.down = report_of(path.down, run, state);
+    statistics.up = report_of(path, Direction::up, run, state);
+    statistics.down = report_of(path, Direction::down, run, state);
+    statistics.flows = flows_of(path, run, state);
+    if (statistics.flows) statistics.unknown_fragments = path.unknown_fragments;
     std::vector<std::string> reasons = state.failures;
     add_reasons(reasons, "up", statistics.up);
     add_reasons(reasons, "down", statistics.down);
+    add_reasons(reasons, statistics.flows);
     judge(statistics, run, std::move(reasons));
 }
 
@@ -151,8 +198,13 @@ nlohmann::ordered_json json_of(RunStatistics& statistics, const AnyRun& run)
 std::string words_of_path(const AnyRun& run, const RunState& state)
 {
     const PathState& path = state.paths.front();
-    return in_words("up   (A to B)", report_of(path.up, run, state)) +
-           in_words("down (B to A)", report_of(path.down, run, state));
+    std::string text = in_words("up   (A to B)", report_of(path, Direction::up, run, state)) +
+                       in_words("down (B to A)", report_of(path, Direction::down, run, state));
+    for (const auto& [name, flow] : flows_of(path, run, state).value_or(FlowReports{})) {
+        text += in_words(fmt::format("flow {}, up  ", name), flow.up) +
+                in_words(fmt::format("flow {}, down", name), flow.down);
+    }
+    return text;
 }
 
 std::string closing_words(const AnyRun& run, const RunState& state)
@@ -202,8 +254,8 @@ std::string status_line(const Run& run, const RunState& state)
 {
     const PathState& path = state.paths.front();
     return fmt::format("{:.0f} s | {} | {}", base::to_seconds(state.elapsed),
-                       in_short("up", report_of(path.up, run, state)),
-                       in_short("down", report_of(path.down, run, state)));
+                       in_short("up", report_of(path, Direction::up, run, state)),
+                       in_short("down", report_of(path, Direction::down, run, state)));
 }
 
 } // namespace hapnet::emulator

@@ -13,6 +13,7 @@
 #include "proto/net/real_time.hpp"
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,6 +68,17 @@ using Run = RunOf<ports::Links, false>;
 /// distributions, too, once it is over.
 [[nodiscard]] DirectionReport report_of(const WayState& way, const AnyRun& run,
                                         const RunState& state);
+
+/// A direction of a path, which it refers to; with flows, the sum of them and the rest.
+[[nodiscard]] DirectionReport report_of(const PathState& path, Direction direction,
+                                        const AnyRun& run, const RunState& state);
+
+/// The flows of a path, which they refer to; nullopt: the run has none.
+[[nodiscard]] std::optional<FlowReports> flows_of(const PathState& path, const AnyRun& run,
+                                                  const RunState& state);
+
+/// Adds what is against the validity of the flows: "flow.voice.up: ...".
+void add_reasons(std::vector<std::string>& reasons, const std::optional<FlowReports>& flows);
 
 /// Adds what is against the validity of a direction: "up: ...".
 void add_reasons(std::vector<std::string>& reasons, std::string_view way,

@@ -8,6 +8,7 @@
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -17,6 +18,11 @@
 namespace hapnet::emulator {
 
 namespace {
+
+std::string file_name_of(const std::string& path)
+{
+    return std::filesystem::path{path}.filename().string();
+}
 
 /// Reads the fates, and tests them as far as they can be.
 base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options)
@@ -32,6 +38,7 @@ base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options
             fmt::format("{}{}", options.fates ? "--fates: " : "", fates.error().message));
     }
     run.fates = *std::move(fates);
+    run.fates_file = file_name_of(options.fates ? *options.fates : *named);
     auto fine = ensure_whole(*run.fates, run.statistics);
     if (!fine) return fine;
     fine = ensure_testable(run.statistics, run.profile, options.run);
@@ -56,12 +63,19 @@ base::Result<int> write_page(const ReportOptions& options)
     if (!profile) return tl::unexpected{profile.error()};
     auto own = of_path(*statistics, options.link);
     if (own.is_null()) {
-        return base::fail(fmt::format("{} has no path '{}': 'links' and 'clients' in it name those "
-                                      "that it has",
-                                      options.run, *options.link));
+        return base::fail(
+            fmt::format("{} has no path '{}': 'links', 'clients' and 'flows' in it name "
+                        "those that it has",
+                        options.run, options.link.value_or("")));
     }
-    tools::RunRecord run{std::move(own),           *std::move(profile), {}, {}, {},
-                         options.link.value_or("")};
+    tools::RunRecord run{std::move(own),
+                         *std::move(profile),
+                         {},
+                         {},
+                         {},
+                         options.link.value_or(""),
+                         file_name_of(options.run),
+                         {}};
     if (const auto fine = add_fates(run, options); !fine) return tl::unexpected{fine.error()};
     const std::string page = run_page(run);
     if (options.out == "-") {

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/run_files.hpp"
 
+#include "emulator/core/flow/flow.hpp"
+#include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -66,6 +69,12 @@ base::Result<Fates> fates_of_path(const std::string& fates_path,
     if (own != fates->end()) return std::move(own->second);
     std::vector<std::string_view> names;
     for (const auto& [name, of] : *fates) names.push_back(name);
+    const auto flow = parts_of(link.value_or("")).flow;
+    if (!flow.empty()) {
+        std::ranges::replace(names, std::string_view{}, rest_of_flows);
+        return base::fail(fmt::format("{} has no fates of {}: it has those of {}", fates_path,
+                                      *link, fmt::join(names, ", ")));
+    }
     if (names.size() == 1 && names.front().empty()) {
         return base::fail(fmt::format("{} has fates of one path: leave out --link", fates_path));
     }
@@ -75,18 +84,27 @@ base::Result<Fates> fates_of_path(const std::string& fates_path,
 
 Json of_path(const Json& statistics, const std::optional<std::string>& link)
 {
-    if (!link) return statistics;
-    Json own;
+    const std::string of = link.value_or("");
+    const std::string path{parts_of(of).path};
+    const std::string flow{parts_of(of).flow};
+    Json own = path.empty() ? Json::object() : Json();
     const auto links = statistics.value("links", Json::object());
-    if (links.contains(*link)) own = links[*link];
+    if (links.contains(path)) own = links[path];
     for (const Json& client : statistics.value("clients", Json::array())) {
-        if (text_at(client, "name") == *link) own = client;
+        if (text_at(client, "name") == path) own = client;
     }
     if (!own.is_object()) return nullptr;
     Json all = statistics;
-    all.erase("links");
-    all.erase("clients");
+    if (!path.empty()) {
+        all.erase("links");
+        all.erase("clients");
+    }
     all.update(own);
+    if (!all.contains("flows")) return flow.empty() ? all : Json(nullptr);
+    const auto name = flow.empty() ? std::string{rest_of_flows} : flow;
+    if (!all["flows"].contains(name)) return nullptr;
+    const Json of_flow = all["flows"][name];
+    all.update(of_flow);
     return all;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/run_state.hpp"
 
+#include "emulator/core/path_name.hpp"
+
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -21,18 +23,26 @@ std::size_t look_at(const Link& link, WayState& state)
     const StreamTotals& stream = state.stream;
     return sizeof(WayState) / 50 + state.statistics.lateness.filled_bytes() +
            state.statistics.sojourn.filled_bytes() + stream.delays.delays().filled_bytes() +
-           stream.delays.variations().filled_bytes() + stream.gaps.filled_bytes();
+           stream.delays.variations().filled_bytes() + stream.gaps.filled_bytes() +
+           (stream.over_time ? stream.over_time->stretches().size() * sizeof(Stretch) : 0);
 }
 
-/// With the last `changes_max` changes.
+/// With the last `changes_max` changes, and its flows, for which there is room.
 std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState& state)
 {
+    std::size_t bytes = 0;
+    if (const Branches* branches = path.branches()) {
+        state.unknown_fragments = branches->unknown_fragments();
+        for (std::size_t i = 0; i < branches->paths().size(); ++i) {
+            bytes += look_at(*branches->paths()[i], changes_max, state.flows[i]);
+        }
+    }
     const std::span all{path.changes().entries()};
     const auto last = all.last(std::min(all.size(), changes_max));
     state.changes.assign(last.begin(), last.end());
     state.changes_omitted = path.changes().omitted() + (all.size() - last.size());
     state.conditions = path.director().shared_path();
-    return look_at(path.link(Direction::up), state.up) +
+    return bytes + look_at(path.link(Direction::up), state.up) +
            look_at(path.link(Direction::down), state.down) + last.size() * sizeof(ConditionChange);
 }
 
@@ -43,6 +53,30 @@ std::size_t told_changes(const RunState& state, std::size_t paths)
     constexpr std::size_t while_it_runs = 20;
     if (state.is_over) return ChangeLog::entries_max;
     return std::max(while_it_runs / std::max(paths, std::size_t{1}), std::size_t{1});
+}
+
+/// Room for so many paths and their flows.
+void make_room(const AnyRun& run, std::size_t paths, RunState& state)
+{
+    if (state.paths.size() < paths) state.paths.resize(paths);
+    for (PathState& path : state.paths) path.flows.resize(run.scenario.profile.flows.size());
+}
+
+/// Names the flows, and adds up what belongs together. Afterwards no path is looked at.
+void sum_up_flows(const AnyRun& run, RunState& state)
+{
+    const auto& flows = run.scenario.profile.flows;
+    if (flows.empty()) return;
+    for (std::size_t i = 0; i < state.count; ++i) {
+        PathState& path = state.paths[i];
+        path.all_up = path.up.statistics;
+        path.all_down = path.down.statistics;
+        for (std::size_t flow = 0; flow < flows.size(); ++flow) {
+            path.flows[flow].name = flow_path(path.name, flows[flow].name);
+            path.all_up.add(path.flows[flow].up.statistics);
+            path.all_down.add(path.flows[flow].down.statistics);
+        }
+    }
 }
 
 void end_look(const AnyRun& run, RunState& state)
@@ -59,6 +93,8 @@ std::size_t look_at(const ports::Relay& relay, std::size_t changes_max, PathStat
     state.end_b = relay.b().filter.address();
     state.up.strangers = relay.a().strangers;
     state.up.overflowed = relay.a().socket.overflowed();
+    state.up.unreachable = relay.b().socket.unreachable();
+    state.down.unreachable = relay.a().socket.unreachable();
     state.down.strangers = relay.b().strangers;
     state.down.overflowed = relay.b().socket.overflowed();
     return bytes;
@@ -73,6 +109,7 @@ std::size_t look_at(const ports::Upstream::Client& client, std::size_t changes_m
     state.end_a = client.address;
     state.down.strangers = client.strangers;
     state.down.overflowed = client.socket.overflowed();
+    state.up.unreachable = client.socket.unreachable();
     return bytes;
 }
 
@@ -102,7 +139,7 @@ void look_at(const AnyRun& run, const ports::Links& port, const control::DoWork&
              RunState& state)
 {
     const auto& relays = port.relays();
-    state.paths.resize(relays.size());
+    make_room(run, relays.size(), state);
     state.count = 0;
     work([&] {
         for (std::size_t bytes = 0; state.count < relays.size() && bytes < step_bytes;) {
@@ -115,6 +152,7 @@ void look_at(const AnyRun& run, const ports::Links& port, const control::DoWork&
         return true;
     });
     for (std::size_t i = 0; i < relays.size(); ++i) state.paths[i].name = relays[i]->name();
+    sum_up_flows(run, state);
 }
 
 void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWork& work,
@@ -137,8 +175,13 @@ void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWo
                 look_at(*client, told_changes(state, clients.size()), state.paths[state.count++]);
         }
         for (const auto* client : clients) present.push_back(client->number);
-        state.server = {port.clients_seen(), port.refused(),  port.strangers(),
-                        port.overflowed(),   port.departed(), {}};
+        state.server = {port.clients_seen(),
+                        port.refused(),
+                        port.strangers(),
+                        port.overflowed(),
+                        port.unreachable(),
+                        port.departed(),
+                        {}};
         state.server.newcomers = run.paths.deciders().back().director->shared_path();
         end_look(run, state);
         wanted = 0;
@@ -146,28 +189,32 @@ void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWo
     };
     // Room is made here: whoever relays must not wait for memory.
     while (wanted > 0) {
-        state.paths.resize(std::max(state.paths.size(), wanted));
+        make_room(run, wanted, state);
         present.reserve(state.paths.size());
         work(step);
     }
     // Whoever has gone since is among those that have departed.
     keep_present(present, state);
+    sum_up_flows(run, state);
 }
 
 void look_at(const AnyRun& run, const ports::Frames& port, const control::DoWork& work,
              RunState& state)
 {
-    state.paths.resize(1);
+    make_room(run, 1, state);
     state.count = 1;
     work([&] {
         PathState& path = state.paths.front();
         look_at(port.path(), told_changes(state, 1), path);
         path.up.overflowed = port.a().socket.overflowed();
         path.down.overflowed = port.b().socket.overflowed();
+        path.up.unreachable = port.b().unreachable;
+        path.down.unreachable = port.a().unreachable;
         state.interfaces = {report_of(port.a()), report_of(port.b())};
         end_look(run, state);
         return true;
     });
+    sum_up_flows(run, state);
 }
 
 } // namespace hapnet::emulator

@@ -31,6 +31,7 @@ struct WayState {
     StreamTotals stream{};
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
+    std::uint64_t unreachable = 0;
 };
 
 /// A path as it was at a moment, and how its conditions have changed until then.
@@ -42,8 +43,12 @@ struct PathState {
     std::shared_ptr<const Path> conditions;
     std::vector<ConditionChange> changes; // the last
     std::uint64_t changes_omitted = 0;    // before them, or for want of room
-    WayState up;
+    WayState up;                          // with flows, of the rest
     WayState down;
+    std::vector<PathState> flows; // in the order of the profile
+    Statistics all_up;            // with flows, the sums of them and the rest
+    Statistics all_down;
+    std::uint64_t unknown_fragments = 0; // see Classifier
 };
 
 /// A run as it was at a moment: all that its reports are made from, apart from what never changes.
@@ -62,6 +67,7 @@ struct RunState {
         std::uint64_t refused = 0;
         std::uint64_t strangers = 0;
         std::uint64_t overflowed = 0;
+        std::uint64_t unreachable = 0;
         ports::Upstream::Departed departed{};
         std::shared_ptr<const Path> newcomers; // what holds for whoever comes
     };

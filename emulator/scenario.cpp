@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/scenario.hpp"
 
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/fates_file.hpp"
@@ -145,7 +146,9 @@ void make_absolute(Profile& profile, const std::string& beside)
 base::Result<void> replayable(const FatesOfPaths& fates, const PathNames& names)
 {
     const bool is_single = names.links.empty() && !names.clients;
-    if (fates.contains("") != is_single && !fates.empty()) {
+    const bool are_single =
+        std::ranges::all_of(fates, [](const auto& of) { return parts_of(of.first).path.empty(); });
+    if (are_single != is_single && !fates.empty()) {
         return base::fail(is_single ? "these are fates of several paths: replay them with the "
                                       "same --link or --upstream"
                                     : "these are fates of the only path of a run: replay them "
@@ -153,6 +156,12 @@ base::Result<void> replayable(const FatesOfPaths& fates, const PathNames& names)
     }
     for (const auto& [path, own] : fates) {
         if (!names.contains(path)) return base::fail(names.refusal(path));
+    }
+    const bool has_flows =
+        std::ranges::any_of(fates, [](const auto& of) { return !parts_of(of.first).flow.empty(); });
+    if (!has_flows && !names.flows.empty() && !fates.empty()) {
+        return base::fail("it has no fates of flows: replay it without [[flow]], as the run that "
+                          "wrote it");
     }
     return {};
 }
@@ -176,7 +185,8 @@ base::Result<Profile> profile_for(const ConditionOptions& options,
     auto profile = profile_named(options, warnings, names);
     if (!profile) return profile;
     make_absolute(*profile, options.profile.value_or(""));
-    if (const auto taken = take_typed(*profile, options.settings, names); !taken) {
+    const PathNames all = with_flows(names, profile->flows);
+    if (const auto taken = take_typed(*profile, options.settings, all); !taken) {
         return tl::unexpected{taken.error()};
     }
     if (const auto valid = validate_timelines(*profile); !valid) {
@@ -195,13 +205,22 @@ base::Result<Profile> profile_for_path(const ConditionOptions& options, const st
     auto profile = profile_for(options, warnings);
     if (!profile) return profile;
     const auto paths = paths_in(*profile);
+    const PathNames names = with_flows({.any = true}, profile->flows);
+    if (!names.contains(path)) return base::fail(names.refusal(path));
     if (path.empty()) {
         if (paths.empty()) return profile;
+        if (!profile->flows.empty()) {
+            net::say("hapnet-emulator",
+                     fmt::format("this describes what belongs to no flow; --flow NAME describes "
+                                 "one of {}",
+                                 fmt::join(names.flows, ", ")));
+            return profile;
+        }
         net::say("hapnet-emulator",
                  fmt::format("this describes a path without conditions of its own; --link NAME "
                              "describes one of those that have some: {}",
                              fmt::join(paths, ", ")));
-    } else if (std::ranges::find(paths, path) == paths.end()) {
+    } else if (parts_of(path).flow.empty() && std::ranges::find(paths, path) == paths.end()) {
         net::say("hapnet-emulator",
                  fmt::format("the profile has nothing of its own for {}: this is what holds on all "
                              "paths",
@@ -228,7 +247,7 @@ base::Result<Scenario> scenario_of(const Options& options, const PathNames& name
     if (options.replay) {
         auto fates = read_fates(*options.replay);
         if (!fates) return base::fail(fmt::format("--replay: {}", fates.error().message));
-        const auto fits = replayable(*fates, names);
+        const auto fits = replayable(*fates, with_flows(names, scenario.profile.flows));
         if (!fits) {
             return base::fail(
                 fmt::format("--replay: {}: {}", *options.replay, fits.error().message));

@@ -4,6 +4,7 @@
 
 #include "emulator/control/frame_report.hpp"
 #include "emulator/control/run_statistics.hpp"
+#include "emulator/tools/learn/learn.hpp"
 #include "emulator/tools/prediction_report.hpp"
 #include "emulator/tools/probe_statistics.hpp"
 #include "emulator/tools/verify/verify.hpp"
@@ -26,6 +27,10 @@ std::vector<cli::DocumentSchema> schemas()
     all.push_back({.name = "predict", .written = {}, .make = [] {
                        return output::schema_text<tools::PredictionReport>(
                            "What hapnet-emulator predict --json prints (docs/use/emulator.md)");
+                   }});
+    all.push_back({.name = "learn", .written = {}, .make = [] {
+                       return output::schema_text<tools::LearnReport>(
+                           "What hapnet-emulator learn --json prints (docs/use/emulator.md)");
                    }});
     all.push_back({.name = "verify", .written = {}, .make = [] {
                        return output::schema_text<tools::Verification>(

@@ -16,7 +16,7 @@ base::Result<TypedLink> parse_link(std::string_view text)
     };
     const auto equals = text.find('=');
     if (equals == std::string_view::npos) {
-        return refuse("write NAME=LISTEN_1,LISTEN_2, such as 1-2=:7001,:7002");
+        return refuse("write NAME=LISTEN_A,LISTEN_B, such as 1-2=:7001,:7002");
     }
     auto name = parse_link_name(text.substr(0, equals));
     if (!name) return tl::unexpected{name.error()};
@@ -30,7 +30,7 @@ base::Result<TypedLink> parse_link(std::string_view text)
     }
     if (parts.size() != 2 && parts.size() != 4) {
         return refuse("write two addresses to listen on after the =, or four addresses: "
-                      "LISTEN_1,LISTEN_2,END_1,END_2");
+                      "LISTEN_A,LISTEN_B,END_A,END_B");
     }
     TypedLink link{*std::move(name), {}, {}, {}, {}};
     for (std::size_t i = 0; i < parts.size(); ++i) {

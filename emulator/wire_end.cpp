@@ -23,6 +23,7 @@ void prepare(const WireEnd& end)
     net::switch_off_offloads(end_interface);
     net::set_up(end_interface);
     for (const auto& [text, bits] : end.addresses) net::add_address(end_interface, text, bits);
+    net::add_group_routes(end_interface);
     if (!end.router.empty()) net::add_default_route(end_interface, end.router);
 }
 

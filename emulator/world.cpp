@@ -50,17 +50,37 @@ std::vector<std::string> words_of(WorldProgram program, const std::string& inter
     return words;
 }
 
+/// The error that neither program is there, whose message is the cure.
+class NotInstalled : public std::error_category {
+public:
+    [[nodiscard]] const char* name() const noexcept override { return "not installed"; }
+    [[nodiscard]] std::string message(int /*error*/) const override
+    {
+        return "install one of them: apt-get install passt slirp4netns";
+    }
+};
+
+const std::error_category& not_installed()
+{
+    static const NotInstalled category;
+    return category;
+}
+
+std::string troubles_text(const std::vector<std::string>& troubles)
+{
+    return fmt::format("cannot join the command to this machine's network: {}",
+                       fmt::join(troubles, "; "));
+}
+
 struct Cure {
     std::string text;
     int error = 0; // what it cures
 };
 
 /// What a person can do, as far as the reason can be seen from here.
-Cure cure_of_both(bool is_one_installed)
+Cure cure_of_both()
 {
     constexpr const char* tun = "/dev/net/tun";
-    if (!is_one_installed)
-        return {"install one of them: apt-get install passt slirp4netns", ENOENT};
     const int device = ::open(tun, O_RDWR | O_CLOEXEC);
     const int error = device < 0 ? errno : 0;
     if (device >= 0) close(device);
@@ -179,7 +199,7 @@ World::~World() = default;
 
 void World::open()
 {
-    std::string troubles;
+    std::vector<std::string> troubles;
     bool is_one_installed = false;
     for (const auto& helper : helpers_) {
         const auto trouble = helper->open(interface_);
@@ -190,11 +210,12 @@ void World::open()
             return;
         }
         is_one_installed = is_one_installed || helper->is_installed();
-        troubles += fmt::format("{}: {}; ", to_text(helper->program()), *trouble);
+        troubles.push_back(fmt::format("{}: {}", to_text(helper->program()), *trouble));
     }
-    const auto [cure, error] = cure_of_both(is_one_installed);
-    net::deny_network(error, fmt::format("cannot join the command to this machine's network: {}{}",
-                                         troubles, cure));
+    if (!is_one_installed)
+        throw std::system_error{ENOENT, not_installed(), troubles_text(troubles)};
+    const auto [cure, error] = cure_of_both();
+    net::deny_network(error, fmt::format("{}; {}", troubles_text(troubles), cure));
 }
 
 std::string_view World::name() const { return to_text(used_->program()); }

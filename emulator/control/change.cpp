@@ -3,6 +3,7 @@
 #include "emulator/control/change.hpp"
 
 #include "emulator/control/moment.hpp"
+#include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/paths.hpp"
 
 #include <algorithm>
@@ -13,15 +14,19 @@ namespace hapnet::emulator {
 Scripts::Scripts(const Profile& profile)
     : usual_{std::make_shared<const Script>(profile_of(profile, ""))}, mentioned_{paths_in(profile)}
 {
-    for (const std::string& path : mentioned_) {
+    const auto add = [&](const std::string& path) {
         own_.emplace(path, std::make_shared<const Script>(profile_of(profile, path)));
-    }
+    };
+    for (const std::string& path : mentioned_) add(path);
+    for (const Flow& flow : profile.flows) add(flow_path("", flow.name)); // unless it is there
 }
 
 const std::shared_ptr<const Script>& Scripts::of(std::string_view path) const
 {
-    const auto found = own_.find(path);
-    return found == own_.end() ? usual_ : found->second;
+    for (const std::string_view name : {path, common_name(path)}) {
+        if (const auto found = own_.find(name); found != own_.end()) return found->second;
+    }
+    return usual_;
 }
 
 Paths::CommandFor Scripts::command() const

@@ -16,56 +16,21 @@ namespace hapnet::emulator {
 
 // The frame of an emulator: docs/formats/live.md.
 
-/// Times from arrival to departure.
-struct DelaySpread {
-    base::Duration min{};
-    base::Duration mean{};
-    base::Duration max{};
-};
-constexpr auto fields_of(base::Tag<DelaySpread>)
-{
-    return base::fields("delay spread", base::member("min", &DelaySpread::min),
-                        base::member("mean", &DelaySpread::mean),
-                        base::member("max", &DelaySpread::max));
-}
-
-/// Times sent minus times due.
-struct LateSpread {
-    base::Duration mean{};
-    base::Duration max{};
-};
-constexpr auto fields_of(base::Tag<LateSpread>)
-{
-    return base::fields("late spread", base::member("mean", &LateSpread::mean),
-                        base::member("max", &LateSpread::max));
-}
-
 /// One direction of a path since the frame before; what waits to leave is that of now.
 struct WayFrame {
     Counters counters;
     Pulse pulse;
-
-    [[nodiscard]] std::optional<DelaySpread> delay() const
-    {
-        if (pulse.count == 0) return std::nullopt;
-        return DelaySpread{pulse.delay_min, pulse.delay_mean(), pulse.delay_max};
-    }
-    [[nodiscard]] std::optional<LateSpread> late() const
-    {
-        if (pulse.count == 0) return std::nullopt;
-        return LateSpread{pulse.late_mean(), pulse.late_max};
-    }
 };
 constexpr auto fields_of(base::Tag<WayFrame>)
 {
     using W = WayFrame;
     return base::fields("way", base::part(&W::counters).without_zeros(),
                         base::computed<W>(
-                            "delay_ms", [](const W& way) { return way.delay(); },
+                            "delay_ms", [](const W& way) { return way.pulse.delay(); },
                             "From arrival to departure of what was delivered. null: nothing was.")
                             .rounded(4),
                         base::computed<W>(
-                            "late_us", [](const W& way) { return way.late(); },
+                            "late_us", [](const W& way) { return way.pulse.late(); },
                             "Time sent minus time due. null: nothing was delivered.")
                             .rounded(1));
 }

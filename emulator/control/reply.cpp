@@ -7,6 +7,8 @@
 #include "emulator/control/moment.hpp"
 #include "emulator/control/run_statistics.hpp"
 #include "emulator/control/settings.hpp"
+#include "emulator/core/path_name.hpp"
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "proto/control/core/reply.hpp"
@@ -101,14 +103,16 @@ Json conditions_json(const Moment& moment)
     return json;
 }
 
-/// Of the only path, or of each by its name.
+/// The values of the only path, or of each path by its name. Each has the values of its flows.
 Json effective_at(const std::vector<NextNumbers>& all)
 {
     Json json = Json::object();
     for (const NextNumbers& next : all) {
-        Json numbers{{"up", next.up}, {"down", next.down}};
-        if (next.name.empty()) return numbers;
-        json[next.name] = std::move(numbers);
+        const auto [path, flow] = parts_of(next.name);
+        Json& of_path = path.empty() ? json : json[std::string{path}];
+        Json& numbers = flow.empty() ? of_path : of_path["flows"][std::string{flow}];
+        numbers["up"] = next.up;
+        numbers["down"] = next.down;
     }
     return json;
 }
@@ -188,13 +192,14 @@ Json live_of(const Director& director)
 Profile remaining_of(const Emulation& emulation, const std::vector<Decider>& deciders)
 {
     const bool has_clients = emulation.paths.names().clients;
-    if (has_clients || deciders.size() == 1) {
-        Profile remaining = deciders.back().director.remaining();
-        if (deciders.back().name.empty()) return remaining;
-    }
     std::vector<NamedProfile> profiles;
-    for (const Decider& one : deciders) profiles.push_back({one.name, one.director.remaining()});
-    return joined(profiles);
+    for (const Decider& one : deciders) {
+        const bool is_common = one.name == common_name(one.name) && !one.is_there;
+        if (has_clients && !is_common) continue;
+        profiles.push_back({one.name, one.director.remaining()});
+    }
+    if (profiles.size() == 1 && profiles.front().path.empty()) return profiles.front().profile;
+    return joined(profiles, emulation.paths.flows());
 }
 
 } // namespace
@@ -244,6 +249,9 @@ std::string reply_to(const ApplyRequest& request, Emulation& emulation, base::Ti
     std::vector<std::string> warnings;
     const auto profile = parsed(request.profile, request.files, emulation, warnings);
     if (!profile) return refusal(profile.error().message);
+    if (const auto same = ensure_same_flows(*profile, emulation.paths.flows()); !same) {
+        return refusal(same.error().message);
+    }
     const Scripts scripts{*profile};
     auto effect = effect_of(scripts.command(), scripts.mentioned(), emulation, now);
     if (effect && !warnings.empty()) (*effect)["warnings"] = std::move(warnings);
@@ -255,6 +263,9 @@ std::string reply_to(const DiffRequest& request, Emulation& emulation, base::Tim
     std::vector<std::string> warnings;
     const auto profile = parsed(request.profile, request.files, emulation, warnings);
     if (!profile) return refusal(profile.error().message);
+    if (const auto same = ensure_same_flows(*profile, emulation.paths.flows()); !same) {
+        return refusal(same.error().message);
+    }
     const Moment moment = moment_of(emulation, now);
     Json changes = Json::array();
     bool is_other_timeline = false;
@@ -307,10 +318,17 @@ nlohmann::ordered_json statistics_of(Emulation& emulation)
 
 output::Metrics metrics_of(nlohmann::ordered_json statistics)
 {
-    // Not the sums of links besides: whoever adds up would count all twice.
-    if (statistics.contains("links")) {
-        statistics.erase("up");
-        statistics.erase("down");
+    // Not the sums of links and flows besides: whoever adds up would count all twice.
+    const auto leave_parts_of = [](nlohmann::ordered_json& whole, const char* parts) {
+        if (!whole.contains(parts)) return false;
+        whole.erase("up");
+        whole.erase("down");
+        return true;
+    };
+    leave_parts_of(statistics, "flows");
+    if (leave_parts_of(statistics, "links")) {
+        statistics.erase("flows");
+        for (auto& link : statistics["links"]) leave_parts_of(link, "flows");
     }
     output::Metrics metrics;
     metrics.add(base::field_table<RunStatistics>(), statistics);

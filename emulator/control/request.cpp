@@ -111,6 +111,9 @@ base::Result<Request> parse_request(std::string_view line, std::optional<base::D
     const std::string command = members.text("command");
     if (members.error()) return base::fail(*members.error());
     if (std::find(commands.begin(), commands.end(), command) == commands.end()) {
+        if (command == "estop") {
+            return base::fail("an emulator has no emergency stop, as it moves no device: use stop");
+        }
         return base::fail(fmt::format("\"command\" must be one of {}", fmt::join(commands, ", ")));
     }
     return members.finish(request_of(command, members, held));

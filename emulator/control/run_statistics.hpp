@@ -95,6 +95,23 @@ constexpr auto fields_of(base::Tag<CourseReport>)
             .left_out_if_none());
 }
 
+/// A flow, or the rest.
+struct FlowReport {
+    CourseReport course;
+    DirectionReport up;
+    DirectionReport down;
+};
+constexpr auto fields_of(base::Tag<FlowReport>)
+{
+    using F = FlowReport;
+    return base::fields("flow", base::part(&F::course),
+                        base::member("up", &F::up, "From A to B.").label("direction"),
+                        base::member("down", &F::down, "From B to A.").label("direction"));
+}
+
+/// By their names, and last the rest.
+using FlowReports = base::Entries<FlowReport>;
+
 /// A client of a server.
 struct ClientReport {
     std::uint64_t number = 0;
@@ -103,15 +120,17 @@ struct ClientReport {
     CourseReport course;
     DirectionReport up;
     DirectionReport down;
+    std::optional<FlowReports> flows{};
 };
 constexpr auto fields_of(base::Tag<ClientReport>)
 {
     using C = ClientReport;
-    return base::fields("client",
-                        base::member("client", &C::number, "The number n of its streams."),
-                        base::member("name", &C::name, "The name of its path."),
-                        base::member("address", &C::address), base::part(&C::course),
-                        base::member("up", &C::up), base::member("down", &C::down));
+    return base::fields(
+        "client", base::member("client", &C::number, "The number n of its streams."),
+        base::member("name", &C::name, "The name of its path."),
+        base::member("address", &C::address), base::part(&C::course), base::member("up", &C::up),
+        base::member("down", &C::down),
+        base::member("flows", &C::flows, "In a run with flows: see there.").left_out_if_none());
 }
 
 /// One of several links.
@@ -123,19 +142,22 @@ struct LinkReport {
     CourseReport course;
     DirectionReport up;
     DirectionReport down;
+    std::optional<FlowReports> flows{};
 };
 constexpr auto fields_of(base::Tag<LinkReport>)
 {
     using L = LinkReport;
     return base::fields(
         "link",
-        base::member("listen_1", &L::listen_1, "The emulator's address towards the first end."),
-        base::member("listen_2", &L::listen_2, "That towards the second."),
-        base::member("end_1", &L::end_1, "The first end; null while it is not known."),
-        base::member("end_2", &L::end_2, "The second end; null while it is not known."),
-        base::part(&L::course),
-        base::member("up", &L::up, "From its first end to its second.").label("direction"),
-        base::member("down", &L::down, "From its second end to its first.").label("direction"));
+        base::member("listen_1", &L::listen_1, "The emulator's address towards A, its first end."),
+        base::member("listen_2", &L::listen_2, "That towards B, its second end."),
+        base::member("end_1", &L::end_1, "A; null while it is not known."),
+        base::member("end_2", &L::end_2, "B; null while it is not known."), base::part(&L::course),
+        base::member("up", &L::up, "From A to B.").label("direction"),
+        base::member("down", &L::down, "From B to A.").label("direction"),
+        base::member("flows", &L::flows, "In a run with flows: see there.")
+            .label("flow")
+            .left_out_if_none());
 }
 
 /// What a network interface passed on, apart from what its path did.
@@ -324,6 +346,8 @@ struct RunStatistics {
     DirectionReport down;
     std::optional<base::Entries<LinkReport>> links{};
     std::optional<std::vector<ClientReport>> clients{};
+    std::optional<FlowReports> flows{};
+    std::optional<std::uint64_t> unknown_fragments{};
     std::optional<base::Duration> elapsed{};
     std::vector<CheckReport> checks;
 };
@@ -350,6 +374,15 @@ constexpr auto fields_of(base::Tag<RunStatistics>)
         base::member("clients", &S::clients,
                      "With `--upstream`: the clients at present. `up` and `down` of the run are "
                      "then sums over all, also over those that were forgotten, without `lens`.")
+            .left_out_if_none(),
+        base::member("flows", &S::flows,
+                     "With [`[[flow]]`](profile.md#flows): each flow by its name, and `rest`, what "
+                     "belongs to none. `up` and `down` are then their sums, without `lens`. Where "
+                     "there are several paths, each has its flows, and these are the sums of all.")
+            .label("flow")
+            .left_out_if_none(),
+        base::member("unknown_fragments", &S::unknown_fragments,
+                     "With flows: later fragments of packets whose first one did not come before.")
             .left_out_if_none(),
         base::member("elapsed_s", &S::elapsed, "While the run lasts: the time since its start.")
             .gauge("hapnet_emulator_elapsed")

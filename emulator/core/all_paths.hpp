@@ -33,6 +33,7 @@ public:
     [[nodiscard]] base::TimePoint latest_now() const;
     [[nodiscard]] std::optional<base::TimePoint> next_change() const;
     [[nodiscard]] PathNames names() const { return parts_.front()->names(); }
+    [[nodiscard]] const std::vector<Flow>& flows() const { return parts_.front()->flows(); }
 
     /// Those that are there, in each part in the order in which they came.
     [[nodiscard]] std::vector<const Paths::Named*> all() const;

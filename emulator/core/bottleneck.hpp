@@ -20,7 +20,9 @@
 namespace hapnet::emulator {
 
 /// A line that sends one datagram after another at a rate, or as a trace allows it, with a queue
-/// before it, or with one for each flow. Exact: n of b bits that follow each other take ceil(n b /
+/// before it, or with one for each flow. With a burst it is a token bucket: a datagram of L bytes
+/// that arrives at A leaves at max(A, F), where F = max(F of the one before, A - burst / rate) +
+/// L / rate. Exact: n of b bits that follow each other take ceil(n b /
 /// rate), to the nanosecond, and a change of the rate in the midst of one counts the bits that were
 /// already sent.
 class Bottleneck {
@@ -34,6 +36,7 @@ public:
           queue_{datagrams_max},
           start_{start}
     {
+        fill_bucket(start);
         make_fair(manager.control());
     }
 
@@ -70,11 +73,15 @@ public:
     }
 
     /// Takes a datagram that arrives now, not before the last one. Ensures that there is room.
-    /// `flow`: a hash of its flow, if it is_fair().
-    void push(const Datagram& datagram, const Fate& fate, std::uint32_t flow = 0)
+    /// `flow`: a hash of its flow, if it is_fair(). `owner`: see Queued.
+    void push(const Datagram& datagram, const Fate& fate, std::uint32_t flow = 0,
+              Link* owner = nullptr)
     {
         base::ensure(!queue_.is_full_with(queue_.size() + waiting_turns()));
-        const Queued entry{datagram, fate, datagram.size() + rate_.overhead_bytes};
+        const Queued entry{.datagram = datagram,
+                           .fate = fate,
+                           .line_bytes = datagram.size() + rate_.overhead_bytes,
+                           .owner = owner};
         const bool was_idle = queue_.empty();
         if (was_idle && rate_.trace && !trace_start_) {
             trace_start_ = begin_of_trace(datagram.arrival);
@@ -86,7 +93,7 @@ public:
             queue_.push(entry);
         }
         if (was_idle) {
-            next_head(datagram.arrival, 0, true);
+            next_head(datagram.arrival, credit_at(datagram.arrival), true);
         } else if (is_fair()) {
             make_room(datagram.arrival);
         }
@@ -116,6 +123,7 @@ public:
         sent.datagram.due = at;
         sent.begun = begun_;
         next_sent_.reset();
+        credit_ = {at, spare_};
         if (!queue_.empty() || waiting_turns() > 0) {
             next_head(at, spare_, !sent.dropped);
         } else if (is_fair()) {
@@ -135,9 +143,12 @@ public:
 
         if (!queue_.empty() && is_on_ && now > since_) work_ -= std::min(work_, sent_until(now));
         since_ = std::max(since_, now);
+        credit_ = {since_, credit_at(since_)};
+        const bool was_on = is_on_;
         if (rate.trace != rate_.trace) trace_start_.reset();
         rate_ = rate;
         is_on_ = rate.is_on();
+        if (!was_on) fill_bucket(since_);
         make_fair(control);
         if (queue_.empty()) return;
         if (rate_.trace && !trace_start_) trace_start_ = begin_of_trace(since_);
@@ -145,6 +156,26 @@ public:
     }
 
 private:
+    /// The capacity that the line has left unused up to a time.
+    struct Credit {
+        base::TimePoint at{};
+        Work work = 0;
+    };
+
+    void fill_bucket(base::TimePoint now) { credit_ = {now, rate_.burst_bytes * work_per_byte}; }
+
+    /// The unused capacity of an idle line, at most the burst.
+    [[nodiscard]] Work credit_at(base::TimePoint now) const
+    {
+        const Work most = rate_.burst_bytes * work_per_byte;
+        if (most <= credit_.work || !is_on_) return most;
+        const auto passed =
+            static_cast<std::uint64_t>(std::max(now - credit_.at, base::Duration{0}).count());
+        const Work lacking = most - credit_.work;
+        const bool is_full = passed > lacking / rate_.bits_per_second;
+        return is_full ? most : credit_.work + passed * rate_.bits_per_second;
+    }
+
     [[nodiscard]] std::size_t waiting_turns() const { return is_fair() ? fair_->size() : 0; }
 
     /// Gives each flow a queue, or none. What waits in those that are there is served first then.
@@ -281,6 +312,7 @@ private:
     base::TimePoint begun_{};                  // when the line began to send the front
     std::optional<base::TimePoint> next_sent_; // of the front
     Work spare_ = 0;                           // at that moment
+    Credit credit_{};                          // when the last one had left
     base::TimePoint start_;                    // of the run
     std::optional<base::TimePoint> trace_start_;
 };

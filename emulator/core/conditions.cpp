@@ -17,6 +17,9 @@ base::Result<void> validate(const Rate& rate)
 {
     constexpr std::size_t overhead_max = 1000;
     return all({require(rate.overhead_bytes <= overhead_max, "overhead must be at most 1000B"),
+                require(rate.burst_bytes <= Rate::burst_bytes_most, "burst must be at most 1GiB"),
+                require(rate.burst_bytes == 0 || !rate.trace,
+                        "burst goes with a limit: a trace says itself what may leave at once"),
                 rate.trace ? rate.trace->validate() : base::Result<void>{}});
 }
 

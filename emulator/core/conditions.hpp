@@ -108,12 +108,17 @@ constexpr auto fields_of(base::Tag<Mtu>)
 }
 
 /// A bottleneck that sends so many bits a second, one datagram after the other, from a queue that
-/// drops what does not fit (QueueControl may drop more). 0 bits and no trace: no bottleneck.
+/// drops what does not fit (QueueControl may drop more). 0 bits and no trace: no bottleneck. With a
+/// burst it is a token bucket: what the line could have sent while it had nothing to send, up to so
+/// many bytes, leaves at once.
 struct Rate {
+    static constexpr std::size_t burst_bytes_most = std::size_t{1} << 30;
+
     std::uint64_t bits_per_second = 0;
     std::size_t overhead_bytes = 28;        // added to each payload: IPv4 and UDP
     std::size_t queue_bytes_max = 64 << 10; // waiting, with overhead, besides the one being sent
     std::optional<RateTraceLaw> trace{};    // instead of bits_per_second
+    std::size_t burst_bytes = 0;            // with overhead; full when the run begins
 
     [[nodiscard]] bool is_on() const { return bits_per_second > 0 || trace.has_value(); }
 
@@ -130,7 +135,9 @@ constexpr auto fields_of(base::Tag<Rate>)
         base::field("overhead", &Rate::overhead_bytes, base::Size{},
                     "added to each payload for the headers"),
         base::field("queue", &Rate::queue_bytes_max, base::Size{},
-                    "waiting room before the bottleneck; a datagram that does not fit is dropped"));
+                    "waiting room before the bottleneck; a datagram that does not fit is dropped"),
+        base::field("burst", &Rate::burst_bytes, base::Size{},
+                    "depth of a token bucket: bytes that leave at once after a pause; 0: none"));
 }
 
 // Whether a stage can do what it says; the error says what would be right.

@@ -48,6 +48,8 @@ struct Datagram {
     [[nodiscard]] std::size_t size() const { return bytes.size() - envelope_bytes; }
 };
 
+class Link;
+
 /// A datagram whose time of leaving is not known yet.
 struct Queued {
     Datagram datagram; // due: when its last bit left the bottleneck, or its own time without others
@@ -56,6 +58,7 @@ struct Queued {
     base::TimePoint begun{};            // when it began to send it
     bool is_marked = false;             // by the law of the queue
     std::optional<DropCause> dropped{}; // by the queue, instead of being sent
+    Link* owner = nullptr; // that it goes on through; null: the one whose bottleneck this is
 };
 
 } // namespace hapnet::emulator

@@ -39,9 +39,10 @@ std::optional<StreamShape> DirectionReport::lens() const
 {
     constexpr double ns_per_ms = 1e6;
     if (stream == nullptr) return std::nullopt;
-    StreamShape lens{.measured = stream->report(), .distribution = {}};
+    StreamShape lens{.measured = stream->report(), .distribution = {}, .over_time = {}};
     if (has_distributions) {
         lens.distribution = distribution_of(stream->delays.delays(), ns_per_ms);
+        if (stream->over_time) lens.over_time = stream->over_time->report();
     }
     return lens;
 }

@@ -75,6 +75,7 @@ constexpr auto fields_of(base::Tag<ReorderReport>)
 struct StreamShape {
     StreamReport measured;
     std::optional<Distribution> distribution; // of the delays
+    std::optional<std::vector<StretchReport>> over_time;
 
     [[nodiscard]] std::optional<DelayReport> delay() const;
 };
@@ -122,7 +123,11 @@ constexpr auto fields_of(base::Tag<StreamShape>)
             "age_ms", [](const L& lens) -> const auto& { return lens.measured.age; },
             "Age of information (Kaul, Yates, Gruteser, 2012): how old the newest datagram at the "
             "output is, averaged over time, and just before each newer one leaves, on average and "
-            "at most. null: fewer than two left in order."));
+            "at most. null: fewer than two left in order."),
+        base::member("over_time", &L::over_time,
+                     "With --fates, at the end of the run: the run in at most 256 stretches, from "
+                     "10 ms long, as a list of [these](#a-stretch-of-a-run).")
+            .left_out_if_none());
 }
 
 /// What a run knows of one direction.
@@ -131,6 +136,7 @@ struct DirectionReport {
     const StreamTotals* stream = nullptr; // nullptr: of the sum of several paths
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
+    std::uint64_t unreachable = 0;
     base::Duration budget{};
     bool has_distributions = false; // whole distributions, not quantiles alone
 
@@ -167,6 +173,12 @@ constexpr auto fields_of(base::Tag<DirectionReport>)
                      "They are not in `received` either; a message may be up to 64 datagrams of a "
                      "sender that merges them (UDP_SEGMENT).")
             .told("overflowed"),
+        base::member(
+            "unreachable", &D::unreachable,
+            "Answers that no program listens where `delivered` datagrams went (ICMP, \"port "
+            "unreachable\"). Hosts limit how many they send.")
+            .told("unreachable")
+            .counter("hapnet_emulator_unreachable"),
         base::computed<D>(
             "over_budget", [](const D& one) { return one.statistics->late_beyond(one.budget); },
             "Datagrams that left later than the budget."),

@@ -70,7 +70,10 @@ public:
 
     /// `visit(number)` for all where something is due at `now`, by their numbers, after refresh().
     /// It may mark places.
-    void each_due(base::TimePoint now, const auto& visit) const { each_due_below(1, now, visit); }
+    void each_due(base::TimePoint now, const auto& visit) const
+    {
+        if (is_due(1, now)) each_due_below(1, now, visit);
+    }
 
 private:
     static constexpr base::TimePoint never = base::TimePoint::max();
@@ -110,12 +113,26 @@ private:
         }
     }
 
+    [[nodiscard]] bool is_due(std::size_t node, base::TimePoint now) const
+    {
+        return tree_[node] <= now && tree_[node] != never;
+    }
+
+    /// Visits what is due below a node that has something due. It calls itself only where both
+    /// halves have: mostly one leaf is due.
     void each_due_below(std::size_t node, base::TimePoint now, const auto& visit) const
     {
-        if (tree_[node] == never || tree_[node] > now) return;
-        if (node >= leaves()) return visit(node - leaves());
-        each_due_below(2 * node, now, visit);
-        each_due_below(2 * node + 1, now, visit);
+        while (node < leaves()) {
+            node *= 2;
+            if (!is_due(node, now)) {
+                ++node;
+            } else if (is_due(node + 1, now)) {
+                each_due_below(node, now, visit);
+                ++node;
+                if (!is_due(node, now)) return; // visit() has changed it
+            }
+        }
+        visit(node - leaves());
     }
 
     std::vector<base::TimePoint> tree_{never, never}; // the root is [1], the leaves the last half

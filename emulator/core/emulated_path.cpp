@@ -25,8 +25,9 @@ Link make_link(const std::shared_ptr<const Path>& path, const EmulatedPath::Setu
                      .start = setup.start,
                      .limits = setup.limits,
                      .slab = slab,
-                     .has_stream_statistics = setup.has_stream_statistics,
-                     .name = setup.name};
+                     .stream_detail = setup.stream_detail,
+                     .name = setup.name,
+                     .place = setup.place};
     if (setup.replay) {
         const auto& fates = is_up ? setup.replay->up : setup.replay->down;
         link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});

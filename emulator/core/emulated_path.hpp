@@ -6,6 +6,7 @@
 #include "emulator/core/director.hpp"
 #include "emulator/core/due_times.hpp"
 #include "emulator/core/fates/fates.hpp"
+#include "emulator/core/flow/branches.hpp"
 #include "emulator/core/link.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
@@ -16,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace hapnet::emulator {
 
@@ -31,8 +33,8 @@ public:
         QueueLimits limits{};                  // of each direction
         std::shared_ptr<Slab> slab{};          // null: one for both, as large as the limits say
         std::shared_ptr<const Fates> replay{}; // null: fates are drawn
-        bool has_stream_statistics = true;     // false: they are not asked for
-        std::string name{};                    // where there are several; see path_name.hpp
+        StreamDetail stream_detail = StreamDetail::totals;
+        std::string name{}; // where there are several; see path_name.hpp
         std::size_t changes_max = ChangeLog::entries_max; // that are kept
         DueTimes::Place place{}; // where it says that next_due() may have changed
     };
@@ -101,6 +103,18 @@ public:
     /// The same of one that has only followed its timeline.
     void follow(const Director& director, base::TimePoint now);
 
+    /// Its datagrams go through the bottlenecks of another path; see Link::share_bottleneck_of().
+    void share_bottlenecks_of(EmulatedPath& other)
+    {
+        up_.share_bottleneck_of(other.up_);
+        down_.share_bottleneck_of(other.down_);
+    }
+
+    /// From now on packets of a flow go to the path of that flow.
+    void branch(std::unique_ptr<Branches> branches) { branches_ = std::move(branches); }
+    /// The flows beside it; null: there are none.
+    [[nodiscard]] Branches* branches() const { return branches_.get(); }
+
     /// See Link::take_pulse().
     [[nodiscard]] Pulse take_pulse(Direction direction) { return link_of(direction).take_pulse(); }
 
@@ -131,6 +145,7 @@ private:
     std::shared_ptr<const Path> enacted_; // what the links do
     Link up_;
     Link down_;
+    std::unique_ptr<Branches> branches_; // null: all traffic is its own
 };
 
 } // namespace hapnet::emulator

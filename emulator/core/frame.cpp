@@ -228,6 +228,22 @@ std::uint32_t flow_of(std::span<const std::byte> frame)
     return hash.value();
 }
 
+bool says_port_unreachable(const Frame& frame, std::span<const std::byte> bytes)
+{
+    if (frame.kind != FrameKind::ip) return false;
+    const auto packet = bytes.subspan(frame.header_bytes);
+    const auto byte_at = [&](std::size_t at) {
+        return at < packet.size() ? std::to_integer<unsigned>(packet[at]) : 0U;
+    };
+    const auto says = [&](std::size_t at, unsigned type, unsigned code) {
+        return byte_at(at) == type && byte_at(at + 1) == code;
+    };
+    constexpr unsigned icmp = 1;
+    constexpr unsigned icmp_v6 = 58;
+    if (byte_at(0) >> 4U == 6) return byte_at(6) == icmp_v6 && says(40, 1, 4);
+    return byte_at(9) == icmp && says(std::size_t{4} * (byte_at(0) & 0xfU), 3, 3);
+}
+
 /// The checksum is brought up to date by what has changed (RFC 1624, equation 3).
 void mark_congestion(std::span<std::byte> frame)
 {

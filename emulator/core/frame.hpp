@@ -39,6 +39,10 @@ struct Frame {
 /// Fragments have no ports, so that all of a packet belong together; what is not IP is one flow.
 [[nodiscard]] std::uint32_t flow_of(std::span<const std::byte> frame);
 
+/// True for a frame with the message "port unreachable" of ICMP or ICMPv6 (RFC 792, RFC 4443): no
+/// program listens where a datagram went.
+[[nodiscard]] bool says_port_unreachable(const Frame& frame, std::span<const std::byte> bytes);
+
 /// Marks the IP packet of a frame as having experienced congestion (RFC 3168), with the checksum
 /// that belongs to it. Ensures that it has marks.
 void mark_congestion(std::span<std::byte> frame);

@@ -3,6 +3,7 @@
 #include "emulator/core/link.hpp"
 
 #include "emulator/core/frame.hpp"
+#include "proto/base/ensure.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -51,9 +52,11 @@ Link::Link(std::shared_ptr<const Conditions> conditions, const Setup& setup)
       pipeline_{*conditions_, setup.seed, setup.direction, setup.name},
       slab_{setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)},
       line_{setup.limits.datagrams_max},
-      bottleneck_{conditions_->rate, setup.limits.datagrams_max, setup.start,
-                  QueueManager{conditions_->queue, pipeline_.stream("queue")}},
-      last_arrival_{setup.start}
+      bottleneck_{std::make_shared<Bottleneck>(
+          conditions_->rate, setup.limits.datagrams_max, setup.start,
+          QueueManager{conditions_->queue, pipeline_.stream("queue")})},
+      last_arrival_{setup.start},
+      stream_statistics_{setup.stream_detail, setup.start}
 {
     displaced_.reserve(displaced_max);
 }
@@ -78,8 +81,8 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     ++statistics_.received;
     statistics_.bytes_in += packet.bytes;
     if (headers.marks.is_congested()) ++statistics_.ce_in;
-    const std::uint32_t flow = bottleneck_.is_fair() ? flow_in(datagram) : 0;
-    if (bottleneck_.is_on() && fate.drop != DropCause::mtu) {
+    const std::uint32_t flow = bottleneck_->is_fair() ? flow_in(datagram) : 0;
+    if (bottleneck_->is_on() && fate.drop != DropCause::mtu) {
         refuse_or_pass(datagram, flow, admission);
     }
     if (!admission.drop) {
@@ -91,8 +94,8 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
             admission.drop = DropCause::queue_full;
         }
     }
-    if (admission.drop) ++statistics_.dropped[*admission.drop];
-    if (setup_.has_stream_statistics) stream_statistics_.on_packet(fate);
+    stream_statistics_.on_packet(fate, last_arrival_);
+    if (admission.drop) note_drop(*admission.drop, last_arrival_);
     return admission;
 }
 
@@ -106,19 +109,33 @@ Fate Link::fate_of(const Packet& packet)
 void Link::refuse_or_pass(Datagram& datagram, std::uint32_t flow, Admission& admission)
 {
     const base::IpMarks before = datagram.marks;
-    if (const auto refused = bottleneck_.refuses(datagram)) {
+    if (const auto refused = bottleneck_->refuses(datagram)) {
         admission.drop = refused;
     } else if (admission.fate.drop) {
-        bottleneck_.push(datagram, admission.fate, flow);
+        queue_up(datagram, flow, admission.fate);
     } else if (datagram.marks != before) {
         ++statistics_.ce_marked;
     }
 }
 
+void Link::queue_up(const Datagram& datagram, std::uint32_t flow, const Fate& fate)
+{
+    if (through_ == nullptr) return bottleneck_->push(datagram, fate, flow);
+    bottleneck_->push(datagram, fate, flow, this);
+    through_->setup_.place.mark();
+}
+
+void Link::share_bottleneck_of(Link& other)
+{
+    base::ensure(bottleneck_->is_idle() && !bottleneck_->is_on());
+    bottleneck_ = other.bottleneck_;
+    through_ = &other;
+}
+
 bool Link::passes_untouched(const Fate& fate) const
 {
     return fate.delay == base::Duration{0} && !fate.copy_after && fate.flips.count == 0 &&
-           fate.displacement == Displacement{} && !bottleneck_.is_on() && bottleneck_.is_idle() &&
+           fate.displacement == Displacement{} && !bottleneck_->is_on() && bottleneck_->is_idle() &&
            line_.size() == 0 && displaced_.empty();
 }
 
@@ -131,8 +148,8 @@ bool Link::hold(Datagram& datagram, std::uint32_t flow, const Fate& fate)
         apply(fate.flips, stored->subspan(datagram.envelope_bytes));
         ++statistics_.corrupted;
     }
-    if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
-        bottleneck_.push(datagram, fate, flow);
+    if (bottleneck_->is_on() || !bottleneck_->is_idle()) {
+        queue_up(datagram, flow, fate);
     } else {
         schedule(datagram, fate);
     }
@@ -231,7 +248,7 @@ std::optional<Datagram> Link::poll(base::TimePoint now)
 /// Moves on what has left the bottleneck by `now`, and what has waited long enough to be overtaken.
 void Link::move_on(base::TimePoint now)
 {
-    while (const auto passed = bottleneck_.pop(now)) on_passed(*passed);
+    (through_ == nullptr ? *this : *through_).empty_bottleneck(now);
     if (displaced_.empty()) return;
     std::erase_if(displaced_, [&](const Queued& waiting) {
         const auto latest = waiting.datagram.due + displaced_for_max;
@@ -243,13 +260,29 @@ void Link::move_on(base::TimePoint now)
     });
 }
 
+/// Each goes on through the link that it came from.
+void Link::empty_bottleneck(base::TimePoint now)
+{
+    while (const auto passed = bottleneck_->pop(now)) {
+        if (passed->owner == nullptr) {
+            on_passed(*passed);
+        } else {
+            passed->owner->on_passed(*passed);
+            passed->owner->setup_.place.mark();
+        }
+    }
+}
+
 /// It has left the bottleneck, or its queue has dropped it.
 void Link::on_passed(const Queued& passed)
 {
-    if (!passed.dropped) statistics_.sojourn.add(passed.begun - passed.datagram.arrival);
+    if (!passed.dropped) {
+        statistics_.sojourn.add(passed.begun - passed.datagram.arrival);
+        stream_statistics_.on_begun(passed.datagram.arrival, passed.begun);
+    }
     if (passed.fate.drop) return; // it was counted when it arrived
     if (passed.dropped) {
-        ++statistics_.dropped[*passed.dropped];
+        note_drop(*passed.dropped, passed.datagram.due);
         release(passed.datagram);
         return;
     }
@@ -263,7 +296,8 @@ void Link::on_passed(const Queued& passed)
 
 std::optional<base::TimePoint> Link::next_deadline() const
 {
-    auto deadline = base::earlier(line_.next_due(), bottleneck_.next_sent());
+    auto deadline = line_.next_due();
+    if (through_ == nullptr) deadline = base::earlier(deadline, bottleneck_->next_sent());
     for (const Queued& waiting : displaced_) {
         deadline = base::earlier(deadline, waiting.datagram.due + displaced_for_max);
     }
@@ -277,15 +311,26 @@ void Link::on_sent(const Datagram& datagram, base::TimePoint at)
     if (datagram.marks.is_congested()) ++statistics_.ce_out;
     statistics_.lateness.add(at - datagram.due);
     if (pulse_) pulse_->on_sent(at - datagram.arrival, at - datagram.due);
-    if (setup_.has_stream_statistics) stream_statistics_.on_sent(datagram, at);
+    stream_statistics_.on_sent(datagram, at);
     if (!expected_.add(datagram.number) && !datagram.is_copy) ++statistics_.reordered;
     release(datagram);
 }
 
 void Link::on_failed(const Datagram& datagram, DropCause cause)
 {
-    ++statistics_.dropped[cause];
+    if (datagram.is_copy) {
+        ++statistics_.dropped[cause];
+    } else {
+        note_drop(cause, datagram.due);
+    }
     release(datagram);
+}
+
+/// Counts the drop of a datagram that is not a copy.
+void Link::note_drop(DropCause cause, base::TimePoint at)
+{
+    ++statistics_.dropped[cause];
+    stream_statistics_.on_dropped(at);
 }
 
 void Link::share(std::shared_ptr<const Conditions> conditions, base::TimePoint now)
@@ -293,7 +338,7 @@ void Link::share(std::shared_ptr<const Conditions> conditions, base::TimePoint n
     // A change is stamped by what arrives on either side: it may come after a later arrival here.
     const auto at = std::max(now, last_arrival_);
     advance(at);
-    bottleneck_.change(conditions->rate, at, conditions->queue);
+    if (through_ == nullptr) bottleneck_->change(conditions->rate, at, conditions->queue);
     pipeline_.change(*conditions);
     conditions_ = std::move(conditions);
 }

@@ -6,6 +6,7 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/datagram.hpp"
 #include "emulator/core/delay_line.hpp"
+#include "emulator/core/due_times.hpp"
 #include "emulator/core/fate.hpp"
 #include "emulator/core/fates/replay.hpp"
 #include "emulator/core/pipeline.hpp"
@@ -49,10 +50,11 @@ public:
         Direction direction = Direction::up;
         base::TimePoint start{}; // time 0 of windows and periods
         QueueLimits limits{};
-        std::shared_ptr<Slab> slab{};      // for the bytes in flight; null: one of its own
-        std::optional<Replay> replay{};    // gives the fates instead of the conditions
-        bool has_stream_statistics = true; // false: they are not asked for
-        std::string name{};                // of the path, where there are several: "1-2"
+        std::shared_ptr<Slab> slab{};   // for the bytes in flight; null: one of its own
+        std::optional<Replay> replay{}; // gives the fates instead of the conditions
+        StreamDetail stream_detail = StreamDetail::totals;
+        std::string name{};      // of the path, where there are several: "1-2"
+        DueTimes::Place place{}; // where it says that another link may have changed its deadline
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
@@ -92,6 +94,12 @@ public:
     /// The same of conditions that other links have, too. Not null.
     void share(std::shared_ptr<const Conditions> conditions, base::TimePoint now);
 
+    /// From now on its datagrams go through the bottleneck and the queue of another link of the
+    /// same direction, and afterwards on through this one. Of all that share them, the earliest
+    /// arrival comes first. Ensures that it has no rate of its own. The other stays where it is,
+    /// and outlives what is in flight here.
+    void share_bottleneck_of(Link& other);
+
     [[nodiscard]] const Conditions& conditions() const { return *conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
@@ -102,18 +110,21 @@ public:
 private:
     [[nodiscard]] Fate fate_of(const Packet& packet);
     void refuse_or_pass(Datagram& datagram, std::uint32_t flow, Admission& admission);
+    void queue_up(const Datagram& datagram, std::uint32_t flow, const Fate& fate);
+    void empty_bottleneck(base::TimePoint now);
     void on_passed(const Queued& passed);
     [[nodiscard]] bool passes_untouched(const Fate& fate) const;
     [[nodiscard]] bool hold(Datagram& datagram, std::uint32_t flow, const Fate& fate);
     [[nodiscard]] std::optional<std::span<std::byte>> store(Datagram& datagram);
     void release(const Datagram& datagram);
+    void note_drop(DropCause cause, base::TimePoint at);
     void schedule(Datagram& datagram, const Fate& fate);
     void schedule_copy(Datagram copy, base::Duration after);
     void put(const Datagram& datagram);
     void release_displaced(std::uint64_t scheduled, base::TimePoint due);
     void advance(base::TimePoint now)
     {
-        const bool is_plain = bottleneck_.is_idle() && displaced_.empty();
+        const bool is_plain = bottleneck_->is_idle() && displaced_.empty();
         if (!is_plain) move_on(now);
     }
     void move_on(base::TimePoint now);
@@ -125,7 +136,8 @@ private:
     std::size_t held_datagrams_ = 0; // in the slab
     std::size_t held_bytes_ = 0;     // of the slab
     DelayLine line_;
-    Bottleneck bottleneck_;
+    std::shared_ptr<Bottleneck> bottleneck_; // never null
+    Link* through_ = nullptr;                // whose bottleneck it is; null: the own one
     std::vector<Queued> displaced_; // until a later datagram is scheduled (Reordering by places)
     base::TimePoint last_arrival_;
     base::TimePoint last_due_ = base::TimePoint::min();

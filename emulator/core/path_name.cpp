@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/path_name.hpp"
 
+#include "emulator/core/flow/flow.hpp"
 #include "emulator/core/profile/settings.hpp"
+#include "proto/base/reading.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +16,7 @@ namespace hapnet::emulator {
 namespace {
 
 constexpr std::string_view client_prefix = "client.";
+constexpr std::string_view flow_prefix = "flow.";
 
 /// The numbers of two peers, "2-1".
 struct Peers {
@@ -46,8 +49,8 @@ std::optional<Peers> parse_peers(std::string_view text)
 bool is_word(std::string_view text)
 {
     constexpr std::size_t longest = 32;
-    constexpr std::array<std::string_view, 9> taken{"up",   "down", "both",   "all",   "link",
-                                                    "time", "ramp", "client", "matrix"};
+    constexpr std::array<std::string_view, 10> taken{"up",   "down", "both",   "all",    "link",
+                                                     "time", "ramp", "client", "matrix", "flow"};
     const auto is_taken = [&](const auto& words) {
         return std::ranges::find(words, text) != words.end();
     };
@@ -69,21 +72,44 @@ std::optional<Way> way_of_all(std::string_view text)
 
 } // namespace
 
+PathParts parts_of(std::string_view name)
+{
+    if (name.starts_with(flow_prefix)) return {"", name.substr(flow_prefix.size())};
+    const auto at = name.find(".flow.");
+    if (at == std::string_view::npos) return {name, ""};
+    return {name.substr(0, at), name.substr(at + 1 + flow_prefix.size())};
+}
+
+std::string flow_path(std::string_view path, std::string_view flow)
+{
+    if (flow.empty()) return std::string{path};
+    return fmt::format("{}{}{}{}", path, path.empty() ? "" : ".", flow_prefix, flow);
+}
+
+std::string_view common_name(std::string_view name)
+{
+    const auto flow = parts_of(name).flow;
+    return flow.empty() ? "" : name.substr(name.size() - flow.size() - flow_prefix.size());
+}
+
 bool is_pair(std::string_view path) { return parse_peers(path).has_value(); }
 
 std::string way_name(std::string_view path, Direction direction)
 {
     if (path.empty()) return std::string{to_text(direction)};
-    const auto peers = parse_peers(path);
+    const auto [of, flow] = parts_of(path);
+    const auto peers = parse_peers(of);
     if (!peers) return fmt::format("{}.{}", path, to_text(direction));
-    return direction == Direction::up ? std::string{path}
-                                      : fmt::format("{}-{}", peers->to, peers->from);
+    return direction == Direction::up
+               ? std::string{path}
+               : flow_path(fmt::format("{}-{}", peers->to, peers->from), flow);
 }
 
 std::string way_in_words(std::string_view path, Direction direction)
 {
     const bool is_up = direction == Direction::up;
     auto name = way_name(path, direction);
+    path = parts_of(path).path;
     if (path.empty()) return name + (is_up ? ": from A to B" : ": from B to A");
     if (const auto peers = parse_peers(path)) {
         return fmt::format("{}: from {} to {}", name, is_up ? peers->from : peers->to,
@@ -95,11 +121,15 @@ std::string way_in_words(std::string_view path, Direction direction)
 
 std::string stream_name(std::string_view path, Direction direction)
 {
-    if (path.empty() || is_pair(path)) return way_name(path, direction);
-    if (path.starts_with(client_prefix)) {
-        return fmt::format("client/{}/{}", path.substr(client_prefix.size()), to_text(direction));
+    const auto [of, flow] = parts_of(path);
+    const bool is_of_peers = is_pair(of);
+    if (flow.empty() && (of.empty() || is_of_peers)) return way_name(path, direction);
+    std::string name = is_of_peers ? way_name(of, direction) : std::string{of};
+    if (of.starts_with(client_prefix)) {
+        name = fmt::format("client/{}", of.substr(client_prefix.size()));
     }
-    return fmt::format("{}/{}", path, to_text(direction));
+    if (!flow.empty()) name += fmt::format("{}flow/{}", name.empty() ? "" : "/", flow);
+    return is_of_peers ? name : fmt::format("{}/{}", name, to_text(direction));
 }
 
 base::Result<std::string> parse_link_name(std::string_view text)
@@ -115,9 +145,34 @@ base::Result<std::string> parse_link_name(std::string_view text)
                                   text));
 }
 
+namespace {
+
+/// "flow.voice.up", or the same of one path: "client.3.flow.voice", "2-1.flow.voice". `flow` may
+/// end with a direction, unless the path says it.
+std::optional<Way> way_of_flow(std::string_view path, std::string_view flow)
+{
+    const auto of = path.empty() ? Way{} : parse_way(path).value_or(Way{});
+    if (of.path.empty() != path.empty()) return std::nullopt;
+    Way way{{}, of.direction};
+    const auto dot = flow.find('.');
+    if (dot != std::string_view::npos) {
+        const auto last = way_of_all(flow.substr(dot + 1));
+        if (way.direction || !last || flow.substr(dot + 1) == "all") return std::nullopt;
+        way.direction = last->direction;
+        flow = flow.substr(0, dot);
+    }
+    if (way.direction && !of.path.empty() && of.direction && !is_pair(of.path)) return std::nullopt;
+    if (!validate_flow_name(flow)) return std::nullopt;
+    way.path = flow_path(of.path, flow);
+    return way;
+}
+
+} // namespace
+
 std::optional<Way> parse_way(std::string_view text)
 {
     if (auto all = way_of_all(text)) return all;
+    if (const auto [path, flow] = parts_of(text); !flow.empty()) return way_of_flow(path, flow);
     if (const auto peers = parse_peers(text)) {
         if (peers->from < peers->to) return Way{std::string{text}, Direction::up};
         return Way{fmt::format("{}-{}", peers->to, peers->from), Direction::down};
@@ -141,6 +196,9 @@ std::string client_path(std::string_view number_or_address)
 
 bool PathNames::contains(std::string_view path) const
 {
+    const auto [of, flow] = parts_of(path);
+    if (!flow.empty() && std::ranges::find(flows, flow) == flows.end()) return false;
+    path = of;
     if (any || path.empty()) return true;
     if (path.starts_with(client_prefix)) return clients;
     return std::ranges::find(links, path) != links.end();
@@ -148,12 +206,20 @@ bool PathNames::contains(std::string_view path) const
 
 std::string PathNames::refusal(std::string_view path) const
 {
+    const auto [of, flow] = parts_of(path);
+    if (!flow.empty() && std::ranges::find(flows, flow) == flows.end()) {
+        const std::vector<std::string_view> known{flows.begin(), flows.end()};
+        return fmt::format("there is no flow {}: {}", base::in_quotes(flow),
+                           known.empty() ? "a profile describes flows by [[flow]]"
+                                         : base::suggestion(flow, known));
+    }
+    path = of;
     if (path.starts_with(client_prefix)) {
         return fmt::format("there is no {}: clients are those of --upstream", path);
     }
     if (links.empty()) {
-        return fmt::format("there is no link {0}: start the emulator with --link {0}=LISTEN_1,"
-                           "LISTEN_2",
+        return fmt::format("there is no link {0}: start the emulator with --link {0}=LISTEN_A,"
+                           "LISTEN_B",
                            path);
     }
     return fmt::format("there is no link {}: use one of {}", path, fmt::join(links, ", "));

@@ -20,6 +20,23 @@ namespace hapnet::emulator {
 // | of two peers          | "1-2"      | "1-2"      | "2-1"        |
 // | of a link with a word | "wan"      | "wan.up"   | "wan.down"   |
 // | of a client           | "client.3" | "client.3.up" | "client.3.down" |
+// | of a flow             | "flow.voice" | "flow.voice.up" | "flow.voice.down" |
+// | of one of several     | "1-2.flow.voice" | "1-2.flow.voice" | "2-1.flow.voice" |
+
+/// The two parts of a path's name: the path between two ends, and the flow on it; either may be
+/// empty.
+struct PathParts {
+    std::string_view path;
+    std::string_view flow;
+};
+[[nodiscard]] PathParts parts_of(std::string_view name);
+
+/// "client.3" and "voice" are "client.3.flow.voice"; without a flow, the path itself.
+[[nodiscard]] std::string flow_path(std::string_view path, std::string_view flow);
+
+/// What settings for all paths are called that hold for this one, too: "flow.voice", or "" for one
+/// that is no flow.
+[[nodiscard]] std::string_view common_name(std::string_view name);
 
 /// A way as the keys of settings call it.
 [[nodiscard]] std::string way_name(std::string_view path, Direction direction);
@@ -45,7 +62,7 @@ struct Way {
     friend bool operator==(const Way&, const Way&) = default;
 };
 /// What the beginning of a key names: "", "all", "both", "up", "1-2", "wan", "wan.up",
-/// "client.3.down"; nullopt when it can be no such name.
+/// "client.3.down", "flow.voice.up"; nullopt when it can be no such name.
 [[nodiscard]] std::optional<Way> parse_way(std::string_view text);
 
 /// What a client is called.
@@ -54,8 +71,11 @@ struct Way {
 /// Which paths a run has; by default the only one.
 struct PathNames {
     std::vector<std::string> links{};
-    bool clients = false; // whoever comes
-    bool any = false;     // it is not known yet
+    bool clients = false;                    // whoever comes
+    bool any = false;                        // it is not known yet
+    std::vector<std::string> flows{};        // on each of them
+    std::vector<std::string> without_rate{}; // those that share that of the rest
+    std::vector<std::string> untouched{};    // those that have no conditions
 
     [[nodiscard]] bool contains(std::string_view path) const;
     /// Why not: "there is no link 1-3: use one of 1-2, 2-3".

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/paths.hpp"
 
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "proto/base/ensure.hpp"
 
@@ -44,30 +45,56 @@ private:
     std::deque<Known> known_;
 };
 
+namespace {
+
+/// Whether it is the name of a single path, not of a flow on all.
+bool is_of_one(std::string_view name) { return common_name(name) != name; }
+
+std::shared_ptr<const FlowFilters> filters_of(const std::vector<Flow>& flows)
+{
+    if (flows.empty()) return nullptr;
+    std::vector<Match> matches;
+    for (const Flow& flow : flows) matches.push_back(flow.match);
+    return std::make_shared<const FlowFilters>(matches);
+}
+
+} // namespace
+
 Paths::Paths(const Profile& profile, Setup setup)
     : profile_{profile},
       setup_{std::move(setup)},
-      beginning_{profile_of(profile_, ""), setup_.start},
+      filters_{filters_of(profile_.flows)},
       said_of_{paths_in(profile_)},
       now_{setup_.start}
 {
+    const auto begin = [&](const std::string& name) {
+        beginnings_.push_back({name, Director{profile_of(profile_, name), setup_.start}});
+    };
+    for (const Flow& flow : profile_.flows) begin(flow_path("", flow.name));
+    begin("");
+    std::erase_if(said_of_, [](const std::string& name) { return !is_of_one(name); });
     for (const std::string& name : setup_.elsewhere) {
-        absent_.push_back({name, beginning_of(name)});
+        keep_for_absent(name);
+        for (const Flow& flow : profile_.flows) keep_for_absent(flow_path(name, flow.name));
+    }
+    if (setup_.takes_newcomers) {
+        newcomers_ = beginnings_;
+        mentioned_ = said_of_;
+        for (const std::string& name : mentioned_) keep_for_absent(name);
     }
     find_next_change();
-    if (!setup_.takes_newcomers) return;
-    newcomers_ = beginning_;
-    mentioned_ = said_of_;
-    for (const std::string& name : mentioned_) {
-        absent_.push_back({name, beginning_of(name)});
-    }
-    find_next_change();
+}
+
+void Paths::keep_for_absent(const std::string& name)
+{
+    absent_.push_back({name, beginning_of(name)});
 }
 
 Director Paths::beginning_of(const std::string& name) const
 {
     const bool has_its_own = std::ranges::find(said_of_, name) != said_of_.end();
-    return has_its_own ? Director{profile_of(profile_, name), setup_.start} : beginning_;
+    if (has_its_own) return Director{profile_of(profile_, name), setup_.start};
+    return std::ranges::find(beginnings_, common_name(name), &Absent::name)->director;
 }
 
 /// What decides for a path that comes now.
@@ -79,17 +106,31 @@ Director Paths::director_for(const std::string& name)
         absent_.erase(known);
         return director;
     }
-    return newcomers_ ? *newcomers_ : beginning_of(name);
+    if (newcomers_.empty()) return beginning_of(name);
+    return std::ranges::find(newcomers_, common_name(name), &Absent::name)->director;
 }
 
 EmulatedPath& Paths::add(const std::string& name)
+{
+    EmulatedPath& rest = add_one(name);
+    if (profile_.flows.empty()) return rest;
+    std::vector<EmulatedPath*> flows;
+    for (const Flow& flow : profile_.flows) {
+        flows.push_back(&add_one(flow_path(name, flow.name)));
+        if (flow.shares_rate) flows.back()->share_bottlenecks_of(rest);
+    }
+    rest.branch(std::make_unique<Branches>(filters_, std::move(flows)));
+    return rest;
+}
+
+EmulatedPath& Paths::add_one(const std::string& name)
 {
     base::ensure(std::ranges::find(paths_, name, &Named::name) == paths_.end());
     EmulatedPath::Setup setup{.seed = setup_.seed,
                               .start = setup_.start,
                               .limits = setup_.limits,
                               .slab = setup_.slab,
-                              .has_stream_statistics = setup_.has_stream_statistics,
+                              .stream_detail = setup_.stream_detail,
                               .name = name,
                               .changes_max = setup_.changes_max,
                               .place = due_times_->add()};
@@ -108,15 +149,21 @@ EmulatedPath& Paths::add(const std::string& name)
 
 void Paths::remove(std::string_view name)
 {
+    for (const Flow& flow : profile_.flows) remove_one(flow_path(name, flow.name));
+    remove_one(name);
+    find_next_change();
+}
+
+void Paths::remove_one(std::string_view name)
+{
     const auto found = std::ranges::find(paths_, name, &Named::name);
     base::ensure(found != paths_.end());
-    if (newcomers_ && std::ranges::find(mentioned_, name) != mentioned_.end()) {
+    if (!newcomers_.empty() && std::ranges::find(mentioned_, name) != mentioned_.end()) {
         absent_.push_back({found->name, found->path->director()});
     }
     due_times_->remove(found->path->number());
     by_number_[found->path->number()] = nullptr;
     paths_.erase(found);
-    find_next_change();
 }
 
 void Paths::advance_all(base::TimePoint now)
@@ -143,14 +190,17 @@ void Paths::advance_all(base::TimePoint now)
         }
     };
     for (Absent& one : absent_) advance(one.director);
-    if (newcomers_) advance(*newcomers_);
+    for (Absent& one : newcomers_) advance(one.director);
     if (generations() != before) ++generation_;
     find_next_change();
 }
 
 void Paths::find_next_change()
 {
-    next_change_ = newcomers_ ? newcomers_->next_change() : std::nullopt;
+    next_change_.reset();
+    for (const Absent& one : newcomers_) {
+        next_change_ = base::earlier(next_change_, one.director.next_change());
+    }
     for (const Named& one : paths_) {
         next_change_ = base::earlier(next_change_, one.path->director().next_change());
     }
@@ -162,8 +212,9 @@ void Paths::find_next_change()
 /// Keeps apart those that are told something of their own before they come.
 base::Result<void> Paths::expect(std::span<const std::string> mentioned)
 {
-    if (!newcomers_) return {};
+    if (newcomers_.empty()) return {};
     for (const std::string& name : mentioned) {
+        if (!is_of_one(name)) continue;
         if (std::ranges::find(mentioned_, name) != mentioned_.end()) continue;
         if (mentioned_.size() >= absent_max) {
             return base::fail(fmt::format("{} clients have settings of their own already; run "
@@ -172,7 +223,7 @@ base::Result<void> Paths::expect(std::span<const std::string> mentioned)
         }
         mentioned_.push_back(name);
         const bool is_there = std::ranges::find(paths_, name, &Named::name) != paths_.end();
-        if (!is_there) absent_.push_back({name, *newcomers_});
+        if (!is_there) absent_.push_back({name, director_for(name)});
     }
     return {};
 }
@@ -190,7 +241,8 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     std::vector<const Director*> next;
     std::optional<Command> last;
     for (const auto& [name, director] : deciders()) {
-        const bool is_mentioned = std::ranges::find(mentioned, name) != mentioned.end();
+        const bool is_mentioned =
+            is_of_one(name) && std::ranges::find(mentioned, name) != mentioned.end();
         const Director* twin = is_mentioned ? nullptr : twins.find(*director);
         if (twin == nullptr) {
             auto told = command(name, director->path());
@@ -207,9 +259,9 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     auto becomes = next.begin();
     for (const Named& one : paths_) one.path->follow(**becomes++, now, by);
     for (Absent& one : absent_) one.director = **becomes++;
-    if (newcomers_) newcomers_ = **becomes;
+    for (Absent& one : newcomers_) one.director = **becomes++;
     if (generations() != before) ++generation_;
-    if (newcomers_ && last) forget_absent(*last, mentioned);
+    if (!newcomers_.empty() && last) forget_absent(*last, mentioned);
     find_next_change();
     return {};
 }
@@ -235,10 +287,10 @@ std::uint64_t Paths::generations() const
 
 PathNames Paths::names() const
 {
-    PathNames names{.links = {}, .clients = setup_.takes_newcomers};
+    PathNames names = with_flows({.clients = setup_.takes_newcomers}, profile_.flows);
     if (names.clients) return names;
     for (const Named& one : paths_) {
-        if (!one.name.empty()) names.links.push_back(one.name);
+        if (!one.name.empty() && parts_of(one.name).flow.empty()) names.links.push_back(one.name);
     }
     names.links.insert(names.links.end(), setup_.elsewhere.begin(), setup_.elsewhere.end());
     return names;
@@ -249,7 +301,7 @@ std::vector<Paths::Decider> Paths::deciders() const
     std::vector<Decider> all;
     for (const Named& one : paths_) all.push_back({one.name, &one.path->director()});
     for (const Absent& one : absent_) all.push_back({one.name, &one.director});
-    if (newcomers_) all.push_back({"", &*newcomers_});
+    for (const Absent& one : newcomers_) all.push_back({one.name, &one.director});
     return all;
 }
 

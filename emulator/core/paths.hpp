@@ -36,7 +36,7 @@ public:
         std::shared_ptr<Slab> slab{};                 // that all share; null: one for each
         std::shared_ptr<const FatesOfPaths> replay{}; // null: fates are drawn
         bool takes_newcomers = false;                 // paths come later, and have names of clients
-        bool has_stream_statistics = true;            // false: they are not asked for
+        StreamDetail stream_detail = StreamDetail::totals;
         std::size_t changes_max = ChangeLog::entries_max; // that each of them keeps
         /// Names of paths that another thread has: what is decided for them counts here, too.
         std::vector<std::string> elsewhere{};
@@ -44,8 +44,9 @@ public:
 
     Paths(const Profile& profile, Setup setup);
 
-    /// A path of this name, which is not there yet: as if it had been from the start. It stays
-    /// where it is until it is removed.
+    /// A path of this name, which is not there yet, and one for each flow on it, which its
+    /// branches() have: as if they had been from the start. They stay where they are until they
+    /// are removed, with it.
     EmulatedPath& add(const std::string& name);
     void remove(std::string_view name);
 
@@ -96,18 +97,24 @@ public:
     }
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
+    /// That of an EmulatedPath::number().
+    [[nodiscard]] EmulatedPath& at(std::size_t number) const { return *by_number_[number]; }
+
     [[nodiscard]] PathNames names() const;
+    /// Of each path.
+    [[nodiscard]] const std::vector<Flow>& flows() const { return profile_.flows; }
 
     struct Named {
         std::string name;
         std::unique_ptr<EmulatedPath> path;
     };
-    /// In the order in which they came.
+    /// In the order in which they came, each with its flows behind it.
     [[nodiscard]] const std::vector<Named>& all() const { return paths_; }
 
     /// What decides for a path; of those that are not there, as far as something is known of them.
     struct Decider {
-        std::string_view name; // empty: of all that come and have nothing of their own
+        std::string_view name; // empty, or of a flow alone: of all that come and have nothing of
+                               // their own
         const Director* director = nullptr;
     };
     [[nodiscard]] std::vector<Decider> deciders() const;
@@ -116,6 +123,7 @@ public:
     static constexpr std::size_t absent_max = 64;
 
 private:
+    /// What decides for paths that are not there.
     struct Absent {
         std::string name;
         Director director;
@@ -123,6 +131,8 @@ private:
 
     class Twins;
 
+    EmulatedPath& add_one(const std::string& name);
+    void remove_one(std::string_view name);
     void advance_all(base::TimePoint now);
     void refresh_due_times()
     {
@@ -134,17 +144,20 @@ private:
     [[nodiscard]] Director director_for(const std::string& name);
     /// As if it had been there from the start, and nothing had been changed.
     [[nodiscard]] Director beginning_of(const std::string& name) const;
+    void keep_for_absent(const std::string& name);
     [[nodiscard]] std::uint64_t generations() const;
 
     Profile profile_;
     Setup setup_;
-    Director beginning_;                // of those of which the profile says nothing of their own
-    std::vector<std::string> said_of_;  // the others
-    std::optional<Director> newcomers_; // what holds for whoever comes
-    std::vector<Absent> absent_;        // what holds for some of them, or elsewhere
+    std::shared_ptr<const FlowFilters> filters_; // null: there are no flows
+    std::vector<Absent> beginnings_;   // of those of which the profile says nothing of their own,
+                                       // by common_name(), that of the rest last
+    std::vector<std::string> said_of_; // the others
+    std::vector<Absent> newcomers_;    // what holds for whoever comes, likewise; or none
+    std::vector<Absent> absent_;       // what holds for some of them, or elsewhere
     std::vector<std::string> mentioned_;
     std::unique_ptr<DueTimes> due_times_ = std::make_unique<DueTimes>(); // the paths mark it
-    std::vector<const EmulatedPath*> by_number_;                         // null where there is none
+    std::vector<EmulatedPath*> by_number_;                               // null where there is none
     std::vector<Named> paths_;
     base::TimePoint now_;
     std::uint64_t generation_ = 1;

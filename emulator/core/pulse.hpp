@@ -2,13 +2,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/describe.hpp"
 #include "proto/base/figures/moments.hpp"
 #include "proto/base/time.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 namespace hapnet::emulator {
+
+/// Times from arrival to departure.
+struct DelaySpread {
+    base::Duration min{};
+    base::Duration mean{};
+    base::Duration max{};
+};
+constexpr auto fields_of(base::Tag<DelaySpread>)
+{
+    return base::fields("delay spread", base::member("min", &DelaySpread::min),
+                        base::member("mean", &DelaySpread::mean),
+                        base::member("max", &DelaySpread::max));
+}
+
+/// Times sent minus times due.
+struct LateSpread {
+    base::Duration mean{};
+    base::Duration max{};
+};
+constexpr auto fields_of(base::Tag<LateSpread>)
+{
+    return base::fields("late spread", base::member("mean", &LateSpread::mean),
+                        base::member("max", &LateSpread::max));
+}
 
 /// What has left one direction of a path since somebody last looked: how long it was under way in
 /// the emulator, and how late it left. Of fixed size; a datagram costs four additions and two
@@ -41,13 +67,22 @@ struct Pulse {
         late_sum_ns += later.late_sum_ns;
     }
 
-    [[nodiscard]] base::Duration delay_mean() const
+    /// nullopt: nothing has left.
+    [[nodiscard]] std::optional<DelaySpread> delay() const
     {
-        return base::nearest_duration(delay_sum_ns / static_cast<double>(count));
+        if (count == 0) return std::nullopt;
+        return DelaySpread{delay_min, mean(delay_sum_ns), delay_max};
     }
-    [[nodiscard]] base::Duration late_mean() const
+    [[nodiscard]] std::optional<LateSpread> late() const
     {
-        return base::nearest_duration(late_sum_ns / static_cast<double>(count));
+        if (count == 0) return std::nullopt;
+        return LateSpread{mean(late_sum_ns), late_max};
+    }
+
+private:
+    [[nodiscard]] base::Duration mean(double sum_ns) const
+    {
+        return base::nearest_duration(sum_ns / static_cast<double>(count));
     }
 };
 

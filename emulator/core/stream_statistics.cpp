@@ -4,12 +4,16 @@
 
 namespace hapnet::emulator {
 
-void StreamStatistics::on_sent(const Datagram& datagram, base::TimePoint at)
+void StreamStatistics::add(const Datagram& datagram, base::TimePoint at)
 {
-    if (datagram.is_copy) return;
     const auto delay = at - datagram.arrival;
     totals_.delay.add(delay);
     totals_.delays.add(delay);
+    if (detail_ == StreamDetail::over_time) {
+        Stretch& stretch = totals_.over_time->at(at);
+        stretch.left.on_sent(delay, at - datagram.due);
+        stretch.bytes_out += datagram.size();
+    }
     if (totals_.delay.count() > 1) {
         const auto gap = at - last_sent_;
         totals_.gaps.add(gap);

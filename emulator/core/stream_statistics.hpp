@@ -4,6 +4,7 @@
 
 #include "emulator/core/datagram.hpp"
 #include "emulator/core/fate.hpp"
+#include "emulator/core/over_time.hpp"
 #include "proto/base/figures/age.hpp"
 #include "proto/base/figures/arrivals.hpp"
 #include "proto/base/figures/delay_meter.hpp"
@@ -14,6 +15,7 @@
 #include "proto/base/histogram.hpp"
 #include "proto/base/time.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -64,26 +66,59 @@ struct StreamTotals {
     base::Tally reordered;
     std::uint64_t beyond_look_back = 0;
     base::AgeMeter age;
+    std::optional<OverTime> over_time{}; // if it was asked for
 
     [[nodiscard]] StreamReport report() const;
 };
 
+/// How much of a stream is measured. Each level includes the ones before it.
+enum class StreamDetail { nothing, totals, over_time };
+
 /// Measures one direction as it goes, in memory of a fixed size.
 class StreamStatistics {
 public:
-    /// The datagram that arrived was given this fate.
-    void on_packet(const Fate& fate)
+    explicit StreamStatistics(StreamDetail detail = StreamDetail::totals,
+                              base::TimePoint start = {})
+        : detail_{detail}
     {
+        if (detail == StreamDetail::over_time) totals_.over_time.emplace(start);
+    }
+
+    /// The datagram that arrived was given this fate.
+    void on_packet(const Fate& fate, base::TimePoint arrival)
+    {
+        if (detail_ == StreamDetail::nothing) return;
         if (!fate.drop) totals_.requested.add(fate.delay);
+        if (detail_ == StreamDetail::over_time) ++totals_.over_time->at(arrival).received;
+    }
+
+    /// A datagram was dropped, not a copy of one.
+    void on_dropped(base::TimePoint at)
+    {
+        if (detail_ == StreamDetail::over_time) ++totals_.over_time->at(at).dropped;
+    }
+
+    /// The line of a rate began to send one that arrived then.
+    void on_begun(base::TimePoint arrival, base::TimePoint begun)
+    {
+        if (detail_ != StreamDetail::over_time) return;
+        Stretch& stretch = totals_.over_time->at(begun);
+        stretch.queue_max = std::max(stretch.queue_max, std::optional{begun - arrival});
     }
 
     /// The datagram left at `at`, not before the one that left before it.
-    void on_sent(const Datagram& datagram, base::TimePoint at);
+    void on_sent(const Datagram& datagram, base::TimePoint at)
+    {
+        if (detail_ != StreamDetail::nothing && !datagram.is_copy) add(datagram, at);
+    }
 
     [[nodiscard]] const StreamTotals& totals() const { return totals_; }
     [[nodiscard]] StreamReport report() const { return totals_.report(); }
 
 private:
+    void add(const Datagram& datagram, base::TimePoint at);
+
+    StreamDetail detail_;
     StreamTotals totals_;
     base::TimePoint last_sent_{}; // if anything was
     base::NextExpected expected_;

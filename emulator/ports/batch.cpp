@@ -25,12 +25,48 @@ DropCause cause_of(net::SendOutcome outcome)
 
 } // namespace
 
+PacketFacts facts_of(const net::Received& datagram, const std::optional<net::Endpoint>& destination)
+{
+    constexpr std::uint16_t udp = 17;
+    constexpr std::uint32_t header_bytes = 8;
+    const auto address = [](const UdpAddress& of) {
+        return address_of(std::span{of.address}.first(of.is_v6 ? 16 : 4));
+    };
+    const UdpAddress from = udp_address_of(datagram.from);
+    const Address sender = address(from);
+    // A socket of IPv6 has IPv4 as ::ffff:a.b.c.d, as Address does.
+    const bool is_v4 = sender.high == 0 && sender.low >> 32U == Address::ipv4_prefix >> 32U;
+    PacketFacts facts{.protocol = udp,
+                      .version = static_cast<std::uint8_t>(is_v4 ? 4 : 6),
+                      .has_ports = true,
+                      .from_port = from.port,
+                      .bytes = static_cast<std::uint32_t>(datagram.bytes.size() + header_bytes +
+                                                          (is_v4 ? 20 : 40)),
+                      .from = sender};
+    if (destination) {
+        const UdpAddress to = udp_address_of(*destination);
+        facts.to_port = to.port;
+        facts.to = address(to);
+    }
+    return facts;
+}
+
 void Batch::take(const net::Received& datagram, const Entrance& entrance)
 {
+    EmulatedPath* path = &way_.path;
+    std::uint32_t recorded_as = way_.recorded_as;
+    base::TimePoint at = datagram.at;
+    if (Branches* branches = path->branches()) {
+        at = branches->in_order(way_.direction, at);
+        if (const auto flow = branches->flow_of(facts_of(datagram, exit_.destination), at)) {
+            path = branches->paths()[*flow];
+            recorded_as += static_cast<std::uint32_t>(*flow + 1);
+        }
+    }
     const Admission admission =
-        way_.path.on_packet(way_.direction, datagram.bytes, datagram.at,
-                            exit_.destination.has_value(), {.marks = datagram.marks});
-    way_.recorder.on_fate(way_.recorded_as, way_.direction, admission.number, admission.fate);
+        path->on_packet(way_.direction, datagram.bytes, at, exit_.destination.has_value(),
+                        {.marks = datagram.marks});
+    way_.recorder.on_fate(recorded_as, way_.direction, admission.number, admission.fate);
     if (way_.recorder.captures()) {
         Fate fate = admission.fate;
         fate.drop = admission.drop;
@@ -44,7 +80,7 @@ void Batch::take(const net::Received& datagram, const Entrance& entrance)
                                   .marks = datagram.marks},
                                  fate);
     }
-    if (admission.departure) add(*admission.departure);
+    if (admission.departure) add(*path, *admission.departure);
 }
 
 void Batch::flush()
@@ -55,17 +91,18 @@ void Batch::flush()
     const auto at = net::monotonic_now();
     for (std::size_t i = 0; i < departures_.size(); ++i) {
         if (outcomes[i] == net::SendOutcome::sent) {
-            on_sent(departures_[i], at);
+            on_sent(*paths_[i], departures_[i], at);
         } else {
-            way_.path.on_failed(way_.direction, departures_[i], cause_of(outcomes[i]));
+            paths_[i]->on_failed(way_.direction, departures_[i], cause_of(outcomes[i]));
         }
     }
+    paths_.clear();
     departures_.clear();
     bytes_.clear();
     marks_.clear();
 }
 
-void Batch::on_sent(const Datagram& departure, base::TimePoint at)
+void Batch::on_sent(EmulatedPath& path, const Datagram& departure, base::TimePoint at)
 {
     if (way_.recorder.captures()) {
         way_.recorder.on_departure({.side = exit_.side,
@@ -78,7 +115,7 @@ void Batch::on_sent(const Datagram& departure, base::TimePoint at)
                                     .marks = departure.marks},
                                    at - departure.due, departure.is_copy);
     }
-    way_.path.on_sent(way_.direction, departure, at); // its bytes go
+    path.on_sent(way_.direction, departure, at); // its bytes go
 }
 
 bool send_due(const Way& way, const Exit& exit, base::TimePoint now)
@@ -91,7 +128,7 @@ bool send_due(const Way& way, const Exit& exit, base::TimePoint now)
             due.flush();
             return false;
         }
-        due.add(*departure);
+        due.add(way.path, *departure);
     }
     return true;
 }

@@ -4,16 +4,22 @@
 
 #include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/emulated_path.hpp"
+#include "emulator/core/flow/packet_facts.hpp"
+#include "emulator/core/path_name.hpp"
 #include "emulator/recorder.hpp"
 #include "proto/base/inplace_vector.hpp"
 #include "proto/base/ip_marks.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace hapnet::emulator::ports {
 
@@ -22,7 +28,7 @@ struct Way {
     EmulatedPath& path;
     Direction direction;
     Recorder::Lane& recorder;
-    std::uint32_t recorded_as = 0; // by its fates
+    std::uint32_t recorded_as = 0; // by its fates; those of its flows follow
     std::uint32_t pair = 0;        // of interfaces in the capture
 };
 
@@ -32,6 +38,11 @@ struct Entrance {
     const net::Endpoint& local; // of the socket
 };
 
+/// What a filter of flows may know of a datagram on its way between two ends. Where the other end
+/// is not known, it has neither an address nor a port.
+[[nodiscard]] PacketFacts facts_of(const net::Received& datagram,
+                                   const std::optional<net::Endpoint>& destination);
+
 /// Where the datagrams of one direction leave.
 struct Exit {
     CaptureSide side;
@@ -40,16 +51,20 @@ struct Exit {
     const std::optional<net::Endpoint>& destination;
 };
 
-/// What leaves in one direction: gathered and sent together. Flush it before the bytes go.
+/// What leaves in one direction, of a path and its flows: gathered and sent together. Flush it
+/// before the bytes go.
 class Batch {
 public:
     Batch(const Way& way, const Exit& exit) : way_{way}, exit_{exit} {}
 
-    /// Shows the path a datagram that has arrived, and adds it if it is not delayed.
+    /// Shows a datagram that has arrived to the path that it takes, and adds it if it is not
+    /// delayed.
     void take(const net::Received& datagram, const Entrance& entrance);
 
-    void add(const Datagram& departure)
+    /// Adds a departure of the path, or of a flow beside it.
+    void add(EmulatedPath& path, const Datagram& departure)
     {
+        paths_.push_back(&path);
         departures_.push_back(departure);
         bytes_.push_back(departure.bytes);
         marks_.push_back(departure.marks);
@@ -60,16 +75,41 @@ public:
     void flush();
 
 private:
-    void on_sent(const Datagram& departure, base::TimePoint at);
+    void on_sent(EmulatedPath& path, const Datagram& departure, base::TimePoint at);
 
     Way way_;
     Exit exit_;
     template <typename T>
     using Each = base::InplaceVector<T, net::BatchSender::batch_max>;
+    Each<EmulatedPath*> paths_; // of the departures
     Each<Datagram> departures_;
     Each<std::span<const std::byte>> bytes_;
     Each<base::IpMarks> marks_;
 };
+
+/// Names a path and the flows on it to the recorder. The number of the path; those of the flows
+/// follow. Paths are named one after the other.
+[[nodiscard]] inline std::uint32_t add_to(Recorder& recorder, const std::string& path,
+                                          std::span<const Flow> flows)
+{
+    const std::uint32_t number = recorder.add_path(path);
+    for (const Flow& flow : flows) std::ignore = recorder.add_path(flow_path(path, flow.name));
+    return number;
+}
+
+/// Notes whose path it is, and whose those of the flows beside it are, by their numbers.
+template <typename Owner>
+void put_by_number(std::vector<Owner*>& owners, const EmulatedPath& path, Owner* owner)
+{
+    const auto put = [&](const EmulatedPath& one) {
+        owners.resize(std::max(owners.size(), one.number() + 1));
+        owners[one.number()] = owner;
+    };
+    put(path);
+    if (const Branches* branches = path.branches()) {
+        for (const EmulatedPath* flow : branches->paths()) put(*flow);
+    }
+}
 
 /// How many batches of each direction one release() sends at most. Twice what one receive() takes
 /// with a copy of each: a flood cannot fill the queue by being taken faster than it is sent, and

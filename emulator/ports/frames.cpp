@@ -56,8 +56,9 @@ public:
         : frames_{frames}, direction_{direction}, to_{to}
     {}
 
-    void add(const Datagram& departure)
+    void add(EmulatedPath& path, const Datagram& departure)
     {
+        paths_[count_] = &path;
         departures_[count_] = departure;
         add_bytes(departure.bytes);
     }
@@ -78,9 +79,9 @@ public:
             if (!departures_[i]) {
                 if (!is_sent) ++to_.lost_undisturbed;
             } else if (is_sent) {
-                frames_.path_.on_sent(direction_, *departures_[i], at);
+                paths_[i]->on_sent(direction_, *departures_[i], at);
             } else {
-                frames_.path_.on_failed(direction_, *departures_[i], frame_cause_of(outcomes[i]));
+                paths_[i]->on_failed(direction_, *departures_[i], frame_cause_of(outcomes[i]));
             }
         }
         count_ = 0;
@@ -108,6 +109,7 @@ private:
     Direction direction_;
     Side& to_;
     std::size_t count_ = 0;
+    std::array<EmulatedPath*, net::PacketSocket::batch_max> paths_{}; // of the departures
     std::array<std::optional<Datagram>, net::PacketSocket::batch_max> departures_{};
     std::array<std::span<const std::byte>, net::PacketSocket::batch_max> bytes_{};
     std::vector<std::vector<std::byte>> fixed_; // copies that are changed on the way out
@@ -122,7 +124,7 @@ Frames::Frames(const Setup& setup, Paths& paths, Recorder& recorder)
       paths_{paths},
       path_{paths.add("")},
       recorder_{recorder.lane()},
-      recorded_as_{recorder.add_path("")},
+      recorded_as_{add_to(recorder, "", paths.flows())},
       a_{Direction::up, setup.interface_a},
       b_{Direction::down, setup.interface_b}
 {}
@@ -160,6 +162,7 @@ void Frames::pass(Side& from, Side& to)
         if (setup_.stops_at_loop) watch_for_loop(from, frame);
         if (received.lacks_checksum) fix_checksums(received.bytes);
         if (frame.kind != FrameKind::ip) ++from.not_ip;
+        if (says_port_unreachable(frame, received.bytes)) ++from.unreachable;
         const auto tags = frame.header_bytes - std::min(frame.header_bytes, std::uint8_t{14});
         if (received.bytes.size() > from.frame_bytes_max + static_cast<std::size_t>(tags)) {
             ++from.oversized;
@@ -171,13 +174,23 @@ void Frames::pass(Side& from, Side& to)
             continue;
         }
         paths_.advance(received.at);
-        const Admission admission = path_.on_packet(
-            from.direction, received.bytes, received.at, true,
+        EmulatedPath* path = &path_;
+        std::uint32_t recorded_as = recorded_as_;
+        base::TimePoint at = received.at;
+        if (Branches* branches = path_.branches()) {
+            at = branches->in_order(from.direction, at);
+            if (const auto flow = branches->flow_of(facts_of(frame, received.bytes), at)) {
+                path = branches->paths()[*flow];
+                recorded_as += static_cast<std::uint32_t>(*flow + 1);
+            }
+        }
+        const Admission admission = path->on_packet(
+            from.direction, received.bytes, at, true,
             {.envelope_bytes = envelope_of(frame, received.bytes.size()), .marks = frame.marks});
-        recorder_.on_fate(recorded_as_, from.direction, admission.number, admission.fate);
-        if (admission.departure) undelayed.add(*admission.departure);
+        recorder_.on_fate(recorded_as, from.direction, admission.number, admission.fate);
+        if (admission.departure) undelayed.add(*path, *admission.departure);
         if (setup_.answers_too_big && admission.drop == DropCause::mtu) {
-            answer_too_big(from, received.bytes);
+            answer_too_big(from, *path, received.bytes);
         }
     }
     undelayed.flush();
@@ -193,9 +206,9 @@ void Frames::pass(Side& from, Side& to)
 }
 
 /// At once, as if the router were the emulator's interface.
-void Frames::answer_too_big(Side& from, std::span<const std::byte> frame)
+void Frames::answer_too_big(Side& from, const EmulatedPath& path, std::span<const std::byte> frame)
 {
-    const auto mtu = path_.link(from.direction).conditions().mtu.bytes_max;
+    const auto mtu = path.link(from.direction).conditions().mtu.bytes_max;
     const auto answer = too_big_answer(frame, mtu);
     if (answer.empty()) return;
     const std::array<std::span<const std::byte>, 1> batch{answer};
@@ -228,28 +241,33 @@ void Frames::watch_for_loop(const Side& from, const Frame& frame)
                     address, a_.interface, b_.interface);
 }
 
-bool Frames::send_due(Direction direction, Side& to, base::TimePoint now)
+bool Frames::send_due(EmulatedPath& path, Direction direction, base::TimePoint now)
 {
-    if (!base::is_due(path_.link(direction).next_deadline(), now)) return false;
-    Outgoing due{*this, direction, to};
+    if (!base::is_due(path.link(direction).next_deadline(), now)) return false;
+    Outgoing due{*this, direction, direction == Direction::up ? b_ : a_};
     for (std::size_t i = 0; i < net::PacketSocket::batch_max; ++i) {
-        const auto departure = path_.poll(direction, now);
+        const auto departure = path.poll(direction, now);
         if (!departure) {
             due.flush();
             return false;
         }
-        due.add(*departure);
+        due.add(path, *departure);
     }
     return true;
 }
 
 void Frames::release(base::TimePoint now)
 {
+    paths_.each_due(now, [&](std::size_t number) { release(paths_.at(number), now); });
+}
+
+void Frames::release(EmulatedPath& path, base::TimePoint now)
+{
     bool up_has_more = true;
     bool down_has_more = true;
     for (int round = 0; round < release_rounds_max && (up_has_more || down_has_more); ++round) {
-        if (up_has_more) up_has_more = send_due(Direction::up, b_, now);
-        if (down_has_more) down_has_more = send_due(Direction::down, a_, now);
+        if (up_has_more) up_has_more = send_due(path, Direction::up, now);
+        if (down_has_more) down_has_more = send_due(path, Direction::down, now);
     }
 }
 

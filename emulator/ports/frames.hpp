@@ -48,6 +48,7 @@ public:
         std::uint64_t oversized = 0;        // longer than the MTU: put together by an interface
         std::uint64_t lost_undisturbed = 0; // of `undisturbed`: the system did not take them
         std::uint64_t told_too_big = 0;     // of its packets: those whose sender got an answer
+        std::uint64_t unreachable = 0;      // its answers that no program listens there
     };
 
     /// Adds the only path. Throws std::system_error when an interface cannot be used. The paths and
@@ -79,9 +80,10 @@ private:
 
     void pass(Side& from, Side& to);
     void watch_interface(const Side& side);
-    bool send_due(Direction direction, Side& to, base::TimePoint now);
+    void release(EmulatedPath& path, base::TimePoint now);
+    bool send_due(EmulatedPath& path, Direction direction, base::TimePoint now);
     void watch_for_loop(const Side& from, const Frame& frame);
-    void answer_too_big(Side& from, std::span<const std::byte> frame);
+    void answer_too_big(Side& from, const EmulatedPath& path, std::span<const std::byte> frame);
 
     Setup setup_;
     Paths& paths_;

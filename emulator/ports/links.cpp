@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/ports/links.hpp"
 
-#include "proto/base/ensure.hpp"
-
 #include <cstdint>
 
 namespace hapnet::emulator::ports {
@@ -15,7 +13,8 @@ Links::Links(const Places& places, const std::vector<std::unique_ptr<Paths>>& pa
     const bool has_several = places.size() > 1;
     for (const auto& [name, endpoints] : places) {
         const std::size_t part = part_of(relays_.size(), paths.size());
-        const Relay::Among among{name, own_, recorder.add_path(name), recorder.lane(part)};
+        const Relay::Among among{name, own_, static_cast<std::uint32_t>(relays_.size()),
+                                 add_to(recorder, name, paths[part]->flows()), recorder.lane(part)};
         relays_.push_back(std::make_unique<Relay>(endpoints, *paths[part], among));
         if (has_several && !parts_[part]->ready_) parts_[part]->ready_.emplace();
         parts_[part]->add(*relays_.back(), *paths[part]);
@@ -25,7 +24,7 @@ Links::Links(const Places& places, const std::vector<std::unique_ptr<Paths>>& pa
 void Links::Part::add(Relay& relay, Paths& paths)
 {
     paths_ = &paths;
-    base::ensure(relay.path().number() == relays_.size());
+    put_by_number(by_path_, relay.path(), &relay);
     const auto place = static_cast<std::uint64_t>(relays_.size());
     relays_.push_back(&relay);
     if (!ready_) return;
@@ -51,7 +50,8 @@ void Links::Part::receive()
 
 void Links::Part::release(base::TimePoint now)
 {
-    paths_->each_due(now, [&](std::size_t number) { relays_[number]->release(now); });
+    paths_->each_due(
+        now, [&](std::size_t number) { by_path_[number]->release(paths_->at(number), now); });
 }
 
 std::vector<int> Links::Part::descriptors() const

@@ -50,7 +50,8 @@ public:
 
         std::optional<net::WaitSet> ready_; // of several
         Paths* paths_ = nullptr;
-        std::vector<Relay*> relays_; // by the numbers of their paths
+        std::vector<Relay*> relays_;  // in their order
+        std::vector<Relay*> by_path_; // by the numbers of their paths, those of flows too
     };
 
     /// Binds all sockets. A part for each of the paths: the links are dealt out in turn. Throws

@@ -28,7 +28,7 @@ void Relay::pass(Side& from, Side& to)
 {
     const auto arrived = from.socket.receive();
     if (arrived.empty()) return;
-    Batch undelayed{way(from.direction), to.exit()};
+    Batch undelayed{way(path_, from.direction), to.exit()};
     for (const net::Received& datagram : arrived) {
         if (const auto refusal = refusal_of(from, datagram)) {
             from.on_stranger(datagram, *refusal);
@@ -63,6 +63,7 @@ Relay::Relay(const Endpoints& endpoints, Paths& paths, const Among& among)
       path_{paths.add(among.name)},
       recorder_{among.recorder},
       number_{among.number},
+      recorded_as_{among.recorded_as},
       own_{among.own},
       a_{CaptureSide::a, endpoints, path_.link(Direction::up)},
       b_{CaptureSide::b, endpoints, path_.link(Direction::down)}
@@ -78,7 +79,7 @@ std::string notice_of(const std::string& link, const Relay::Side& side,
 {
     const bool is_a = side.side == CaptureSide::a;
     const auto place = link.empty() ? fmt::format("--listen-{}", is_a ? 'a' : 'b')
-                                    : fmt::format("LISTEN_{} of --link {}", is_a ? 1 : 2, link);
+                                    : fmt::format("LISTEN_{} of --link {}", is_a ? 'A' : 'B', link);
     const auto said =
         fmt::format("{} sends to {} {}", stranger.who.to_text(), place, side.local.to_text());
     switch (stranger.why) {
@@ -114,9 +115,8 @@ std::string who(const Relay::Side& side)
 std::optional<std::string> Relay::next_notice()
 {
     if (std::exchange(has_adopted_, false)) {
-        const bool is_named = !name_.empty();
-        return fmt::format("{}{} is {}, {} is {}", is_named ? name_ + ": " : "",
-                           is_named ? "end 1" : "a", who(a_), is_named ? "end 2" : "b", who(b_));
+        return fmt::format("{}A is {}, B is {}", name_.empty() ? "" : name_ + ": ", who(a_),
+                           who(b_));
     }
     for (Side* side : {&a_, &b_}) {
         if (const auto stranger = std::exchange(side->stranger, std::nullopt)) {
@@ -132,9 +132,9 @@ void Relay::receive()
     pass(b_, a_);
 }
 
-void Relay::release(base::TimePoint now)
+void Relay::release(EmulatedPath& path, base::TimePoint now)
 {
-    send_due(way(Direction::up), b_.exit(), way(Direction::down), a_.exit(), now);
+    send_due(way(path, Direction::up), b_.exit(), way(path, Direction::down), a_.exit(), now);
 }
 
 } // namespace hapnet::emulator::ports

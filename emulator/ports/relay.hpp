@@ -25,11 +25,12 @@ namespace hapnet::emulator::ports {
 class Relay {
 public:
     /// What it has among the relays of a run: a name, unless it is the only one, all sockets, its
-    /// place in the records, and the lane to them.
+    /// place among them and in the fates, and the lane to the records.
     struct Among {
         std::string name;
         OwnSockets& own;
         std::uint32_t number = 0;
+        std::uint32_t recorded_as = 0;
         Recorder::Lane& recorder;
     };
 
@@ -48,9 +49,9 @@ public:
     void receive_from_a() { pass(a_, b_); }
     void receive_from_b() { pass(b_, a_); }
 
-    /// Sends what is due at `now`, the two sides in turn; so much at most that what arrives does
-    /// not have to wait long. What is left is still due.
-    void release(base::TimePoint now);
+    /// Sends what is due at `now` of its path or of a flow beside it, the two sides in turn; so
+    /// much at most that what arrives does not have to wait long. What is left is still due.
+    void release(EmulatedPath& path, base::TimePoint now);
 
     /// Why a datagram was dropped before the path saw it.
     enum class Refusal : std::uint8_t { is_own, not_allowed, not_the_peer, side_is_taken };
@@ -97,9 +98,9 @@ public:
 private:
     void pass(Side& from, Side& to);
     [[nodiscard]] std::optional<Refusal> refusal_of(Side& from, const net::Received& datagram);
-    [[nodiscard]] Way way(Direction direction) const
+    [[nodiscard]] Way way(EmulatedPath& path, Direction direction) const
     {
-        return {path_, direction, recorder_, number_, number_};
+        return {path, direction, recorder_, recorded_as_, number_};
     }
 
     std::string name_;
@@ -107,6 +108,7 @@ private:
     EmulatedPath& path_;
     Recorder::Lane& recorder_;
     std::uint32_t number_;
+    std::uint32_t recorded_as_;
     OwnSockets& own_;
     Side a_;
     Side b_;

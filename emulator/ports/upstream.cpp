@@ -87,8 +87,14 @@ Upstream::Departed Upstream::departed() const
         const Departed& own = part->departed_;
         sum.up.add(own.up);
         sum.down.add(own.down);
+        sum.flows.resize(std::max(sum.flows.size(), own.flows.size()));
+        for (std::size_t i = 0; i < own.flows.size(); ++i) {
+            sum.flows[i].up.add(own.flows[i].up);
+            sum.flows[i].down.add(own.flows[i].down);
+        }
         sum.strangers_down += own.strangers_down;
         sum.overflowed_down += own.overflowed_down;
+        sum.unreachable_up += own.unreachable_up;
         sum.count += own.count;
     }
     return sum;
@@ -112,6 +118,13 @@ std::uint64_t Upstream::overflowed() const
 {
     std::uint64_t sum = 0;
     for (const auto& part : parts_) sum += part->listening_.overflowed();
+    return sum;
+}
+
+std::uint64_t Upstream::unreachable() const
+{
+    std::uint64_t sum = 0;
+    for (const auto& part : parts_) sum += part->listening_.unreachable();
     return sum;
 }
 
@@ -199,9 +212,8 @@ std::unique_ptr<Upstream::Client> Upstream::Part::admit(const net::Received& dat
     next_look_ = base::earlier(next_look_, table_.idle_at(place));
     client->name = name_of(*client);
     client->path = &paths_.add(client->name);
-    by_path_.resize(std::max(by_path_.size(), client->path->number() + 1));
-    by_path_[client->path->number()] = client.get();
-    client->recorded_as = common_.recorder.add_path(client->name);
+    put_by_number(by_path_, *client->path, client.get());
+    client->recorded_as = add_to(common_.recorder, client->name, paths_.flows());
     common_.own.add(client->local);
     return client;
 }
@@ -216,7 +228,7 @@ void Upstream::Part::take_from_clients()
         if (client == nullptr) continue;
         if (whose != client) {
             if (undelayed) undelayed->flush();
-            undelayed.emplace(way(*client, Direction::up), to_server(*client));
+            undelayed.emplace(way(*client, *client->path, Direction::up), to_server(*client));
             whose = client;
         }
         paths_.advance(datagram.at);
@@ -227,7 +239,7 @@ void Upstream::Part::take_from_clients()
 
 void Upstream::Part::take_from_server(Client& client)
 {
-    Batch undelayed{way(client, Direction::down), to_client(client)};
+    Batch undelayed{way(client, *client.path, Direction::down), to_client(client)};
     for (const net::Received& datagram : client.socket.receive()) {
         if (datagram.from != common_.places.server) {
             ++client.strangers;
@@ -251,8 +263,9 @@ void Upstream::Part::release(base::TimePoint now)
 {
     paths_.each_due(now, [&](std::size_t number) {
         Client& client = *by_path_[number];
-        send_due(way(client, Direction::up), to_server(client), way(client, Direction::down),
-                 to_client(client), now);
+        EmulatedPath& path = paths_.at(number);
+        send_due(way(client, path, Direction::up), to_server(client),
+                 way(client, path, Direction::down), to_client(client), now);
     });
     forget_idle(now);
 }
@@ -261,9 +274,16 @@ namespace {
 
 bool has_nothing_in_flight(const EmulatedPath& path)
 {
-    return path.link(Direction::up).statistics().in_flight +
-               path.link(Direction::down).statistics().in_flight ==
-           0;
+    const auto is_idle = [](const EmulatedPath& one) {
+        return one.link(Direction::up).statistics().in_flight +
+                   one.link(Direction::down).statistics().in_flight ==
+               0;
+    };
+    const Branches* branches = path.branches();
+    return is_idle(path) && (branches == nullptr ||
+                             std::ranges::all_of(branches->paths(), [&](const EmulatedPath* flow) {
+                                 return is_idle(*flow);
+                             }));
 }
 
 } // namespace
@@ -292,8 +312,17 @@ void Upstream::Part::forget(std::size_t place)
     auto& client = clients_[place];
     departed_.up.add(client->path->link(Direction::up).statistics());
     departed_.down.add(client->path->link(Direction::down).statistics());
+    if (const Branches* branches = client->path->branches()) {
+        const auto flows = branches->paths();
+        departed_.flows.resize(flows.size());
+        for (std::size_t i = 0; i < flows.size(); ++i) {
+            departed_.flows[i].up.add(flows[i]->link(Direction::up).statistics());
+            departed_.flows[i].down.add(flows[i]->link(Direction::down).statistics());
+        }
+    }
     departed_.strangers_down += client->strangers;
     departed_.overflowed_down += client->socket.overflowed();
+    departed_.unreachable_up += client->socket.unreachable();
     ++departed_.count;
     common_.own.remove(client->local);
     paths_.remove(client->name);

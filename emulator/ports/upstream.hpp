@@ -55,12 +55,20 @@ public:
         std::uint64_t strangers = 0; // datagrams to its socket that are not the server's
     };
 
-    /// Of clients that have been forgotten.
-    struct Departed {
+    /// Of one flow.
+    struct FlowSums {
         Statistics up;
         Statistics down;
+    };
+
+    /// Of clients that have been forgotten.
+    struct Departed {
+        Statistics up; // of those that belong to no flow
+        Statistics down;
+        std::vector<FlowSums> flows; // in the order of the profile
         std::uint64_t strangers_down = 0;
         std::uint64_t overflowed_down = 0;
+        std::uint64_t unreachable_up = 0;
         std::uint64_t count = 0;
     };
 
@@ -88,6 +96,8 @@ public:
     [[nodiscard]] std::uint64_t strangers() const;
     [[nodiscard]] std::uint64_t refused() const;
     [[nodiscard]] std::uint64_t overflowed() const;
+    /// Answers of clients that no program listens there.
+    [[nodiscard]] std::uint64_t unreachable() const;
 
 private:
     /// What the parts have in common.
@@ -142,9 +152,9 @@ private:
     void forget_idle(base::TimePoint now);
     void forget(std::size_t place);
     void turn_away(const net::Received& datagram, const std::string& why);
-    [[nodiscard]] Way way(Client& client, Direction direction)
+    [[nodiscard]] Way way(Client& client, EmulatedPath& path, Direction direction)
     {
-        return {*client.path, direction, recorder_, client.recorded_as};
+        return {path, direction, recorder_, client.recorded_as};
     }
     [[nodiscard]] static Exit to_server(Client& client)
     {
@@ -163,9 +173,9 @@ private:
     net::WaitSet answers_;
     ClientTable<net::Endpoint> table_;
     std::vector<std::unique_ptr<Client>> clients_; // by their places
-    std::vector<Client*> by_path_;                 // by the numbers of their paths
-    std::map<std::string, std::uint64_t> visits_;  // by addresses, where they are names
-    std::optional<base::TimePoint> next_look_;     // at who is idle
+    std::vector<Client*> by_path_; // by the numbers of their paths, those of flows too
+    std::map<std::string, std::uint64_t> visits_; // by addresses, where they are names
+    std::optional<base::TimePoint> next_look_;    // at who is idle
     Departed departed_;
     std::uint64_t strangers_ = 0;
     std::uint64_t refused_ = 0;

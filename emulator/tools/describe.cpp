@@ -58,13 +58,19 @@ std::string rate_in_words(const Conditions& conditions, const Stream& stream)
             100.0 * load_of(conditions, stream) / limit, base::size_text(rate.queue_bytes_max));
     }
     const double each = static_cast<double>(stream.bytes + rate.overhead_bytes) * bits_per_byte;
-    return fmt::format("rate: {} with {} of overhead for each datagram; {} B take {:.3g} ms, the "
-                       "stream fills {:.3g} % of it; a queue of {} holds {:.3g} ms",
-                       base::bit_rate_text(rate.bits_per_second),
-                       base::size_text(rate.overhead_bytes), stream.bytes, 1e3 * each / limit,
-                       100.0 * load_of(conditions, stream) / limit,
-                       base::size_text(rate.queue_bytes_max),
-                       1e3 * static_cast<double>(rate.queue_bytes_max) * bits_per_byte / limit);
+    const auto burst =
+        rate.burst_bytes == 0
+            ? std::string{}
+            : fmt::format("; after a pause of {:.3g} ms, {} leave at once",
+                          1e3 * static_cast<double>(rate.burst_bytes) * bits_per_byte / limit,
+                          base::size_text(rate.burst_bytes));
+    return fmt::format(
+        "rate: {} with {} of overhead for each datagram; {} B take {:.3g} ms, the "
+        "stream fills {:.3g} % of it; a queue of {} holds {:.3g} ms{}",
+        base::bit_rate_text(rate.bits_per_second), base::size_text(rate.overhead_bytes),
+        stream.bytes, 1e3 * each / limit, 100.0 * load_of(conditions, stream) / limit,
+        base::size_text(rate.queue_bytes_max),
+        1e3 * static_cast<double>(rate.queue_bytes_max) * bits_per_byte / limit, burst);
 }
 
 std::string queue_in_words(const QueueControl& queue)

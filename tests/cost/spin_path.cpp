@@ -21,7 +21,7 @@ int main(int argc, char** argv)
     emulator::Profile profile;
     profile.path.up.delay = emulator::constant(160ms);
     profile.path.down.delay = emulator::constant(160ms);
-    emulator::EmulatedPath path{profile, {.has_stream_statistics = false}};
+    emulator::EmulatedPath path{profile, {.stream_detail = emulator::StreamDetail::nothing}};
     constexpr std::array directions{Direction::up, Direction::down};
     for (const Direction each : directions) {
         if (is_watched) std::ignore = path.take_pulse(each);

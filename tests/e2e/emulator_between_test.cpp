@@ -110,6 +110,31 @@ TEST_F(EmulatorBetween, CarriesIpv6)
     EXPECT_NE(outcome.out.find("\"answered\": 3"), std::string::npos);
 }
 
+TEST_F(EmulatorBetween, CountsAnswersThatNoProgramListens)
+{
+    const TemporaryFolder folder;
+    const auto stats = folder.file("run.json");
+    const auto outcome =
+        run_between({"--stats", stats}, probing("b", "--count 5 --rate 50"), {"sleep", "infinity"});
+    EXPECT_NE(outcome.exit, 0); // the probe has no answer
+    const auto statistics = nlohmann::json::parse(text_of(stats));
+    EXPECT_GE(statistics["up"]["unreachable"], 5);
+    EXPECT_EQ(statistics["down"]["unreachable"], 0);
+    EXPECT_NE(outcome.err.find("answers that no program listens"), std::string::npos)
+        << outcome.err;
+}
+
+TEST_F(EmulatorBetween, CarriesMulticastAndBroadcastOfIpv4)
+{
+    for (const std::string where : {"239.255.0.7", "255.255.255.255", "10.0.0.255"}) {
+        const auto outcome = run_between(
+            {"--delay", "5ms"}, std::string{HAPNET_GROUP_HOST} + " send " + where + ":7400 10",
+            {HAPNET_GROUP_HOST, "answer", "7400", "239.255.0.7"});
+        EXPECT_EQ(outcome.exit, 0) << where << outcome.err;
+        EXPECT_NE(outcome.out.find("10 of 10 answered"), std::string::npos) << where << outcome.out;
+    }
+}
+
 TEST_F(EmulatorBetween, TellsTheCommandsWhereTheyAre)
 {
     const auto outcome = run_between(
@@ -119,6 +144,21 @@ TEST_F(EmulatorBetween, TellsTheCommandsWhereTheyAre)
     for (const char* words : {"10.0.0.1 ", "10.0.0.2 ", "fd00::2 ", "10.0.0.1 10.0.0.2"}) {
         EXPECT_NE(outcome.out.find(words), std::string::npos) << outcome.out;
     }
+}
+
+TEST_F(EmulatorBetween, GivesACommandNamesOfItsOwnAndOneWithTwoAddressesIsTold)
+{
+    const auto outcome =
+        run_between({},
+                    "printf '::1 twin\\n127.0.0.1 twin\\n' >/etc/hosts && exec " + emulator_path() +
+                        " --listen 127.0.0.1:0 --upstream twin:7001 "
+                        "--duration 200ms",
+                    {"sleep", "infinity"});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("--upstream twin:7001 has 2 addresses, [::1]:7001 and "
+                               "127.0.0.1:7001: datagrams go to the first"),
+              std::string::npos)
+        << outcome.err;
 }
 
 TEST_F(EmulatorBetween, EndsAsCommandAEndsAndEndsB)

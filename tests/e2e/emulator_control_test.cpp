@@ -138,7 +138,7 @@ TEST_F(Controlled, HearsEachHangupWithoutTrafficThatWouldWakeIt)
     for (int times = 1; times <= 100; ++times) {
         std::ofstream{profile} << "[both]\ndelay = \"" << times << "\"\n"; // without a unit
         emulator.process().signal(SIGHUP);
-        const std::string why = "'" + std::to_string(times) + "' is not a duration";
+        const std::string why = "'" + std::to_string(times) + "' has no unit";
         ASSERT_TRUE(emulator.process().wait_for_err(why, 5s)) << "hangup " << times;
     }
     std::ignore = emulator.stop();

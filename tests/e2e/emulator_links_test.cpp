@@ -58,9 +58,9 @@ public:
     {
         for (auto& [name, pair] : pairs) {
             pair.second.send(pair.listen_2, 1000);
-            EXPECT_TRUE(process->wait_for_err(name + ": end 1 is not known yet, end 2 is", 5s));
+            EXPECT_TRUE(process->wait_for_err(name + ": A is not known yet, B is", 5s));
             pair.first.send(pair.listen_1, 1000);
-            EXPECT_TRUE(process->wait_for_err(name + ": end 1 is 127.0.0.1", 5s));
+            EXPECT_TRUE(process->wait_for_err(name + ": A is 127.0.0.1", 5s));
         }
     }
 
@@ -110,8 +110,8 @@ TEST(EmulatorLinks, KeepThreePairsApart)
         {"--delay", "20ms", "--set", "3-1.delay=60ms", "--set", "wan.up.loss=100%", "--seed", "3"}};
     for (auto& [name, pair] : emulator.pairs) pair.second.send(pair.listen_2, 0);
     for (const char* const name : {"1-2", "1-3", "wan"}) {
-        EXPECT_TRUE(emulator.process->wait_for_err(
-            std::string{name} + ": end 1 is not known yet, end 2 is", 5s));
+        EXPECT_TRUE(
+            emulator.process->wait_for_err(std::string{name} + ": A is not known yet, B is", 5s));
     }
     for (auto& [name, pair] : emulator.pairs) pair.first.send(pair.listen_1, 1);
     EXPECT_GE(emulator.pairs.at("1-2").second.receive(1, 5s).at(0).delay, 20ms - 4us);
@@ -295,7 +295,7 @@ TEST(EmulatorLinks, AreNeverOpenAndNeverSendToThemselves)
     const auto refused = [](const std::vector<std::string>& words, const std::string& why) {
         expect_refusal(run("hapnet-emulator", words), 2, {why});
     };
-    refused({"--link", "1-2=0.0.0.0:0,127.0.0.1:0"}, "--link 1-2: END_1 HOST:PORT");
+    refused({"--link", "1-2=0.0.0.0:0,127.0.0.1:0"}, "--link 1-2: END_A HOST:PORT");
     refused({"--link", "1-2=127.0.0.1:9101,127.0.0.1:9102,127.0.0.1:9104,", "--link",
              "1-3=127.0.0.1:9103,127.0.0.1:9104"},
             "where the emulator itself listens");
@@ -305,7 +305,7 @@ TEST(EmulatorLinks, AreNeverOpenAndNeverSendToThemselves)
     Host stranger;
     auto& pair = emulator.pairs.at("1-3");
     stranger.send(pair.listen_1, 1);
-    EXPECT_TRUE(emulator.process->wait_for_err("sends to LISTEN_1 of --link 1-3", 5s));
+    EXPECT_TRUE(emulator.process->wait_for_err("sends to LISTEN_A of --link 1-3", 5s));
     EXPECT_EQ(emulator.stop()["links"]["1-3"]["up"]["strangers"], 1);
 }
 

@@ -152,7 +152,7 @@ TEST(Emulator, AdoptsTheFirstSenderOfEachSideOnLoopback)
     Host b;
     Emulator emulator{{}};
     a.send(emulator.a(), 0);
-    const auto only_a = "a is " + a.endpoint().to_text() + ", b is not known yet";
+    const auto only_a = "A is " + a.endpoint().to_text() + ", B is not known yet";
     ASSERT_TRUE(emulator.process().wait_for_err(only_a, 5s));
     b.send(emulator.b(), 1);
     EXPECT_EQ(a.receive(1, 1s).size(), 1U);
@@ -216,7 +216,7 @@ TEST(Emulator, TakesNothingThatIsForgedToComeFromItself)
     ASSERT_TRUE(send_forged(emulator.b(), emulator.a()));
     Host a;
     a.send(emulator.a(), 0); // after the others: once it is known they have been judged
-    ASSERT_TRUE(emulator.process().wait_for_err("a is " + a.endpoint().to_text(), 5s));
+    ASSERT_TRUE(emulator.process().wait_for_err("A is " + a.endpoint().to_text(), 5s));
     const auto statistics = emulator.stop();
     EXPECT_EQ(statistics["up"]["strangers"], 2);
     EXPECT_EQ(statistics["up"]["received"], 1);
@@ -231,7 +231,7 @@ TEST(Emulator, RelaysOverIpv6)
     Host b{"[::1]:0"};
     Emulator emulator{{"--delay", "5ms"}, "[::1]:0"};
     b.send(emulator.b(), 0);
-    ASSERT_TRUE(emulator.process().wait_for_err("b is " + b.endpoint().to_text(), 5s));
+    ASSERT_TRUE(emulator.process().wait_for_err("B is " + b.endpoint().to_text(), 5s));
     stream(a, emulator.a(), 100, 1ms);
     EXPECT_EQ(b.receive(100, 1s).size(), 100U);
     EXPECT_EQ(emulator.stop()["b"], b.endpoint().to_text());

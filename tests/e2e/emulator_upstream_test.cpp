@@ -256,6 +256,24 @@ TEST(EmulatorUpstream, OnSeveralThreadsHasItsPlaceAlone)
     std::ignore = emulator.stop();
 }
 
+TEST(EmulatorUpstream, CountsAnswersThatNoProgramListensAndNamesTheCure)
+{
+    std::optional<EchoServer> gone{std::in_place};
+    UpstreamRunning emulator{*gone, {}};
+    gone.reset();
+    Host client;
+    constexpr std::uint64_t count = 20;
+    stream(client, *emulator.listen, count, 5ms);
+    net::sleep_until(net::monotonic_now() + 100ms);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["unreachable"], count);
+    EXPECT_EQ(statistics["up"]["delivered"], count); // the answers fail no other datagram
+    EXPECT_EQ(statistics["down"]["unreachable"], 0);
+    EXPECT_EQ(statistics["clients"][0]["up"]["unreachable"], count);
+    EXPECT_NE(emulator.process->err().find("20 answers that no program listens"), std::string::npos)
+        << emulator.process->err();
+}
+
 TEST(EmulatorUpstream, IsNeverAnOpenRelayAndNeverItsOwnServer)
 {
     const auto said = [](const std::vector<std::string>& words) {

@@ -24,6 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto again = emulator::read_frame(fixed);
     base::ensure(again.kind == frame.kind && again.header_bytes == frame.header_bytes);
     std::ignore = emulator::flow_of(bytes);
+    base::ensure(!emulator::says_port_unreachable(frame, bytes) ||
+                 frame.kind == emulator::FrameKind::ip);
     if (frame.marks != base::IpMarks{}) {
         auto marked = fixed;
         emulator::mark_congestion(marked);

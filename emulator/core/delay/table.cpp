@@ -57,10 +57,12 @@ bool TableLaw::is_as_measured() const
 
 base::Result<void> TableLaw::load(const base::Reading& reading)
 {
-    const auto text = reading.open(file);
+    const auto format = parse_format(columns);
+    if (!format) return tl::unexpected{format.error()};
+    const auto text = open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
     const bool is_dist = file.ends_with(".dist");
-    auto read = is_dist ? parse_dist(*text) : parse_samples(*text);
+    auto read = is_dist ? parse_dist(*text) : parse_samples(*text, *format);
     if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     table = *std::move(read);
     return {};
@@ -84,7 +86,9 @@ LawMoments TableLaw::moments() const
 
 bool operator==(const TableLaw& a, const TableLaw& b)
 {
-    if (a.file != b.file || a.mean != b.mean || a.sd != b.sd) return false;
+    const bool is_same =
+        a.file == b.file && a.mean == b.mean && a.sd == b.sd && a.columns == b.columns;
+    if (!is_same) return false;
     return a.table == b.table || (a.table && b.table && *a.table == *b.table);
 }
 
@@ -128,9 +132,10 @@ base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view t
     return std::make_shared<const QuantileTable>(std::move(values), QuantileTable::Unit::own);
 }
 
-base::Result<std::shared_ptr<const QuantileTable>> parse_samples(std::string_view text)
+base::Result<std::shared_ptr<const QuantileTable>> parse_samples(std::string_view text,
+                                                                 const TableFormat& format)
 {
-    const auto rows = read_trace_rows(text, Measure::delay);
+    const auto rows = read_trace_rows(text, Measure::delay, format);
     if (!rows) return base::fail(rows.error().message);
     const auto delays = rows->delays();
     std::vector<double> values;

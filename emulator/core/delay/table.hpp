@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/delay/bounds.hpp"
+#include "emulator/core/trace/rows.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
@@ -18,7 +19,7 @@ namespace hapnet::emulator {
 /// through the sorted values, from the least at 0 to the greatest at 1.
 class QuantileTable {
 public:
-    static constexpr std::size_t values_max = 1'000'000;
+    static constexpr std::size_t values_max = trace_rows_max;
 
     /// What its values are: in units of the file's own, or nanoseconds of delay.
     enum class Unit { own, nanoseconds };
@@ -52,6 +53,7 @@ struct TableLaw {
     base::Duration mean{};
     base::Duration sd{};
     std::shared_ptr<const QuantileTable> table; // never null
+    std::string columns{};
 
     class Sampler;
 
@@ -74,7 +76,9 @@ constexpr auto fields_of(base::Tag<TableLaw>)
             .required(),
         base::field("mean", &TableLaw::mean, any_delay, "mean; as measured if neither is given"),
         base::field("sd", &TableLaw::sd, delay_width,
-                    "standard deviation; as measured if neither is given"));
+                    "standard deviation; as measured if neither is given"),
+        base::field("columns", &TableLaw::columns,
+                    "columns of measured delays with other names: \"delay=rtt:ms\""));
 }
 
 class TableLaw::Sampler {
@@ -95,10 +99,8 @@ private:
 /// standard deviation 1 (pareto: 0.82); here it is rescaled until mean and sd are those asked for.
 [[nodiscard]] base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view text);
 
-/// Reads measured delays: one with its unit per line ("12.5ms"), or CSV whose header line names a
-/// column delay_ns, delay_us, delay_ms or delay_s. Empty lines and those that begin with '#' are
-/// left out. The order of the delays does not matter.
+/// Reads measured delays (see read_trace_rows). Their order does not matter.
 [[nodiscard]] base::Result<std::shared_ptr<const QuantileTable>>
-parse_samples(std::string_view text);
+parse_samples(std::string_view text, const TableFormat& format = {});
 
 } // namespace hapnet::emulator

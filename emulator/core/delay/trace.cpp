@@ -73,11 +73,11 @@ double DelayTrace::share(std::size_t index) const
 
 base::Result<void> TraceLaw::load(const base::Reading& reading)
 {
-    const auto named = parse_columns(columns);
-    if (!named) return base::fail(fmt::format("columns: {}", named.error().message));
-    const auto text = reading.open(file);
+    const auto format = parse_format(columns, timing.slot);
+    if (!format) return tl::unexpected{format.error()};
+    const auto text = open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
-    auto read = parse_delay_trace(*text, *named);
+    auto read = parse_delay_trace(*text, *format);
     if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     trace = *std::move(read);
     return {};
@@ -91,8 +91,8 @@ base::Result<void> TraceLaw::validate() const
     }
     const bool is_in_time = timing.offset != base::Duration{0} || timing.start != TraceStart::run ||
                             interpolate != Interpolation::step;
-    return require(!is_in_time, "offset, start and interpolate need a column of times: this trace "
-                                "has a value for each datagram");
+    return require(!is_in_time, "offset, start and interpolate need a column of times, or a slot: "
+                                "this trace has a value for each datagram");
 }
 
 LawMoments TraceLaw::moments() const
@@ -144,9 +144,9 @@ void TraceLaw::Sampler::change(const TraceLaw& law)
 }
 
 base::Result<std::shared_ptr<const DelayTrace>> parse_delay_trace(std::string_view text,
-                                                                  const Columns& columns)
+                                                                  const TableFormat& format)
 {
-    auto rows = read_trace_rows(text, Measure::delay, columns);
+    auto rows = read_trace_rows(text, Measure::delay, format);
     if (!rows) return base::fail(rows.error().message);
     if (rows->times.empty()) return std::make_shared<const DelayTrace>(rows->delays());
     return std::make_shared<const DelayTrace>(rows->delays(), std::move(rows->times));

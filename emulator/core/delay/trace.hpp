@@ -115,9 +115,9 @@ private:
     TraceClock clock_;
 };
 
-/// Reads a trace (see read_trace_rows): by time from CSV that has a column of times, else by
-/// packet. The error names the line.
+/// Reads a trace (see read_trace_rows): by time from a table with times or slots, else by packet.
+/// The error names the line.
 [[nodiscard]] base::Result<std::shared_ptr<const DelayTrace>>
-parse_delay_trace(std::string_view text, const Columns& columns = {});
+parse_delay_trace(std::string_view text, const TableFormat& format = {});
 
 } // namespace hapnet::emulator

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/fates/fates.hpp"
 
+#include "emulator/core/flow/flow.hpp"
 #include "emulator/core/path_name.hpp"
 
 #include <algorithm>
@@ -304,21 +305,25 @@ base::Result<void> read_rows(std::string_view text, std::string_view head, const
     return {};
 }
 
-std::string head_of_paths() { return fmt::format("{},{}", path_column, fates_header); }
-
 /// Adds the fate in `row` to those of its path, which is `path` until another one begins.
-base::Result<void> read_row_of_path(std::string_view row, FatesOfPaths& fates, Fates*& last,
-                                    std::string& path)
+base::Result<void> read_row_of_path(std::string_view row, FateColumns columns, FatesOfPaths& fates,
+                                    Fates*& last, std::string& path)
 {
-    const auto name = take(row, ',');
+    const auto of = columns.has_paths ? take(row, ',') : std::string_view{};
+    const auto flow = columns.has_flows ? take(row, ',') : rest_of_flows;
+    const auto name = flow_path(of, flow == rest_of_flows ? "" : flow);
     if (last == nullptr || name != path) {
-        const auto way = parse_way(name);
-        if (!way || way->path != name || name.empty()) {
+        const auto way = parse_way(of);
+        if (columns.has_paths && (!way || way->path != of || of.empty())) {
             return base::fail(fmt::format("{}: expected the name of a link, such as 1-2, found "
                                           "'{}'",
-                                          path_column, name));
+                                          path_column, of));
         }
-        const auto [place, is_new] = fates.try_emplace(std::string{name});
+        if (flow != rest_of_flows && !validate_flow_name(flow)) {
+            return base::fail(fmt::format("{}: expected the name of a flow or {}, found '{}'",
+                                          flow_column, rest_of_flows, flow));
+        }
+        const auto [place, is_new] = fates.try_emplace(name);
         if (!is_new) {
             return base::fail(
                 fmt::format("{}: the rows of {} must follow each other", path_column, name));
@@ -338,16 +343,36 @@ base::Result<Fates> parse_fates(std::string_view text)
         .map([&] { return std::move(fates); });
 }
 
+std::string head_of_fates(FateColumns columns)
+{
+    return fmt::format("{}{}{}{}{}", columns.has_paths ? path_column : "",
+                       columns.has_paths ? "," : "", columns.has_flows ? flow_column : "",
+                       columns.has_flows ? "," : "", fates_header);
+}
+
+std::string row_begin(FateColumns columns, std::string_view path)
+{
+    const auto [of, flow] = parts_of(path);
+    std::string begin;
+    if (columns.has_paths) begin += fmt::format("{},", of);
+    if (columns.has_flows) begin += fmt::format("{},", flow.empty() ? rest_of_flows : flow);
+    return begin;
+}
+
 std::string to_text(const FatesOfPaths& fates)
 {
-    if (const auto only = fates.find(""); only != fates.end()) return to_text(only->second);
-    std::string text = head_of_paths() + "\n";
+    FateColumns columns;
     for (const auto& [path, own] : fates) {
+        columns.has_paths = columns.has_paths || !parts_of(path).path.empty();
+        columns.has_flows = columns.has_flows || !parts_of(path).flow.empty();
+    }
+    std::string text = head_of_fates(columns) + "\n";
+    for (const auto& [path, own] : fates) {
+        const auto begin = row_begin(columns, path);
         for (const Direction direction : {Direction::up, Direction::down}) {
             std::uint64_t number = 0;
             for (const Fate& fate : direction == Direction::up ? own.up : own.down) {
-                text += path;
-                text += ',';
+                text += begin;
                 append_row(text, direction, number++, fate);
             }
         }
@@ -357,7 +382,11 @@ std::string to_text(const FatesOfPaths& fates)
 
 base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text)
 {
-    if (!text.starts_with(path_column)) {
+    const FateColumns columns{.has_paths = text.starts_with(path_column),
+                              .has_flows = text.substr(0, text.find('\n')).find(",flow,") !=
+                                               std::string_view::npos ||
+                                           text.starts_with(flow_column)};
+    if (columns == FateColumns{}) {
         return parse_fates(text).map([](Fates only) {
             FatesOfPaths all;
             all.emplace("", std::move(only));
@@ -367,8 +396,10 @@ base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text)
     FatesOfPaths fates;
     Fates* last = nullptr;
     std::string path;
-    return read_rows(text, head_of_paths(),
-                     [&](std::string_view row) { return read_row_of_path(row, fates, last, path); })
+    return read_rows(text, head_of_fates(columns),
+                     [&](std::string_view row) {
+                         return read_row_of_path(row, columns, fates, last, path);
+                     })
         .map([&] { return std::move(fates); });
 }
 

@@ -59,17 +59,31 @@ struct Fates {
 /// would not have written.
 [[nodiscard]] base::Result<Fates> parse_fates(std::string_view text);
 
-// Of a run with several paths: one more column in front, the name of the path. The tables of the
-// paths follow each other.
+// A run with several paths has one more column in front, the name of the path; a run with flows
+// has another one, the name of the flow, or "rest". The tables of the paths follow each other.
 
 inline constexpr std::string_view path_column = "link";
+inline constexpr std::string_view flow_column = "flow";
+
+/// The columns before those of a single path.
+struct FateColumns {
+    bool has_paths = false;
+    bool has_flows = false;
+
+    friend bool operator==(const FateColumns&, const FateColumns&) = default;
+};
+
+/// The first line, without its end.
+[[nodiscard]] std::string head_of_fates(FateColumns columns);
+/// The first cells of each row of a path: "1-2,voice,".
+[[nodiscard]] std::string row_begin(FateColumns columns, std::string_view path);
 
 /// By the names of the paths.
 using FatesOfPaths = std::map<std::string, Fates, std::less<>>;
 
 [[nodiscard]] std::string to_text(const FatesOfPaths& fates);
 
-/// Either table; that of the only path has the name "".
+/// Any of these tables; the only path has the name "", or that of its flow: "flow.voice".
 [[nodiscard]] base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text);
 
 } // namespace hapnet::emulator

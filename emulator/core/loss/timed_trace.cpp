@@ -25,11 +25,11 @@ double LossSeries::at(base::Duration time, Interpolation way, bool repeats) cons
     return share + (shares_[place.next] - share) * place.progress;
 }
 
-base::Result<LossSeries> parse_loss_series(std::string_view text, const Columns& columns)
+base::Result<LossSeries> parse_loss_series(std::string_view text, const TableFormat& format)
 {
-    auto rows = read_trace_rows(text, Measure::loss, columns);
+    auto rows = read_trace_rows(text, Measure::loss, format);
     if (!rows) {
-        auto delays = read_trace_rows(text, Measure::delay, columns);
+        auto delays = read_trace_rows(text, Measure::delay, format);
         if (!delays || delays->times.empty()) return tl::unexpected{rows.error()};
         rows = std::move(delays);
         for (std::size_t i = 0; i < rows->values.size(); ++i) {
@@ -37,18 +37,18 @@ base::Result<LossSeries> parse_loss_series(std::string_view text, const Columns&
         }
     }
     if (rows->times.empty()) {
-        return base::fail("line 1: no column is named time_ns, time_us, time_ms or time_s");
+        return base::fail(std::string{without_times});
     }
     return LossSeries{std::move(rows->values), std::move(rows->times)};
 }
 
 base::Result<void> TimedTraceLoss::load(const base::Reading& reading)
 {
-    const auto named = parse_columns(columns);
-    if (!named) return base::fail(fmt::format("columns: {}", named.error().message));
-    const auto text = reading.open(file);
+    const auto format = parse_format(columns, timing.slot);
+    if (!format) return tl::unexpected{format.error()};
+    const auto text = open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
-    auto read = parse_loss_series(*text, *named);
+    auto read = parse_loss_series(*text, *format);
     if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     trace = std::make_shared<const LossSeries>(*std::move(read));
     return {};

@@ -32,10 +32,10 @@ private:
     TimeAxis axis_;
 };
 
-/// Reads CSV with a column of times and one of shares, or one of delays, where a lost one is a
-/// share of 1 and any other 0 (see read_trace_rows). The error names the line.
+/// Reads a table of times, or with slots, and of shares, or of delays, where a lost one is a share
+/// of 1 and any other 0 (see read_trace_rows). The error names the line.
 [[nodiscard]] base::Result<LossSeries> parse_loss_series(std::string_view text,
-                                                         const Columns& columns = {});
+                                                         const TableFormat& format = {});
 
 /// Each datagram is lost with the share that a trace has at its time.
 struct TimedTraceLoss {

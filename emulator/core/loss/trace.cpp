@@ -23,27 +23,6 @@ std::string_view take_line(std::string_view& text)
     return line;
 }
 
-/// The cell of this column, counted from 0; nullopt when the line is shorter.
-std::optional<std::string_view> cell(std::string_view line, std::size_t column)
-{
-    for (; column > 0; --column) {
-        const auto comma = line.find(',');
-        if (comma == std::string_view::npos) return std::nullopt;
-        line.remove_prefix(comma + 1);
-    }
-    return line.substr(0, line.find(','));
-}
-
-std::optional<std::size_t> column_of(std::string_view header, std::string_view name)
-{
-    for (std::size_t column = 0;; ++column) {
-        const auto comma = header.find(',');
-        if (header.substr(0, comma) == name) return column;
-        if (comma == std::string_view::npos) return std::nullopt;
-        header.remove_prefix(comma + 1);
-    }
-}
-
 base::Result<LossTrace> trace_of(std::vector<bool> lost)
 {
     if (lost.empty()) return base::fail("a trace of losses with no datagram in it");
@@ -83,44 +62,31 @@ base::Result<LossTrace> parse_loss_trace(std::string_view text)
     return trace_of(std::move(lost));
 }
 
-base::Result<LossTrace> parse_loss_table(std::string_view text, const Columns& columns)
+base::Result<LossTrace> parse_loss_table(std::string_view text, const TableFormat& format)
 {
-    const auto named = std::find_if(columns.begin(), columns.end(),
-                                    [](const Column& one) { return one.what == "lost"; });
-    const std::string name = named == columns.end() ? "lost" : named->name;
-    const std::string_view whole = text;
-    const auto column = column_of(take_line(text), name);
-    if (!column) {
-        auto delays = read_trace_rows(whole, Measure::delay, columns);
-        if (delays) return trace_of(std::move(delays->lost));
-        const bool has_delays = std::any_of(columns.begin(), columns.end(),
-                                            [](const Column& one) { return one.what == "delay"; });
-        if (has_delays) return tl::unexpected{delays.error()};
-        return base::fail(fmt::format("line 1: there is no column named '{}'", shortened(name)));
+    const auto rows = read_trace_rows(text, Measure::lost, format);
+    if (rows) {
+        std::vector<bool> lost;
+        for (const double one : rows->values) lost.push_back(one != 0.0);
+        return trace_of(std::move(lost));
     }
-    std::vector<bool> lost;
-    for (std::size_t number = 2; !text.empty(); ++number) {
-        const auto value = cell(take_line(text), *column);
-        if (value != "0" && value != "1") {
-            return base::fail(
-                fmt::format("line {}: 'lost' is 0 (arrived) or 1 (lost), nothing else", number));
-        }
-        if (lost.size() == LossTrace::datagrams_max) return too_long(number);
-        lost.push_back(value == "1");
-    }
-    return trace_of(std::move(lost));
+    auto delays = read_trace_rows(text, Measure::delay, format);
+    if (delays) return trace_of(std::move(delays->lost));
+    const bool has_delays = std::ranges::any_of(
+        format.columns, [](const Column& column) { return column.what == "delay"; });
+    return tl::unexpected{has_delays ? delays.error() : rows.error()};
 }
 
 base::Result<void> TraceLoss::load(const base::Reading& reading)
 {
-    const auto named = parse_columns(columns);
-    if (!named) return base::fail(fmt::format("columns: {}", named.error().message));
-    const auto text = reading.open(file);
+    const auto format = parse_format(columns);
+    if (!format) return tl::unexpected{format.error()};
+    const auto text = open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
     // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
-    const bool is_table =
-        text->find_first_of(",abcdefghijklmnopqrstuvwxyz") < text->find_first_of("01#");
-    auto read = is_table ? parse_loss_table(*text, *named) : parse_loss_trace(*text);
+    const bool is_table = !columns.empty() || text->find_first_of(",abcdefghijklmnopqrstuvwxyz") <
+                                                  text->find_first_of("01#");
+    auto read = is_table ? parse_loss_table(*text, *format) : parse_loss_trace(*text);
     if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     trace = std::make_shared<const LossTrace>(*std::move(read));
     return {};

@@ -40,10 +40,10 @@ private:
 /// nothing, and '#' begins a comment. Errors name the line.
 [[nodiscard]] base::Result<LossTrace> parse_loss_trace(std::string_view text);
 
-/// The column `lost` (0 or 1), or the one that `columns` names, of a table with a header line and
-/// commas; without one, the delays that say that a datagram was lost (see read_trace_rows).
+/// The column `lost` (0 or 1) of a table, or the one that the format names; without one, the delays
+/// that say that a datagram was lost (see read_trace_rows). Errors name the line.
 [[nodiscard]] base::Result<LossTrace> parse_loss_table(std::string_view text,
-                                                       const Columns& columns = {});
+                                                       const TableFormat& format = {});
 
 /// The losses of a recorded run; begins again at its end.
 struct TraceLoss {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/paths.hpp"
 
+#include "emulator/core/path_name.hpp"
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -32,6 +34,40 @@ Patch taken_in_common(std::vector<PathPatch>& patches, Patch PathPatch::*way)
         for (PathPatch& one : patches) ((one.*way).*slot.patch).reset();
     });
     return common;
+}
+
+/// What a flow has at the beginning of what all have.
+Conditions inherited_by(const Flow* flow, const Conditions& of_all)
+{
+    return flow != nullptr && flow->passes ? Conditions{} : Conditions{.mtu = of_all.mtu};
+}
+
+const Flow* find_flow(std::span<const Flow> flows, std::string_view path)
+{
+    const auto found = std::ranges::find(flows, parts_of(path).flow, &Flow::name);
+    return found == flows.end() ? nullptr : &*found;
+}
+
+/// Takes out of `own`, which is to be of a flow, what holds for the rest alone.
+void leave_inherited(Profile& own, const Profile& profile, std::string_view path)
+{
+    const Flow* flow = find_flow(profile.flows, path);
+    const auto leave = [&](Conditions Path::*way, Patch Change::*changed, Patch PathPatch::*patch) {
+        own.path.*way = inherited_by(flow, profile.path.*way);
+        const auto has_its_own = [&](std::string_view name) {
+            const auto* found = find_patch(profile.paths, name);
+            return found != nullptr && (found->*patch).mtu.has_value();
+        };
+        const bool inherits = !(flow != nullptr && flow->passes) && !has_its_own(path) &&
+                              !has_its_own(common_name(path));
+        for (Change& change : own.timeline) {
+            const auto mtu = (change.*changed).mtu;
+            change.*changed = Patch{};
+            if (inherits) (change.*changed).mtu = mtu;
+        }
+    };
+    leave(&Path::up, &Change::up, &PathPatch::up);
+    leave(&Path::down, &Change::down, &PathPatch::down);
 }
 
 /// Of each setting the value that most of them have, the first of those.
@@ -78,17 +114,24 @@ Profile profile_of(const Profile& profile, std::string_view path)
 {
     Profile own = profile;
     own.paths.clear();
-    if (const auto* patch = find_patch(profile.paths, path)) {
-        own.path.up = patched(std::move(own.path.up), patch->up);
-        own.path.down = patched(std::move(own.path.down), patch->down);
-    }
-    for (Change& change : own.timeline) {
-        if (const auto* patch = find_patch(change.paths, path)) {
-            change.up = merged(std::move(change.up), patch->up);
-            change.down = merged(std::move(change.down), patch->down);
+    own.flows.clear();
+    const auto common = common_name(path);
+    if (!common.empty()) leave_inherited(own, profile, path);
+    const auto take = [&](std::string_view name) {
+        if (const auto* patch = find_patch(profile.paths, name)) {
+            own.path.up = patched(std::move(own.path.up), patch->up);
+            own.path.down = patched(std::move(own.path.down), patch->down);
         }
-        change.paths.clear();
-    }
+        for (Change& change : own.timeline) {
+            if (const auto* patch = find_patch(change.paths, name)) {
+                change.up = merged(std::move(change.up), patch->up);
+                change.down = merged(std::move(change.down), patch->down);
+            }
+        }
+    };
+    if (!common.empty()) take(common);
+    if (path != common || path.empty()) take(path);
+    for (Change& change : own.timeline) change.paths.clear();
     return own;
 }
 
@@ -121,7 +164,10 @@ JoinedPatch joined(std::vector<PathPatch> patches)
     return all;
 }
 
-Profile joined(std::span<const NamedProfile> profiles)
+namespace {
+
+/// Of paths of one kind: all of the rest, or all of one flow.
+Profile joined_of_kind(std::span<const NamedProfile> profiles)
 {
     Profile all;
     if (profiles.empty()) return all;
@@ -155,6 +201,42 @@ Profile joined(std::span<const NamedProfile> profiles)
         all.timeline.push_back({std::get<0>(key), std::get<2>(key), std::move(change.up),
                                 std::move(change.down), std::move(change.paths)});
     }
+    return all;
+}
+
+/// Adds what the paths of one flow have.
+void add_flow(Profile& all, const Flow& flow, const Profile& own)
+{
+    const auto name = flow_path("", flow.name);
+    const PathPatch patch{name, difference(inherited_by(&flow, all.path.up), own.path.up),
+                          difference(inherited_by(&flow, all.path.down), own.path.down)};
+    if (patch.up != Patch{} || patch.down != Patch{}) patch_for(all.paths, name) = patch;
+    for (const PathPatch& one : own.paths) patch_for(all.paths, one.path) = one;
+    for (const Change& change : own.timeline) {
+        Change of_flow{change.time, change.ramp, {}, {}, change.paths};
+        if (change.up != Patch{} || change.down != Patch{}) {
+            patch_for(of_flow.paths, name) = {name, change.up, change.down};
+        }
+        if (!of_flow.paths.empty()) all.timeline.push_back(std::move(of_flow));
+    }
+}
+
+} // namespace
+
+Profile joined(std::span<const NamedProfile> profiles, std::span<const Flow> flows)
+{
+    const auto of_kind = [&](std::string_view common) {
+        std::vector<NamedProfile> kind;
+        for (const NamedProfile& one : profiles) {
+            if (common_name(one.path) == common) kind.push_back(one);
+        }
+        return joined_of_kind(kind);
+    };
+    if (flows.empty()) return joined_of_kind(profiles);
+    Profile all = of_kind("");
+    all.flows.assign(flows.begin(), flows.end());
+    for (const Flow& flow : flows) add_flow(all, flow, of_kind(flow_path("", flow.name)));
+    std::ranges::stable_sort(all.timeline, {}, &Change::time);
     return all;
 }
 

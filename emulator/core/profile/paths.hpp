@@ -18,7 +18,8 @@ namespace hapnet::emulator {
 [[nodiscard]] std::vector<std::string> paths_in(const Profile& profile);
 
 /// What the profile is to this path, without the others; its timeline has the same changes, also
-/// those that change nothing here.
+/// those that change nothing here. A flow has nothing of the conditions of all paths but the MTU,
+/// and not even that if it passes untouched.
 [[nodiscard]] Profile profile_of(const Profile& profile, std::string_view path);
 
 /// Timeline::validate() of every path.
@@ -30,8 +31,9 @@ struct NamedProfile {
     Profile profile;
 };
 /// One profile that is to each path what its own is. What most have at the beginning, and what
-/// changes alike on all of them, stands in it for all.
-[[nodiscard]] Profile joined(std::span<const NamedProfile> profiles);
+/// changes alike on all of them, stands in it for all. `flows`: those that the paths have.
+[[nodiscard]] Profile joined(std::span<const NamedProfile> profiles,
+                             std::span<const Flow> flows = {});
 
 /// One patch for several paths: what all have alike, and what is left of each.
 struct JoinedPatch {

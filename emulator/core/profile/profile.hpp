@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
+#include "emulator/core/flow/flow.hpp"
 #include "proto/base/condition.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
@@ -43,6 +44,7 @@ struct Profile {
     std::vector<Change> timeline;          // ascending in time
     std::vector<PathPatch> paths{};        // ascending by their names
     std::vector<base::Condition> checks{}; // what the statistics of a run must meet in the end
+    std::vector<Flow> flows{};             // the first that matches takes a packet
 
     friend bool operator==(const Profile&, const Profile&) = default;
 };

@@ -2,11 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/setting_hints.hpp"
 
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/profile/settings.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -55,6 +61,33 @@ constexpr std::array examples{
     LawExample{"delay", "trace", R"({ law = "trace", file = "delays.csv" })"},
 };
 
+/// The fields of all laws of a variant.
+template <typename Law>
+std::vector<const base::FieldTable*> law_tables()
+{
+    return []<typename... Laws>(const std::variant<Laws...>*) {
+        return std::vector<const base::FieldTable*>{&base::field_table<Laws>()...};
+    }(static_cast<const Law*>(nullptr));
+}
+
+struct PlaceOfKeys {
+    std::vector<std::string_view> keys;
+    std::string where;
+};
+
+/// The keys of a profile, by the tables that have them; those of laws are in their descriptions.
+std::vector<PlaceOfKeys> places_of_keys()
+{
+    return {{{setting_keys.begin(), setting_keys.end()}, "write it below [both], [up] or [down]"},
+            {{"name", "seed"}, "write it at the top, above the first [table]"},
+            {{"both", "all", "up", "down"}, "write it as a table of its own: [both]"},
+            {{"time", "ramp"}, "it belongs to a change: write it below [[at]]"},
+            {{"require"}, "it belongs to a check: write it below [[check]]"},
+            {{"peers"}, "write it below [matrix]"},
+            {{"match", "pass"}, "it belongs to a flow: write it below [[flow]]"},
+            {{"flow"}, "write flows as [[flow]], at the top level"}};
+}
+
 /// The first example that a word of the value calls for.
 std::string_view example_for(std::string_view name, std::string_view value)
 {
@@ -94,6 +127,26 @@ std::string_view law_example(std::string_view name, std::string_view law)
     const std::string_view setting = name == "jitter" ? "delay" : name;
     for (const LawExample& example : examples) {
         if (example.setting == setting && example.law == law) return example.text;
+    }
+    return "";
+}
+
+std::string advice_on_key(std::string_view key)
+{
+    std::string plain{key};
+    std::replace(plain.begin(), plain.end(), '-', '_');
+    for (const auto& [keys, where] : places_of_keys()) {
+        if (std::find(keys.begin(), keys.end(), plain) != keys.end()) return where;
+    }
+    for (const auto& [setting, laws] :
+         {std::pair{"loss", law_tables<LossLaw>()}, std::pair{"jitter", law_tables<DelayLaw>()}}) {
+        for (const base::FieldTable* law : laws) {
+            const auto example = law_example(setting, law->name);
+            const auto has_key = [&](const base::FieldRow& row) { return row.key == plain; };
+            if (example.empty() || !std::any_of(law->rows.begin(), law->rows.end(), has_key))
+                continue;
+            return fmt::format("it belongs to a law: {} = {}", setting, example);
+        }
     }
     return "";
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/settings.hpp"
 
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/core/profile/laws.hpp"
 #include "emulator/core/profile/setting_hints.hpp"
 #include "proto/base/ensure.hpp"
@@ -36,14 +37,31 @@ Stage read_stage(const Node& node, Reading& reading)
     return stage;
 }
 
+/// A token bucket may call its limit by the name that tc and traffic contracts use.
+Node with_limit_for_mean(Node node, Reading& reading)
+{
+    auto& entries = std::get<Node::Table>(node.value);
+    const auto mean = std::ranges::find(entries, "mean", &base::Entry::key);
+    if (mean == entries.end()) return node;
+    if (std::ranges::find(entries, limit_key, &base::Entry::key) != entries.end()) {
+        reading.complain(mean->place, "mean and limit say the same: write one of them");
+    }
+    if (std::ranges::find(entries, "burst", &base::Entry::key) == entries.end()) {
+        reading.complain(mean->place, "mean goes with burst: write limit for a rate without one");
+    }
+    mean->key = limit_key;
+    return node;
+}
+
 /// A rate, or a table: of a constant rate, or { law = "trace", file = ... } with the other keys.
 Rate read_rate(const Node& node, Reading& reading)
 {
-    const auto* entries = std::get_if<Node::Table>(&node.value);
-    if (entries == nullptr) return read_stage<Rate>(node, reading);
+    if (!std::holds_alternative<Node::Table>(node.value)) return read_stage<Rate>(node, reading);
+    const Node table_node = with_limit_for_mean(node, reading);
+    const auto* entries = std::get_if<Node::Table>(&table_node.value);
     TableReader table{*entries, node.place, reading};
     const Node* law = table.find("law");
-    if (law == nullptr) return read_stage<Rate>(node, reading);
+    if (law == nullptr) return read_stage<Rate>(table_node, reading);
     Rate rate;
     std::string name;
     read_value(*law, name, reading);
@@ -135,6 +153,14 @@ std::string setting_text(const Reordering& reordering, std::string_view /*key*/)
     return reordering == Reordering{} ? base::quoted("none") : stage_text(reordering);
 }
 
+void read_correlation_time(const Node& node, DirectionSettings& settings, Reading& reading)
+{
+    base::Duration time{};
+    read_value(node, time, reading);
+    if (time < base::Duration{0}) reading.complain(node.place, "a time cannot be negative");
+    settings.correlation_time = time;
+}
+
 void add_bursts(std::vector<LossLaw>& laws, const std::vector<LossLaw>& bursts)
 {
     std::erase_if(laws, [](const LossLaw& law) {
@@ -192,8 +218,9 @@ base::Result<Target> target_of(std::string_view key, const PathNames& names)
     const auto name = with_underscores(dot == std::string_view::npos ? key : key.substr(dot + 1));
     const auto way = parse_way(front);
     const bool can_be_many = !names.links.empty() || names.clients || names.any;
-    const bool is_numbered = way && (is_pair(way->path) || way->path.starts_with("client."));
-    if (!way || !(names.contains(way->path) || can_be_many || is_numbered)) {
+    const bool is_other = way && (is_pair(way->path) || way->path.starts_with("client.") ||
+                                  !parts_of(way->path).flow.empty());
+    if (!way || !(names.contains(way->path) || can_be_many || is_other)) {
         return refusal_of_parts(key, front);
     }
     if (!names.contains(way->path)) {
@@ -211,14 +238,15 @@ base::Result<Target> target_of(std::string_view key, const PathNames& names)
 }
 
 /// Calls use(setting) for those that are for all paths or for the one of this name; of two that
-/// contradict, the one that wins comes last.
+/// contradict, the one that wins comes last. Those of a flow are not those of the rest.
 template <typename Use>
 void in_turn(std::span<const Setting> settings, std::string_view path, const Use& use)
 {
+    const std::string_view common = common_name(path);
     for (const bool is_of_all : {true, false}) {
         for (const bool is_of_both : {true, false}) {
             for (const Setting& setting : settings) {
-                if (setting.path.empty() != is_of_all) continue;
+                if ((setting.path == common) != is_of_all) continue;
                 if (!is_of_all && setting.path != path) continue;
                 if (!setting.direction.has_value() == is_of_both) use(setting);
             }
@@ -252,6 +280,8 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
         if (order) reading.complain(node.place, "order belongs to jitter, not to delay");
     } else if (key == "jitter") {
         read_jitter(node, patch, reading);
+    } else if (key == "correlation_time") {
+        read_correlation_time(node, settings, reading);
     } else if (key == "order") {
         const Order order = read_order(node, reading);
         if (patch.order && *patch.order != order) contradict(node, reading);
@@ -260,6 +290,13 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
         base::ensure(key == "reorder");
         patch.reorder = read_stage<Reordering>(node, reading);
     }
+}
+
+Variation* correlated(Conditions& conditions)
+{
+    if (!is_nothing(conditions.jitter)) return &conditions.jitter;
+    const bool varies = !std::holds_alternative<ConstantLaw>(conditions.delay.law);
+    return varies ? &conditions.delay : nullptr;
 }
 
 DirectionSettings read_direction(const Node& node, Reading& reading)
@@ -307,6 +344,9 @@ base::Result<Setting> parse_setting(std::string_view key, std::string_view value
     read_setting(target->name, *node, setting.settings, reading);
     // The complaint begins with the key, as with the place in a file.
     if (!reading.is_good()) return refuse(reading.complaint()->substr(key.size() + 2));
+    if (const auto valid = validate_patch(setting.settings.patch, setting.path, names); !valid) {
+        return base::fail(fmt::format("{}: {}", key, valid.error().message));
+    }
     return setting;
 }
 
@@ -324,6 +364,18 @@ base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
             add_bursts(conditions.loss, *setting.settings.burst_loss);
         });
     });
+    bool is_one_lacking = false;
+    in_turn(settings, name, [&](const Setting& setting) {
+        if (!setting.settings.correlation_time) return;
+        bool is_used = false;
+        for_each_of(path, setting.direction, [&](Conditions& conditions) {
+            Variation* const target = correlated(conditions);
+            is_used = is_used || target != nullptr;
+            if (target != nullptr) target->correlation_time = *setting.settings.correlation_time;
+        });
+        is_one_lacking = is_one_lacking || !is_used;
+    });
+    if (is_one_lacking) return base::fail(std::string{nothing_to_correlate});
     if (std::max(path.up.loss.size(), path.down.loss.size()) > loss_laws_max) {
         return base::fail(
             fmt::format("a direction can have at most {} laws of loss", loss_laws_max));
@@ -336,11 +388,15 @@ Patch patch_of(std::span<const Setting> settings, std::string_view name, Directi
 {
     Patch patch;
     bool sets_bursts = false;
+    bool sets_correlation = false;
     in_turn(settings, name, [&](const Setting& setting) {
         if (setting.direction && *setting.direction != direction) return;
         patch = merged(std::move(patch), setting.settings.patch);
         sets_bursts = sets_bursts || setting.settings.burst_loss;
+        sets_correlation = sets_correlation || setting.settings.correlation_time;
     });
+    if (sets_correlation && !is_nothing(after.jitter)) patch.jitter = after.jitter;
+    if (sets_correlation && is_nothing(after.jitter)) patch.delay = after.delay;
     if (sets_bursts) patch.loss = after.loss;
     return patch;
 }

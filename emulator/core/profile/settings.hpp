@@ -16,17 +16,26 @@
 
 namespace hapnet::emulator {
 
-/// The keys of a direction, in the order of the stages. "burst_loss" is a further law of loss.
-inline constexpr std::array<std::string_view, 11> setting_keys{
-    "mtu",       "rate",  "queue",  "loss",  "burst_loss", "corrupt",
-    "duplicate", "delay", "jitter", "order", "reorder"};
+/// The keys of a direction, in the order of the stages. "burst_loss" is a further law of loss,
+/// "correlation_time" belongs to the jitter, or to a delay with a law.
+inline constexpr std::array<std::string_view, 12> setting_keys{
+    "mtu",     "rate",      "queue", "loss",   "burst_loss",
+    "corrupt", "duplicate", "delay", "jitter", "correlation_time",
+    "order",   "reorder"};
 
 /// What the keys of one direction say. The outer optional: the key is there; an empty list: there
 /// is no such burst.
 struct DirectionSettings {
     Patch patch;
     std::optional<std::vector<LossLaw>> burst_loss{};
+    std::optional<base::Duration> correlation_time{};
 };
+
+/// The variation that a correlation time is of: the jitter, or without one the delay. nullptr:
+/// neither varies.
+[[nodiscard]] Variation* correlated(Conditions& conditions);
+inline constexpr std::string_view nothing_to_correlate =
+    "correlation_time goes with a jitter, or with a delay that varies: write one beside it";
 
 /// What the entry of this key says, into `settings`. `key` is one of setting_keys.
 void read_setting(std::string_view key, const Node& node, DirectionSettings& settings,
@@ -35,7 +44,8 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
 /// What a table of such keys says. Complains of unknown keys, and of orders that contradict.
 [[nodiscard]] DirectionSettings read_direction(const Node& node, Reading& reading);
 
-/// The values of the keys as TOML; nullopt: not set. burst_loss is never set: it is part of loss.
+/// The values of the keys as TOML; nullopt: not set. burst_loss and correlation_time are never set:
+/// they are part of loss and of jitter or delay.
 using SettingTexts = std::array<std::optional<std::string>, setting_keys.size()>;
 [[nodiscard]] SettingTexts setting_texts(const Patch& patch);
 
@@ -57,7 +67,8 @@ struct Setting {
 /// `path`, which is called `name`, with the settings that are for all paths or for it: those of
 /// all before its own, and of each those of both ways first, then those of one way, each in their
 /// order. burst_loss comes last and replaces the bursts without a phase in the list of losses, or
-/// is added to it. The error: more laws than a direction may have.
+/// is added to it; so does correlation_time. The error: more laws than a direction may have, or
+/// nothing to correlate.
 [[nodiscard]] base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
                                                std::string_view name = {});
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/text.hpp"
 
+#include "emulator/core/profile/flows.hpp"
 #include "emulator/core/profile/paths.hpp"
+#include "emulator/core/profile/setting_hints.hpp"
 #include "emulator/core/profile/timeline.hpp"
 #include "proto/base/text.hpp"
 
@@ -23,10 +25,14 @@ struct Placed {
     Place place;
 };
 
-/// Reads the tables of settings of one table: both, all, up, down, and those of single paths.
+/// Reads the tables of settings of one table: both, all, up, down, and those of single paths. In a
+/// change those of flows stand among them.
 class SettingsReader {
 public:
-    SettingsReader(TableReader& table, const PathNames& names) : table_{table}, names_{names} {}
+    enum class In { profile, change };
+    SettingsReader(TableReader& table, const PathNames& names, In in)
+        : table_{table}, names_{names}, in_{in}
+    {}
 
     [[nodiscard]] std::vector<Placed> read() &&
     {
@@ -43,6 +49,8 @@ public:
                 return std::optional{Way{client_path(key), std::nullopt}};
             });
         }
+        const Node* flows = in_ == In::change ? table_.find("flow") : nullptr;
+        if (flows != nullptr) read_flow_tables({}, *flows);
         return std::move(all_);
     }
 
@@ -55,7 +63,11 @@ private:
     }
     void add(const Way& way, const Node& node)
     {
-        all_.push_back({{way.direction, read_direction(node, reading()), way.path}, node.place});
+        auto settings = read_direction(node, reading());
+        if (const auto valid = validate_patch(settings.patch, way.path, names_); !valid) {
+            reading().complain(node.place, valid.error().message);
+        }
+        all_.push_back({{way.direction, std::move(settings), way.path}, node.place});
     }
     [[nodiscard]] bool is_there(const Way& way, Place place) const
     {
@@ -83,23 +95,38 @@ private:
         }
     }
 
-    /// Of a pair, the settings of one way; else both, up and down, or the settings of both.
+    /// Of a pair, the settings of one way; else both, up and down, or the settings of both. Those
+    /// of flows stand among them.
     void read_path_table(const Way& way, const Node& node)
     {
         const auto* entries = std::get_if<Node::Table>(&node.value);
-        if (entries == nullptr || way.direction) return add(way, node);
+        if (entries == nullptr) return add(way, node);
         Node rest{node.place, Node::Table{}};
         for (const base::Entry& entry : *entries) {
-            const auto part = entry.key == "up" || entry.key == "down" || entry.key == "both"
-                                  ? parse_way(entry.key)
-                                  : std::nullopt;
+            const bool is_way = entry.key == "up" || entry.key == "down" || entry.key == "both";
+            const auto part = is_way && !way.direction ? parse_way(entry.key) : std::nullopt;
             if (part) {
                 add({way.path, part->direction}, entry.value);
+            } else if (entry.key == "flow") {
+                read_flow_tables(way, entry.value);
             } else {
                 std::get<Node::Table>(rest.value).push_back(entry);
             }
         }
         if (!std::get<Node::Table>(rest.value).empty()) add(way, rest);
+    }
+
+    /// The tables of flows by their names, on one path or on all.
+    void read_flow_tables(const Way& way, const Node& node)
+    {
+        const auto* entries = std::get_if<Node::Table>(&node.value);
+        if (entries == nullptr) {
+            return reading().complain(node.place, "expected tables of flows: flow.NAME.up.delay");
+        }
+        for (const auto& [key, place, value] : *entries) {
+            const Way of_flow{flow_path(way.path, key), way.direction};
+            if (is_there(of_flow, place)) read_path_table(of_flow, value);
+        }
     }
 
     void read_matrix(const Node& node)
@@ -171,6 +198,7 @@ private:
 
     TableReader& table_;
     const PathNames& names_;
+    In in_;
     std::vector<Placed> all_{};
 };
 
@@ -211,7 +239,7 @@ PlacedChange read_change(const Node& node, const PathNames& names, Reading& read
     const Node* ramp = table.find("ramp");
     read_time(ramp, placed.change.ramp, reading);
     if (ramp != nullptr) placed.ramp_place = ramp->place;
-    for (const Placed& side : SettingsReader{table, names}.read()) {
+    for (const Placed& side : SettingsReader{table, names, SettingsReader::In::change}.read()) {
         const DirectionSettings& settings = side.setting.settings;
         Patch patch = settings.patch;
         if (settings.burst_loss && !patch.loss) {
@@ -225,6 +253,14 @@ PlacedChange read_change(const Node& node, const PathNames& names, Reading& read
                     side.place,
                     fmt::format("a direction can have at most {} laws of loss", loss_laws_max));
             }
+        }
+        if (settings.correlation_time && patch.jitter) {
+            patch.jitter->correlation_time = *settings.correlation_time;
+        } else if (settings.correlation_time && patch.delay) {
+            patch.delay->correlation_time = *settings.correlation_time;
+        } else if (settings.correlation_time) {
+            reading.complain(side.place, "a change sets a jitter as a whole: write jitter or delay "
+                                         "beside correlation_time");
         }
         const auto direction = side.setting.direction;
         const auto add_to = [&](auto& target) {
@@ -365,19 +401,34 @@ std::vector<Section> sections_of(const std::string& prefix, const Patch& up, con
 
 std::vector<Section> sections_of(const PathPatch& own)
 {
-    if (is_pair(own.path)) {
+    const auto [path, flow] = parts_of(own.path);
+    const auto of_flow = flow.empty() ? "" : fmt::format(".flow.{}", flow);
+    if (path.empty()) return sections_of(of_flow.substr(1) + ".", own.up, own.down);
+    if (is_pair(path)) {
+        const std::string_view of = path; // Clang 14 captures no structured binding
         const auto name = [&](Direction way) {
-            return fmt::format("link.{}", base::quoted(way_name(own.path, way)));
+            return fmt::format("link.{}{}", base::quoted(way_name(of, way)), of_flow);
         };
         return {{name(Direction::up), setting_texts(own.up), {}},
                 {name(Direction::down), setting_texts(own.down), {}}};
     }
     const std::string prefix = client_path("");
-    const bool is_client = own.path.starts_with(prefix);
-    return sections_of(
-        fmt::format("{}.{}.", is_client ? "client" : "link",
-                    base::quoted(is_client ? own.path.substr(prefix.size()) : own.path)),
-        own.up, own.down);
+    const bool is_client = path.starts_with(prefix);
+    return sections_of(fmt::format("{}.{}{}.", is_client ? "client" : "link",
+                                   base::quoted(is_client ? path.substr(prefix.size()) : path),
+                                   of_flow),
+                       own.up, own.down);
+}
+
+/// With the conditions that it has on all paths.
+void print_flow(std::string& out, const Flow& flow, const std::vector<PathPatch>& paths)
+{
+    out += fmt::format("\n[[flow]]\n{}", flow_lines(flow));
+    const auto own = std::ranges::find(paths, flow_path("", flow.name), &PathPatch::path);
+    if (own == paths.end()) return;
+    for (const auto& [name, texts, but] : sections_of("", own->up, own->down)) {
+        print(out, texts, but, name + ".");
+    }
 }
 
 void print_change(std::string& out, const Change& change)
@@ -404,12 +455,14 @@ void read_conditions(TableReader& table, const PathNames& names, Profile& profil
 {
     std::vector<Setting> settings;
     std::map<std::string, Place> places{{"", table.place()}};
-    for (Placed& placed : SettingsReader{table, names}.read()) {
+    for (Placed& placed : SettingsReader{table, names, SettingsReader::In::profile}.read()) {
         places[placed.setting.path] = placed.place;
         settings.push_back(std::move(placed.setting));
     }
     for (const auto& [name, place] : places) {
-        auto path = with_settings({}, settings, name);
+        const auto common = common_name(name);
+        const Path before = common.empty() ? Path{} : profile_of(profile, common).path;
+        auto path = with_settings(before, settings, name);
         if (!path) {
             table.reading().complain(place, path.error().message);
         } else if (name.empty()) {
@@ -421,12 +474,14 @@ void read_conditions(TableReader& table, const PathNames& names, Profile& profil
             }
         }
     }
+    std::ranges::sort(profile.paths, {}, &PathPatch::path);
 }
 
 base::Result<Profile> parse_profile(std::string_view text, const std::string& source,
                                     const OpenFile& open, const PathNames& names)
 {
     Reading reading{source, open};
+    reading.advise_on_keys(advice_on_key);
     const auto document = parse_document(text);
     if (!document) {
         reading.complain(document.error().place, document.error().message);
@@ -437,8 +492,10 @@ base::Result<Profile> parse_profile(std::string_view text, const std::string& so
     const Node* name = table.find("name");
     if (name != nullptr) read_value(*name, profile.name, reading);
     profile.seed = read_seed(table.find("seed"), reading);
-    read_conditions(table, names, profile);
-    read_timeline(table, names, profile);
+    read_flows(table, profile);
+    const PathNames all = with_flows(names, profile.flows);
+    read_conditions(table, all, profile);
+    read_timeline(table, all, profile);
     read_checks(table.find("check"), profile, reading);
     table.finish();
     if (!reading.is_good()) return base::fail(*reading.complaint());
@@ -459,7 +516,10 @@ std::string to_text(const Profile& profile)
         for (const auto& [section, texts, but] : sections) print_section(out, section, texts, but);
     };
     print_all(sections_of("", to_patch(profile.path.up), to_patch(profile.path.down)));
-    for (const PathPatch& own : profile.paths) print_all(sections_of(own));
+    for (const PathPatch& own : profile.paths) {
+        if (!parts_of(own.path).path.empty()) print_all(sections_of(own));
+    }
+    for (const Flow& flow : profile.flows) print_flow(out, flow, profile.paths);
     for (const Change& change : profile.timeline) print_change(out, change);
     for (const base::Condition& check : profile.checks) {
         out += fmt::format("\n[[check]]\nrequire = {}\n", base::quoted(to_text(check)));

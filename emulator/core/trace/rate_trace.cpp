@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -26,12 +28,18 @@ Work product(std::uint64_t rate, base::Duration time)
     return rate * nanoseconds;
 }
 
+/// The work of so many opportunities, at most what a line ever needs.
+Work work_of(std::uint64_t opportunities)
+{
+    return std::min(opportunities, most_work / work_per_opportunity) * work_per_opportunity;
+}
+
 Work sum(Work a, Work b) { return a > most_work - b ? most_work : a + b; }
 
 base::Result<RateTrace> parse_opportunities(std::string_view text)
 {
     constexpr auto most = static_cast<std::uint64_t>(longest_delay / std::chrono::milliseconds{1});
-    std::vector<base::Duration> times;
+    std::vector<Opportunities::Moment> moments;
     LineReader lines{text};
     while (const auto line = lines.next()) {
         const auto ms = base::parse_count(*line, most);
@@ -40,35 +48,42 @@ base::Result<RateTrace> parse_opportunities(std::string_view text)
                                           "has them; a table begins with the names of its columns",
                                           shortened(*line)));
         }
-        const auto time = std::chrono::milliseconds{*ms};
-        if (!times.empty() && time < times.back()) {
+        const base::Duration time = std::chrono::milliseconds{*ms};
+        if (!moments.empty() && time < moments.back().at) {
             return lines.fail(fmt::format("{} ms is earlier than the line before", *ms));
         }
-        if (times.size() == trace_rows_max) return lines.fail(too_many_values);
-        times.emplace_back(time);
+        if (moments.empty() || moments.back().at != time) {
+            if (moments.size() == trace_rows_max) {
+                return lines.fail("more than 10000000 different times: cut the file");
+            }
+            moments.push_back({time, moments.empty() ? 0 : moments.back().count});
+        }
+        ++moments.back().count;
     }
-    if (times.empty() || times.back() == base::Duration{0}) {
+    if (moments.empty() || moments.back().at == base::Duration{0}) {
         return lines.fail("the file ends without an opportunity later than 0 ms");
     }
-    return RateTrace{Opportunities{std::move(times)}};
+    return RateTrace{Opportunities{std::move(moments)}};
 }
 
 } // namespace
 
-Opportunities::Opportunities(std::vector<base::Duration> times) : times_{std::move(times)}
+Opportunities::Opportunities(std::vector<Moment> moments) : moments_{std::move(moments)}
 {
-    base::ensure(!times_.empty() && times_.front() >= base::Duration{0});
-    base::ensure(times_.back() > base::Duration{0});
-    base::ensure(std::is_sorted(times_.begin(), times_.end()));
+    base::ensure(!moments_.empty() && moments_.front().at >= base::Duration{0});
+    base::ensure(moments_.front().count > 0 && moments_.back().at > base::Duration{0});
+    base::ensure(std::ranges::is_sorted(moments_, std::ranges::less_equal{}, &Moment::at));
+    base::ensure(std::ranges::is_sorted(moments_, std::ranges::less_equal{}, &Moment::count));
+    moments_.shrink_to_fit();
 }
 
-/// How many come up to and including a time.
+/// The number of opportunities up to and including a time.
 std::uint64_t Opportunities::count(base::Duration until, bool repeats) const
 {
     const auto rounds = repeats ? static_cast<std::uint64_t>(until / period()) : 0;
     const auto rest = repeats ? until % period() : until;
-    const auto after = std::upper_bound(times_.begin(), times_.end(), rest);
-    return rounds * times_.size() + static_cast<std::uint64_t>(after - times_.begin());
+    const auto after = std::ranges::upper_bound(moments_, rest, {}, &Moment::at);
+    return rounds * each_round() + (after == moments_.begin() ? 0 : std::prev(after)->count);
 }
 
 std::optional<Completion> Opportunities::finish(base::Duration from, Work work, bool repeats) const
@@ -76,22 +91,21 @@ std::optional<Completion> Opportunities::finish(base::Duration from, Work work, 
     if (work == 0) return Completion{from, 0};
     const auto before = count(from, repeats);
     const auto last = before + (work - 1) / work_per_opportunity; // the number of the one it takes
-    const auto round = static_cast<base::Duration::rep>(last / times_.size());
+    const auto round = static_cast<base::Duration::rep>(last / each_round());
     if (round > 0 && !repeats) return std::nullopt;
-    const auto at = round * period() + times_[last % times_.size()];
-    return Completion{at, (count(at, repeats) - before) * work_per_opportunity - work};
+    const auto moment = std::ranges::upper_bound(moments_, last % each_round(), {}, &Moment::count);
+    const auto at = round * period() + moment->at;
+    return Completion{at, work_of(count(at, repeats) - before) - work};
 }
 
 Work Opportunities::sent(base::Duration from, base::Duration to, bool repeats) const
 {
-    const auto opportunities = count(to, repeats) - count(from, repeats);
-    return std::min<std::uint64_t>(opportunities, most_work / work_per_opportunity) *
-           work_per_opportunity;
+    return work_of(count(to, repeats) - count(from, repeats));
 }
 
 double Opportunities::mean_rate() const
 {
-    const auto bits = static_cast<double>(8 * bytes_each * times_.size());
+    const auto bits = static_cast<double>(8 * bytes_each * each_round());
     return bits / base::to_seconds(period());
 }
 
@@ -188,17 +202,18 @@ base::Duration RateTrace::period() const
     return std::visit([](const auto& trace) { return trace.period(); }, trace_);
 }
 
-base::Result<RateTrace> parse_rate_trace(std::string_view text, const Columns& columns)
+base::Result<RateTrace> parse_rate_trace(std::string_view text, const TableFormat& format)
 {
     LineReader lines{text};
     const auto first = lines.next();
-    if (first && first->find_first_not_of("0123456789") == std::string_view::npos) {
+    const bool is_plain = format.columns.empty() && format.slot == base::Duration{0};
+    if (is_plain && first && first->find_first_not_of("0123456789") == std::string_view::npos) {
         return parse_opportunities(text);
     }
-    auto rows = read_trace_rows(text, Measure::rate, columns);
+    auto rows = read_trace_rows(text, Measure::rate, format);
     if (!rows) return tl::unexpected{rows.error()};
     if (rows->times.empty()) {
-        return base::fail("line 1: no column is named time_ns, time_us, time_ms or time_s");
+        return base::fail(std::string{without_times});
     }
     std::vector<std::uint64_t> rates;
     for (const double rate : rows->values) {
@@ -211,11 +226,11 @@ base::Result<RateTrace> parse_rate_trace(std::string_view text, const Columns& c
 
 base::Result<void> RateTraceLaw::load(const base::Reading& reading)
 {
-    const auto named = parse_columns(columns);
-    if (!named) return base::fail(fmt::format("columns: {}", named.error().message));
-    const auto text = reading.open(file);
+    const auto format = parse_format(columns, timing.slot);
+    if (!format) return tl::unexpected{format.error()};
+    const auto text = open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
-    auto read = parse_rate_trace(*text, *named);
+    auto read = parse_rate_trace(*text, *format);
     if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};
     trace = std::make_shared<const RateTrace>(*std::move(read));
     return {};

@@ -41,21 +41,32 @@ class Opportunities {
 public:
     static constexpr std::size_t bytes_each = 1504;
 
-    /// Not descending, not negative, the last above 0; at least one.
-    explicit Opportunities(std::vector<base::Duration> times);
+    /// A moment, and the number of opportunities from the beginning up to and including it.
+    struct Moment {
+        base::Duration at{};
+        std::uint64_t count = 0;
+
+        friend bool operator==(const Moment&, const Moment&) = default;
+    };
+
+    /// At least one; both ascend, times from 0 on, the last above 0. Memory: 16 B a moment, however
+    /// many opportunities it has.
+    explicit Opportunities(std::vector<Moment> moments);
 
     [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
                                                    bool repeats) const;
     [[nodiscard]] Work sent(base::Duration from, base::Duration to, bool repeats) const;
     [[nodiscard]] double mean_rate() const;
-    [[nodiscard]] base::Duration period() const { return times_.back(); }
+    [[nodiscard]] base::Duration period() const { return moments_.back().at; }
 
     friend bool operator==(const Opportunities&, const Opportunities&) = default;
 
 private:
     [[nodiscard]] std::uint64_t count(base::Duration until, bool repeats) const;
 
-    std::vector<base::Duration> times_;
+    [[nodiscard]] std::uint64_t each_round() const { return moments_.back().count; }
+
+    std::vector<Moment> moments_;
 };
 
 /// Rates that hold from their time until that of the next one.
@@ -110,10 +121,10 @@ private:
     std::variant<Opportunities, RateSteps> trace_;
 };
 
-/// Reads Mahimahi's format, a line for each opportunity with its time in whole milliseconds, or CSV
-/// with a column of times and one of rates (see read_trace_rows). The error names the line.
+/// Reads Mahimahi's format, a line for each opportunity with its time in whole milliseconds, or a
+/// table of times, or with slots, and of rates (see read_trace_rows). The error names the line.
 [[nodiscard]] base::Result<RateTrace> parse_rate_trace(std::string_view text,
-                                                       const Columns& columns = {});
+                                                       const TableFormat& format = {});
 
 /// The rate of a bottleneck, read off a trace.
 struct RateTraceLaw {

@@ -2,73 +2,57 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/trace/columns.hpp"
+#include "emulator/core/trace/lines.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace hapnet::emulator {
 
-inline constexpr std::size_t trace_rows_max = 1'000'000;
-inline constexpr std::string_view too_many_values = "more than 1000000 values";
+inline constexpr std::size_t trace_rows_max = 10'000'000;
+inline constexpr std::string_view too_many_values = "more than 10000000 values: cut the file";
 
-/// The lines of a text that say something: without the blanks around them, empty lines and those
-/// that begin with '#'. A byte order mark is skipped.
-class LineReader {
-public:
-    explicit LineReader(std::string_view text);
-
-    /// nullopt at the end.
-    [[nodiscard]] std::optional<std::string_view> next();
-
-    /// An error at the line that next() gave last, or at the last one of the text.
-    [[nodiscard]] tl::unexpected<base::Error> fail(std::string_view why) const;
-
-private:
-    std::string_view rest_;
-    std::size_t number_ = 0;
-};
-
-/// For messages: at most 40 bytes, no control characters.
-[[nodiscard]] std::string shortened(std::string_view text);
-
-/// What the values of a trace are.
-enum class Measure : std::uint8_t { delay, loss, rate };
-
-/// Which column of a table has a measure, where its name does not say so.
-struct Column {
-    std::string what; // time, delay, loss, lost or rate
-    std::string name; // in the header
-    std::string unit; // empty: as the name ends
-};
-using Columns = std::vector<Column>;
-
-/// "time=stamp:s, delay=rtt:ms": WHAT=NAME[:UNIT], separated by commas; empty: none.
-[[nodiscard]] base::Result<Columns> parse_columns(std::string_view text);
+/// The refusal of a table whose values need times.
+inline constexpr std::string_view without_times =
+    "line 1: no column is named time_ns, time_us, time_ms or time_s: name it, such as "
+    "columns \"time=stamp:s\", or say how long each value lasts, such as slot = \"10ms\"";
 
 /// What a file of measured values holds.
 struct TraceRows {
-    std::vector<double> values; // 1 to trace_rows_max; in ns, as shares, in bits a second
+    std::vector<double> values; // 1 to trace_rows_max; in ns, as shares, in bits a second, 0 or 1
     /// Of each value: the datagram did not arrive, and the value is that of a neighbour.
     std::vector<bool> lost;
-    /// Of each value, counted from the first, ascending; empty when there is no such column.
+    /// Of each value, counted from the first, ascending; empty when there are none.
     std::vector<base::Duration> times;
 
     [[nodiscard]] std::vector<base::Duration> delays() const;
 };
 
-/// Reads CSV whose header names a column of the measure: delay_ns (_us, _ms, _s), loss (a share
-/// from 0 to 1) or loss_percent, rate_bps (_kbps, _Mbps, _Gbps); and perhaps one of times: time_ns,
-/// ..., time_s or t_ns, ..., t_s. `columns` may name others. Other columns are passed over.
+/// How the columns of a file are called and timed, where the file does not say so.
+struct TableFormat {
+    Columns columns{};
+    base::Duration slot{}; // each value is a slot of this length later than the one before; 0: none
+};
+
+/// The format that `columns` (see parse_columns) and a slot say. The error begins with the key.
+[[nodiscard]] base::Result<TableFormat> parse_format(std::string_view columns,
+                                                     base::Duration slot = {});
+
+/// Reads a table whose header names a column of the measure: delay_ns (_us, _ms, _s), loss (a share
+/// from 0 to 1) or loss_percent, rate_bps (_kbps, _Mbps, _Gbps), or lost (0 or 1); and perhaps one
+/// of times: time_ns, ..., time_s or t_ns, ..., t_s. Commas, semicolons, tabs or blanks separate
+/// the cells, which may stand in quotes. Numbers have a decimal point, or a decimal comma where
+/// commas do not separate; all of them the same. The columns of the format may name others, those
+/// of a table without a header by their numbers. Other columns are passed over.
 /// A delay that is empty, "nan", "-", "*", "lost" or "timeout" is that of a lost datagram: it has
 /// the delay of the one before; at the beginning, of the one after. Without a header, one delay
-/// with its unit per line. Errors name the line.
+/// with its unit per line; with a slot, a number there is milliseconds. Memory: at most 17 B a row.
+/// Errors name the line.
 [[nodiscard]] base::Result<TraceRows> read_trace_rows(std::string_view text, Measure measure,
-                                                      const Columns& columns = {});
+                                                      const TableFormat& format = {});
 
 } // namespace hapnet::emulator

@@ -30,6 +30,7 @@ struct TraceTiming {
     bool repeat = true;
     base::Duration offset{}; // not negative
     TraceStart start = TraceStart::run;
+    base::Duration slot{}; // of each value, where the file has no times; 0: it has
 
     friend bool operator==(const TraceTiming&, const TraceTiming&) = default;
 };
@@ -41,7 +42,9 @@ constexpr auto fields_of(base::Tag<TraceTiming>)
                     "whether the trace begins again at its end; if not, its last value holds"),
         base::field("offset", &TraceTiming::offset, "how far into the trace the run begins"),
         base::field("start", &TraceTiming::start,
-                    "whether the trace begins with the run, or with the first datagram"));
+                    "whether the trace begins with the run, or with the first datagram"),
+        base::field("slot", &TraceTiming::slot,
+                    "how long each value of a file without times lasts; 0: the file has times"));
 }
 
 /// Says where in a trace a moment of the run lies.

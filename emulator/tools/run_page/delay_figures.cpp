@@ -3,8 +3,8 @@
 #include "emulator/core/delay/theory.hpp"
 #include "emulator/tools/run_page/figures.hpp"
 #include "proto/base/histogram.hpp"
+#include "proto/page/distribution.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <vector>
@@ -14,17 +14,11 @@ namespace hapnet::emulator::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using page::Bin;
 using page::Curve;
 using page::Point;
 
 constexpr page::Size half_page{520.0, 280.0};
-
-/// A stretch of values, and how many lie in it.
-struct Bin {
-    double low = 0.0;
-    double high = 0.0;
-    double count = 0.0;
-};
 
 /// What the statistics have written of a histogram: [[low, high, count], ...].
 std::vector<Bin> bins_of(const Json& place)
@@ -53,28 +47,6 @@ std::vector<Bin> drawn_bins(std::span<const Fate> fates)
     return bins;
 }
 
-/// A density as stairs: no bin is hidden in a slope.
-std::vector<Point> stairs_of(const std::vector<Bin>& bins)
-{
-    double all = 0.0;
-    for (const Bin& bin : bins) all += bin.count;
-    std::vector<Point> points;
-    double last = std::nan("");
-    for (const Bin& bin : bins) {
-        if (bin.high <= bin.low) continue;
-        const double density = bin.count / all / (bin.high - bin.low);
-        if (bin.low != last) {
-            if (!points.empty()) points.push_back({last, 0.0});
-            points.push_back({bin.low, 0.0});
-        }
-        points.push_back({bin.low, density});
-        points.push_back({bin.high, density});
-        last = bin.high;
-    }
-    if (!points.empty()) points.push_back({last, 0.0});
-    return points;
-}
-
 /// The law's density over the same bins; empty where delay and jitter both vary, or neither does.
 std::vector<Point> law_of(const Conditions& conditions, const std::vector<Bin>& bins)
 {
@@ -100,12 +72,15 @@ std::vector<Point> law_of(const Conditions& conditions, const std::vector<Bin>& 
 std::optional<page::Figure> delay_figure(const RunDirection& run)
 {
     const Json lens = run.statistics.value("lens", Json::object());
-    const auto measured = bins_of(lens.value("delay_ms", Json{}));
-    const auto drawn = drawn_bins(run.fates);
+    const auto measured = page::without_narrow(bins_of(lens.value("delay_ms", Json{})));
+    const auto drawn = page::without_narrow(drawn_bins(run.fates));
     if (measured.empty() && drawn.empty()) return std::nullopt;
     std::vector<Curve> curves{
-        {.name = "as drawn", .colour = "left", .points = stairs_of(drawn), .width = 2.4},
-        {.name = "as it came out", .colour = "right", .points = stairs_of(measured), .width = 1.6}};
+        {.name = "as drawn", .colour = "left", .points = page::density_of(drawn), .width = 2.4},
+        {.name = "as it came out",
+         .colour = "right",
+         .points = page::density_of(measured),
+         .width = 1.6}};
     if (run.conditions != nullptr) {
         auto law = law_of(*run.conditions, drawn.empty() ? measured : drawn);
         if (!law.empty()) {
@@ -115,45 +90,37 @@ std::optional<page::Figure> delay_figure(const RunDirection& run)
         }
     }
     return page::Figure{.id = fmt::format("delay-{}", to_text(run.direction)),
-                        .title = fmt::format("Delay, {}", to_text(run.direction)),
+                        .title = fmt::format("Delay, {}", words_on(run.direction)),
                         .x = {"delay", "ms"},
-                        .y = {"share per ms", "", page::Scale::linear, {0.0, 0.0}},
+                        .y = {"share of the datagrams", "1/ms", page::Scale::linear, {0.0, 0.0}},
                         .content = page::Curves{std::move(curves)},
                         .size = half_page,
                         .caption =
-                            "As drawn from the law, and as it came out after queues, order and the "
-                            "emulator's own lateness. The bins are 1.6 % wide."};
+                            fmt::format("{}As drawn from the law, and as it came out after queues, "
+                                        "order and the emulator's own lateness. The bins are 1.6 % "
+                                        "wide, or a 200th of the axis where those would be too "
+                                        "narrow to be seen.",
+                                        run.conditions == nullptr
+                                            ? "All conditions of the run together: what a change "
+                                              "shifts is no jitter. "
+                                            : "")};
 }
 
 std::optional<page::Figure> lateness_figure(const RunDirection& run, double budget_us)
 {
     const auto bins = bins_of(run.statistics.value("lateness_us", Json{}));
     if (bins.empty()) return std::nullopt;
-    double all = 0.0;
-    for (const Bin& bin : bins) all += bin.count;
-    std::vector<Point> points;
-    double seen = 0.0;
-    for (const Bin& bin : bins) {
-        seen += bin.count;
-        points.push_back({bin.high, seen / all});
-    }
-    std::vector<Curve> curves{{.name = "share at most so late",
-                               .colour = "left",
-                               .points = std::move(points),
-                               .width = 2.0},
-                              {.name = "budget",
-                               .colour = "missed",
-                               .points = {{budget_us, 0.0}, {budget_us, 1.0}},
-                               .is_dashed = true}};
-    return page::Figure{
-        .id = fmt::format("lateness-{}", to_text(run.direction)),
-        .title = fmt::format("Lateness of the emulator, {}", to_text(run.direction)),
-        .x = {"lateness", "µs", page::Scale::logarithmic},
-        .y = {"share", "", page::Scale::linear, {0.0, 1.0}},
-        .content = page::Curves{std::move(curves), {{0.99, "99 %"}}},
-        .size = half_page,
-        .caption = "Time sent minus time due. The run is valid when the curve has reached 99 % at "
-                   "the budget."};
+    page::Figure figure =
+        page::lateness_figure(fmt::format("lateness-{}", to_text(run.direction)), "datagrams",
+                              {{.name = "share at most so late",
+                                .colour = "left",
+                                .points = page::shares_below(bins),
+                                .width = 2.0}},
+                              budget_us);
+    figure.title = fmt::format("Lateness of the emulator, {}", words_on(run.direction));
+    figure.caption = "Time sent minus time due. The run is valid when the curve has reached 99 % "
+                     "at the budget.";
+    return figure;
 }
 
 } // namespace hapnet::emulator::tools

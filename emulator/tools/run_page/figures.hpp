@@ -9,10 +9,19 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace hapnet::emulator::tools {
 
 // The figures of a run's page; nullopt where there is nothing to be shown.
+
+/// A direction, as people read it.
+[[nodiscard]] constexpr std::string_view words_on(Direction direction)
+{
+    return direction == Direction::up ? "up (A to B)" : "down (B to A)";
+}
 
 /// A direction of a run.
 struct RunDirection {
@@ -30,13 +39,27 @@ struct RunDirection {
 [[nodiscard]] std::optional<page::Figure> lateness_figure(const RunDirection& run,
                                                           double budget_us);
 
-/// Where in the stream datagrams were lost.
+/// Where in the stream datagrams were lost; nullopt: none was.
 [[nodiscard]] std::optional<page::Figure> loss_figure(const RunDirection& run);
 
 /// How long the runs of losses were, beside a geometric distribution with the law's mean.
 [[nodiscard]] std::optional<page::Figure> loss_runs_figure(const RunDirection& run);
 
-/// When the conditions changed.
-[[nodiscard]] std::optional<page::Figure> changes_figure(const nlohmann::ordered_json& statistics);
+/// True if a change in the statistics is the last step of a ramp whose first step is the previous
+/// change: of a ramp the statistics keep these two, while the generation counts every step.
+[[nodiscard]] bool ends_ramp(const nlohmann::ordered_json& before,
+                             const nlohmann::ordered_json& change);
+
+/// The course of a run, in a figure each of those of delay, loss, rate and queue that have values.
+struct CourseFigures {
+    std::vector<page::Figure> figures;
+    std::string why_not_asked; // empty: they have what was asked for, too
+};
+
+/// What was asked for and what was measured over time. A change is a step, a ramp is a straight
+/// line. A setting that cannot be read from the statistics, such as one that names a file, leaves
+/// what was measured.
+[[nodiscard]] CourseFigures course_figures(const Path& start,
+                                           const nlohmann::ordered_json& statistics);
 
 } // namespace hapnet::emulator::tools

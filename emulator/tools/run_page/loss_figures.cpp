@@ -67,7 +67,9 @@ double opacity_of(std::size_t lost, std::size_t all)
 
 std::optional<page::Figure> loss_figure(const RunDirection& run)
 {
-    if (run.fates.empty()) return std::nullopt;
+    if (std::none_of(run.fates.begin(), run.fates.end(),
+                     [](const Fate& fate) { return fate.is_lost(); }))
+        return std::nullopt;
     const std::size_t length = (run.fates.size() + cells_max - 1) / cells_max;
     page::HeatMap strip;
     strip.rows.emplace_back(to_text(run.direction));
@@ -85,9 +87,9 @@ std::optional<page::Figure> loss_figure(const RunDirection& run)
     }
     return page::Figure{
         .id = fmt::format("losses-{}", to_text(run.direction)),
-        .title = fmt::format("Losses, {}", to_text(run.direction)),
+        .title = fmt::format("Losses, {}", words_on(run.direction)),
         .x = {"number of the datagram"},
-        .y = {""},
+        .y = {"lost"},
         .content = std::move(strip),
         .size = strip_size,
         .caption = fmt::format("Each field stands for {} datagrams; the darker, the more of them "
@@ -124,36 +126,13 @@ std::optional<page::Figure> loss_runs_figure(const RunDirection& run)
         }
     }
     return page::Figure{.id = fmt::format("loss-runs-{}", to_text(run.direction)),
-                        .title = fmt::format("Runs of losses, {}", to_text(run.direction)),
+                        .title = fmt::format("Runs of losses, {}", words_on(run.direction)),
                         .x = {"length", "datagrams"},
-                        .y = {"share at least so long", "", page::Scale::logarithmic},
+                        .y = {"share at least so long", "1", page::Scale::logarithmic},
                         .content = page::Curves{std::move(curves)},
                         .size = half_page_of_runs,
                         .caption = "The runs of independent losses, and of Gilbert's model, are "
                                    "geometric; those of other laws need not be."};
-}
-
-std::optional<page::Figure> changes_figure(const nlohmann::ordered_json& statistics)
-{
-    const auto changes = statistics.value("changes", nlohmann::ordered_json::array());
-    if (changes.empty()) return std::nullopt;
-    std::vector<Point> points{{0.0, 1.0}};
-    for (const auto& change : changes) {
-        const double at = change.value("elapsed_s", 0.0);
-        points.push_back({at, points.back().y});
-        points.push_back({at, change.value("generation", 1.0)});
-    }
-    points.push_back({statistics.value("duration_s", points.back().x), points.back().y});
-    std::vector<page::Curve> curves{
-        {.name = "generation", .colour = "accent", .points = std::move(points), .width = 2.0}};
-    return page::Figure{.id = "changes",
-                        .title = "Changes of the conditions",
-                        .x = {"time", "s"},
-                        .y = {"generation"},
-                        .content = page::Curves{std::move(curves)},
-                        .size = {900.0, 180.0},
-                        .caption = "Each step is a change; the table below says which. A ramp "
-                                   "changes the conditions every millisecond."};
 }
 
 } // namespace hapnet::emulator::tools

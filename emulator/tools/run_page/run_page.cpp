@@ -10,6 +10,7 @@
 #include "proto/page/page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,11 @@ std::string text_of(const nlohmann::ordered_json& value)
 {
     if (value.is_null()) return "–";
     if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
-    return value.dump();
+    if (!value.is_number_float()) return value.dump();
+    const double number = value.get<double>();
+    constexpr double four_digits = 1e4; // from there on whole numbers, without an exponent
+    return std::abs(number) < four_digits ? fmt::format("{:.4g}", number)
+                                          : fmt::format("{:.0f}", number);
 }
 
 /// A value of the statistics as text.
@@ -37,12 +41,15 @@ std::string shown(const nlohmann::ordered_json& statistics, const char* pointer)
     return text_of(statistics.contains(at) ? statistics[at] : nlohmann::ordered_json{});
 }
 
-Json table(std::string caption, const std::vector<std::string>& heads, const Rows& rows)
+/// `has_words`: the last column has sentences, which wrap.
+Json table(std::string caption, const std::vector<std::string>& heads, const Rows& rows,
+           bool has_words)
 {
     page::Table table{std::move(caption), {heads.begin(), heads.end()}};
     for (const auto& row : rows) {
         auto& cells = table.rows.emplace_back();
-        for (const auto& words : row) cells.push_back({words, cells.empty() ? "" : "words"});
+        for (const auto& words : row)
+            cells.push_back({words, cells.size() + 1 == heads.size() && has_words ? "words" : ""});
     }
     return json_of(table);
 }
@@ -87,29 +94,68 @@ Json figures_table(const nlohmann::ordered_json& statistics)
     };
     add(of("up"), 1);
     add(of("down"), 2);
-    return table("Counters and times of both directions", {"", "up (A to B)", "down (B to A)"},
-                 rows);
+    return table("Counters and times of both directions",
+                 {"", std::string{words_on(Direction::up)}, std::string{words_on(Direction::down)}},
+                 rows, false);
 }
 
+/// A row for each flow and direction; the others of a run are on pages of their own.
+Json flows_table(const nlohmann::ordered_json& statistics)
+{
+    Rows rows;
+    const auto flows = statistics.value("flows", nlohmann::ordered_json::object());
+    for (const auto& [name, flow] : flows.items()) {
+        for (const char* way : {"up", "down"}) {
+            const auto of = flow.value(way, nlohmann::ordered_json::object());
+            rows.push_back({fmt::format("{} {}", name, way), shown(of, "/received"),
+                            shown(of, "/delivered"), shown(of, "/lens/delay_ms/p50"),
+                            shown(of, "/lens/delay_ms/p99")});
+        }
+    }
+    if (rows.empty()) return nullptr;
+    return table("Flows: report --flow NAME draws one of them",
+                 {"flow", "received", "delivered", "delay p50 (ms)", "delay p99 (ms)"}, rows,
+                 false);
+}
+
+/// As verify prints it.
+std::string_view in_words(Outcome outcome)
+{
+    return outcome == Outcome::unable ? "cannot tell" : base::name_of(outcome);
+}
+
+std::string settings_of(const nlohmann::ordered_json& change)
+{
+    std::string text;
+    const auto settings = change.value("settings", nlohmann::ordered_json::object());
+    for (const auto& [key, value] : settings.items()) {
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key,
+                            value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return text;
+}
+
+/// A row for each change; a ramp is one row, from its first step to its last.
 Json changes_table(const nlohmann::ordered_json& statistics)
 {
     Rows rows;
-    for (const auto& change : statistics.value("changes", nlohmann::ordered_json::array())) {
-        std::string settings;
-        const auto changed = change.value("settings", nlohmann::ordered_json::object());
-        for (const auto& [key, value] : changed.items()) {
-            settings += fmt::format("{}{} {}", settings.empty() ? "" : ", ", key,
-                                    value.is_string() ? value.get<std::string>() : value.dump());
-        }
-        rows.push_back({shown(change, "/generation"), shown(change, "/elapsed_s"),
-                        shown(change, "/by"), shown(change, "/effective_at/up"),
-                        shown(change, "/effective_at/down"), settings});
+    const auto changes = statistics.value("changes", nlohmann::ordered_json::array());
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        if (i + 1 < changes.size() && ends_ramp(changes[i], changes[i + 1])) continue;
+        const bool is_ramp = i > 0 && ends_ramp(changes[i - 1], changes[i]);
+        const auto& first = is_ramp ? changes[i - 1] : changes[i];
+        const std::string at = shown(changes[i], "/elapsed_s");
+        rows.push_back({is_ramp ? fmt::format("{} to {}", shown(first, "/elapsed_s"), at) : at,
+                        shown(changes[i], "/by"),
+                        fmt::format("{} / {}", shown(first, "/effective_at/up"),
+                                    shown(first, "/effective_at/down")),
+                        settings_of(changes[i])});
     }
     if (rows.empty()) return nullptr;
     return table(
         "Changes of the conditions",
-        {"generation", "at (s)", "by", "first datagram up", "first datagram down", "settings"},
-        rows);
+        {"at, s since the\nemulator started", "by", "from datagram\nup / down", "settings"}, rows,
+        true);
 }
 
 void add_tests(page::Section& section, const RunRecord& run)
@@ -121,20 +167,19 @@ void add_tests(page::Section& section, const RunRecord& run)
     Rows rows;
     const auto add = [&](std::string_view where, const std::vector<TestResult>& results) {
         for (const TestResult& result : results) {
-            rows.push_back({fmt::format("{}: {}", where, result.name),
-                            std::string{base::name_of(result.outcome)},
-                            result.p_value ? fmt::format("{:.3g}", *result.p_value) : "",
-                            result.sentence});
+            rows.push_back(
+                {fmt::format("{}: {}", where, result.name), std::string{in_words(result.outcome)},
+                 result.p_value ? fmt::format("{:.3g}", *result.p_value) : "", result.sentence});
         }
     };
     add("up", run.verification->up);
     add("down", run.verification->down);
     add("between", run.verification->between);
     section.add(page::paragraph("A test fails when a run that follows its profile would look like "
-                                "this one time in a million. One that is unable has too little to "
-                                "go by."));
+                                "this one time in a million. A test cannot tell where the run has "
+                                "too few datagrams for it."));
     section.add(
-        table("Tests of the fates", {"test", "outcome", "p", "expected and observed"}, rows));
+        table("Tests of the fates", {"test", "outcome", "p", "expected and observed"}, rows, true));
 }
 
 /// Figures beside each other in panels, and over the whole width.
@@ -143,12 +188,16 @@ struct Placed {
     Json strips = Json::array();
 };
 
+/// Whether other conditions came after those of the start.
+bool has_changed(const RunRecord& run)
+{
+    return !run.profile.timeline.empty() || run.statistics.value("generation", 1) != 1;
+}
+
 void add_direction(page::Section& section, Placed& placed, const RunRecord& run,
                    Direction direction)
 {
     const auto& statistics = run.statistics;
-    const bool has_changed =
-        !run.profile.timeline.empty() || statistics.value("generation", 1) != 1;
     const Path path = profile_of(run.profile, run.link).path;
     const bool is_up = direction == Direction::up;
     const auto of = statistics.value(is_up ? "up" : "down", Json::object());
@@ -158,9 +207,9 @@ void add_direction(page::Section& section, Placed& placed, const RunRecord& run,
     const double length_s = statistics.value("duration_s", 0.0);
     const RunDirection one{.direction = direction,
                            .statistics = of,
-                           .conditions = has_changed ? nullptr
-                                         : is_up     ? &path.up
-                                                     : &path.down,
+                           .conditions = has_changed(run) ? nullptr
+                                         : is_up          ? &path.up
+                                                          : &path.down,
                            .fates = fates,
                            .spacing_s = received > 0.0 ? length_s / received : 0.0};
     const double budget_us = statistics.value("budget_us", 1000.0);
@@ -172,7 +221,7 @@ void add_direction(page::Section& section, Placed& placed, const RunRecord& run,
 page::Section figures_of(const RunRecord& run)
 {
     page::Section section{"figures", "What came out"};
-    section.add(figures_table(run.statistics));
+    if (!run.fates_file.empty()) section.sources = {run.fates_file};
     Placed placed;
     for (const Direction direction : {Direction::up, Direction::down})
         add_direction(section, placed, run, direction);
@@ -182,14 +231,35 @@ page::Section figures_of(const RunRecord& run)
     }
     for (Json& strip : placed.strips) section.add(std::move(strip));
     if (!placed.panels.empty()) section.add(page::panels("", std::move(placed.panels)));
+    section.add(figures_table(run.statistics));
+    if (Json table = flows_table(run.statistics); !table.is_null()) section.add(std::move(table));
+    section.add(page::paragraph(fmt::format(
+        "Quantiles come from a histogram: they are within 1.6 %, and within the least and "
+        "the most.{}",
+        has_changed(run) ? " All conditions of the run are in them together: a step of "
+                           "the delay adds to sd and quantiles, and is no jitter."
+                         : "")));
     return section;
 }
 
-page::Section changes_of(const nlohmann::ordered_json& statistics)
+/// What was asked for and what was measured, on one axis of time.
+page::Section course_of(const RunRecord& run)
 {
-    page::Section section{"changes", "What changed"};
-    if (auto figure = changes_figure(statistics)) section.add(*std::move(figure));
-    if (Json table = changes_table(statistics); !table.is_null()) section.add(std::move(table));
+    page::Section section{"course", "What happened over time"};
+    if (!run.statistics_file.empty()) section.sources = {run.statistics_file};
+    auto [figures, why_not_asked] =
+        course_figures(profile_of(run.profile, run.link).path, run.statistics);
+    Json drawn = Json::array();
+    for (page::Figure& figure : figures) drawn.push_back(section.keep(std::move(figure)));
+    if (!why_not_asked.empty()) {
+        section.add(page::paragraph(
+            fmt::format("The conditions over time are not drawn: {}.", why_not_asked)));
+    }
+    if (!drawn.empty()) {
+        section.add(page::panels("", std::move(drawn)));
+        section.add(page::paragraph("All times count from the start of the emulator, in seconds."));
+    }
+    if (Json table = changes_table(run.statistics); !table.is_null()) section.add(std::move(table));
     return section;
 }
 
@@ -205,9 +275,9 @@ std::string run_page(const RunRecord& run)
                                 shown(statistics, "/duration_s"), shown(statistics, "/seed"),
                                 shown(statistics, "/timing"))};
     page.head.push_back(banner(run));
+    if (auto course = course_of(run); !course.blocks.empty())
+        page.sections.push_back(std::move(course));
     page.sections.push_back(figures_of(run));
-    if (auto changes = changes_of(statistics); !changes.blocks.empty())
-        page.sections.push_back(std::move(changes));
     add_tests(page.sections.emplace_back(page::Section{"tests", "Did it follow its laws?"}), run);
     auto& again = page.sections.emplace_back(page::Section{"repeat", "How to repeat it"});
     again.add(

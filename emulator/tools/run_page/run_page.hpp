@@ -20,6 +20,9 @@ struct RunRecord {
     std::optional<Verification> verification;
     std::string why_unverified; // where there is no verification
     std::string link{};         // whose statistics these are, of a run with several paths
+    // The names of the two files, which figures name as their sources.
+    std::string statistics_file{};
+    std::string fates_file{};
 };
 
 /// One page about one run, without any other file: what was asked and what came out.

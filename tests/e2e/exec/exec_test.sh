@@ -109,6 +109,15 @@ done
 ((tested > 0)) || { echo "skipped: neither pasta nor slirp4netns works here" && exit 77; }
 ((tested_as_self > 0)) || { echo "passed ($tested ways), none of them as this user" && exit 0; }
 
+# It nests, and with between each way round.
+"$emulator" exec -- "$emulator" exec -- sh -c 'getent ahostsv4 host; exit 7' \
+    >"$folder/out" 2>"$folder/err" && code=0 || code=$?
+((code == 7)) || fail "exec within exec: the exit code is $code"
+grep -q '^10.0.2.2 ' "$folder/out" || fail "exec within exec: host is not a name"
+"$emulator" exec -- "$emulator" between -- sh -c 'getent ahostsv4 b' --- sleep infinity \
+    >"$folder/out" 2>"$folder/err" || fail "between does not run within exec"
+grep -q '^10.0.0.2 ' "$folder/out" || fail "between within exec: b is not a name"
+
 # A signal reaches the command, and its answer to it is the exit code. Nothing is left of a run that
 # was killed.
 # shellcheck disable=SC2016 # the command expands it

@@ -285,7 +285,7 @@ TEST(EmulatorOptions, OfLinksNameTheirSidesAndTheirEnds)
     expect_said(refusal_alone({"--link", "both=:1,:2"}), "'both' is not the name of a link");
     expect_said(refusal_alone({"--link", "delay=:1,:2"}), "'delay' is not the name of a link");
     expect_said(refusal_alone({"--link", "1-2=:1"}), "write two addresses to listen on");
-    expect_said(refusal_alone({"--link", "1-2"}), "write NAME=LISTEN_1,LISTEN_2");
+    expect_said(refusal_alone({"--link", "1-2"}), "write NAME=LISTEN_A,LISTEN_B");
     expect_said(refusal_alone({"--link", "1-2=:1,:2", "--link", "1-2=:3,:4"}), "given twice");
     expect_said(refusal_alone({"--link", "1-2=:1,:2", "--link", "1-3=:2,:4"}),
                 "--link 1-3: 127.0.0.1:2 is the address of another side");

@@ -358,7 +358,7 @@ TEST(TalkOfClients, ReachesThoseThatAreNotThereYet)
     EXPECT_EQ(talk.ask({{"command", "show"}})["profile"], "\n[both]\ndelay = \"30ms\"\n");
     EXPECT_EQ(talk.ask(set({{"1-2.delay", "1ms"}}))["error"],
               "1-2.delay: there is no link 1-2: start the emulator with --link "
-              "1-2=LISTEN_1,LISTEN_2");
+              "1-2=LISTEN_A,LISTEN_B");
 }
 
 } // namespace

@@ -64,6 +64,78 @@ TEST(Bottleneck, SendsOneAfterTheOther)
     EXPECT_EQ(all_of(line), (Sent{{1, start + 1ms}, {2, start + 2ms}, {3, start + 4ms}}));
 }
 
+TEST(Bottleneck, LetsABurstLeaveAtOnceAndSavesUpAnotherOneWhileItIsIdle)
+{
+    // 8 Mbit/s are a byte a microsecond; the bucket holds three of these datagrams.
+    Bottleneck line{{.bits_per_second = 8'000'000,
+                     .overhead_bytes = 0,
+                     .queue_bytes_max = 64 << 10,
+                     .burst_bytes = 3000},
+                    16};
+    for (std::uint64_t number = 1; number <= 5; ++number) push(line, number, 1000, start);
+    EXPECT_EQ(all_of(line),
+              (Sent{{1, start}, {2, start}, {3, start}, {4, start + 1ms}, {5, start + 2ms}}));
+    push(line, 6, 1000, start + 3500us); // 1500 bytes were saved up
+    push(line, 7, 1000, start + 3500us);
+    EXPECT_EQ(all_of(line), (Sent{{6, start + 3500us}, {7, start + 4ms}}));
+    for (std::uint64_t number = 8; number <= 11; ++number) push(line, number, 1000, start + 1s);
+    EXPECT_EQ(all_of(line),
+              (Sent{{8, start + 1s}, {9, start + 1s}, {10, start + 1s}, {11, start + 1001ms}}));
+}
+
+TEST(Bottleneck, WithABurstFollowsTheRuleOfATokenBucket)
+{
+    // In nanoseconds times bits a second, so that nothing is rounded but the result.
+    constexpr std::uint64_t rate = 7'000'001;
+    constexpr std::int64_t burst = 4000;
+    Bottleneck line{{.bits_per_second = rate,
+                     .overhead_bytes = 28,
+                     .queue_bytes_max = 1 << 30,
+                     .burst_bytes = burst},
+                    1 << 16,
+                    start};
+    const auto chance = base::Seed{7}.stream("arrivals");
+    __extension__ typedef __int128 Exact;
+    Exact finished = -Exact{burst} * work_per_byte;
+    Sent expected;
+    Sent sent;
+    base::Duration at{};
+    for (std::uint64_t number = 0; number < 20'000; ++number) {
+        const auto bytes = static_cast<std::size_t>(chance.bits(number, 0) % 1000);
+        const auto pause = chance.bits(number, 1) % (number % 100 == 0 ? 20'000'000 : 900'000);
+        at += base::Duration{static_cast<base::Duration::rep>(pause)};
+        const Exact arrival = Exact{at.count()} * rate;
+        finished = std::max(finished, arrival - Exact{burst} * work_per_byte) +
+                   Exact{static_cast<std::int64_t>(bytes + 28)} * work_per_byte;
+        const Exact leaves = std::max(arrival, finished);
+        const auto due = static_cast<std::int64_t>((leaves + rate - 1) / rate);
+        expected.emplace_back(number, start + base::Duration{due});
+        while (const auto one = line.pop(start + at)) {
+            sent.emplace_back(one->datagram.number, one->datagram.due);
+        }
+        push(line, number, bytes, start + at);
+    }
+    while (const auto one = line.pop(start + 1h)) {
+        sent.emplace_back(one->datagram.number, one->datagram.due);
+    }
+    EXPECT_EQ(sent, expected);
+}
+
+TEST(Bottleneck, KeepsWhatItHasSavedUpWhenTheRateChangesAndNoMoreThanTheNewBurst)
+{
+    const Rate before{.bits_per_second = 8'000'000, .overhead_bytes = 0, .burst_bytes = 3000};
+    Bottleneck line{before, 16, start};
+    push(line, 1, 1000, start);
+    push(line, 2, 1000, start);
+    EXPECT_EQ(all_of(line).size(), 2U); // 1000 bytes are left
+    Rate slower = before;
+    slower.bits_per_second = 800'000;
+    line.change(slower, start + 500us); // and 500 were saved up at the old rate
+    push(line, 3, 1000, start + 500us);
+    push(line, 4, 1000, start + 500us);
+    EXPECT_EQ(all_of(line), (Sent{{3, start + 500us}, {4, start + 5500us}}));
+}
+
 TEST(Bottleneck, HasRoomForItsQueueBesidesTheOneBeingSent)
 {
     Bottleneck line{{1'000'000, 25, 250}, 8};

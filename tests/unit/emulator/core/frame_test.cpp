@@ -57,6 +57,35 @@ TEST(Frame, IsKnownByItsTypeAlsoBehindVlanTags)
     EXPECT_EQ(read_frame(framed({0x88, 0xcc}, Bytes(50))).kind, FrameKind::other); // LLDP
 }
 
+TEST(Frame, SaysWhetherItAnswersThatNoProgramListens)
+{
+    const auto says = [](const Bytes& frame) {
+        return says_port_unreachable(read_frame(frame), frame);
+    };
+    // IPv4 with an option of four bytes, so that ICMP begins at 24.
+    const auto answer = [](unsigned protocol, unsigned type, unsigned code) {
+        auto packet = bytes_of({0x46, 0, 0, 32, 0, 1, 0, 0, 64, protocol});
+        packet.resize(24);
+        for (const std::byte byte : bytes_of({type, code, 0, 0, 0, 0, 0, 0})) {
+            packet.push_back(byte);
+        }
+        return packet;
+    };
+    EXPECT_TRUE(says(framed({8, 0}, answer(1, 3, 3))));
+    EXPECT_TRUE(says(framed({0x81, 0, 0, 5, 8, 0}, answer(1, 3, 3))));
+    EXPECT_FALSE(says(framed({8, 0}, answer(1, 3, 1)))); // the host
+    EXPECT_FALSE(says(framed({8, 0}, answer(1, 11, 3))));
+    EXPECT_FALSE(says(framed({8, 0}, answer(17, 3, 3))));
+    EXPECT_FALSE(says(framed({8, 0}, udp_v4())));
+    auto unreachable = icmp_v6(1);
+    EXPECT_FALSE(says(framed({0x86, 0xdd}, unreachable))); // no route
+    unreachable[41] = std::byte{4};
+    EXPECT_TRUE(says(framed({0x86, 0xdd}, unreachable)));
+    unreachable.resize(41); // cut off
+    EXPECT_FALSE(says(framed({0x86, 0xdd}, unreachable)));
+    EXPECT_FALSE(says({}));
+}
+
 TEST(Frame, TellsNeighbourDiscoveryFromOtherIcmp)
 {
     for (unsigned type = 0; type < 256; ++type) {

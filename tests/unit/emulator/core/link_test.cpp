@@ -205,7 +205,7 @@ TEST(Link, DoesTheSameWithoutALens)
     const Conditions conditions{.loss = {RandomLoss{20_percent}}, .delay = constant(5ms)};
     Link::Setup setup{base::Seed{7}, Direction::up, start, {.datagrams_max = 1024}};
     Link seen{conditions, setup};
-    setup.has_stream_statistics = false;
+    setup.stream_detail = StreamDetail::nothing;
     Link unseen{conditions, setup};
     for (Link* link : {&seen, &unseen}) {
         for (int ms = 0; ms < 100; ++ms) std::ignore = link->on_packet(payload, start + ms * 1ms);
@@ -213,6 +213,39 @@ TEST(Link, DoesTheSameWithoutALens)
     EXPECT_EQ(numbers_of(all_of(seen)), numbers_of(all_of(unseen)));
     EXPECT_TRUE(seen.stream_statistics().report().delay);
     EXPECT_FALSE(unseen.stream_statistics().report().delay);
+}
+
+TEST(Link, TellsInStretchesAllThatItTellsOfTheWhole)
+{
+    Conditions conditions{.loss = {RandomLoss{20_percent}}, .delay = constant(30ms)};
+    conditions.rate = {.bits_per_second = 100'000, .queue_bytes_max = 1000};
+    Link link{conditions,
+              {.start = start,
+               .limits = {.datagrams_max = 1024},
+               .stream_detail = StreamDetail::over_time}};
+    for (int ms = 0; ms < 500; ++ms) {
+        const auto now = start + ms * 1ms;
+        std::ignore = link.on_packet(payload, now);
+        while (const auto due = link.poll(now)) {
+            if (due->number % 10 == 3) {
+                link.on_failed(*due, DropCause::send_failed);
+            } else {
+                link.on_sent(*due, now);
+            }
+        }
+    }
+    Stretch all;
+    for (const Stretch& one : link.stream_statistics().totals().over_time->stretches())
+        all.add(one);
+    const Statistics& whole = link.statistics();
+    EXPECT_GT(whole.dropped[DropCause::random_loss], 0U);
+    EXPECT_GT(whole.dropped[DropCause::rate_queue_full], 0U);
+    EXPECT_GT(whole.dropped[DropCause::send_failed], 0U);
+    EXPECT_EQ(all.received, 500U);
+    EXPECT_EQ(all.dropped, whole.dropped_total());
+    EXPECT_EQ(all.left.count, whole.delivered);
+    EXPECT_EQ(all.bytes_out, whole.bytes_out);
+    EXPECT_EQ(all.queue_max, whole.sojourn.max());
 }
 
 TEST(Link, HoldsADatagramUntilItsDelayHasPassedAndNotANanosecondLonger)

@@ -45,5 +45,55 @@ TEST(PathName, IsReadFromTheBeginningOfAKeyWhichNamesItsWay)
     }
 }
 
+TEST(PathName, CallsTheWaysOfFlowsByTheirPathsAndTheirNames)
+{
+    EXPECT_EQ(flow_path("", "voice"), "flow.voice");
+    EXPECT_EQ(flow_path("client.3", "voice"), "client.3.flow.voice");
+    EXPECT_EQ(flow_path("wan", ""), "wan");
+    EXPECT_EQ(way_name("flow.voice", Direction::up), "flow.voice.up");
+    EXPECT_EQ(way_name("1-2.flow.voice", Direction::up), "1-2.flow.voice");
+    EXPECT_EQ(way_name("1-2.flow.voice", Direction::down), "2-1.flow.voice");
+    EXPECT_EQ(stream_name("flow.voice", Direction::up), "flow/voice/up");
+    EXPECT_EQ(stream_name("1-2.flow.voice", Direction::down), "2-1/flow/voice");
+    EXPECT_EQ(stream_name("wan.flow.voice", Direction::up), "wan/flow/voice/up");
+    EXPECT_EQ(stream_name("client.10.0.0.1:5000.flow.voice", Direction::up),
+              "client/10.0.0.1:5000/flow/voice/up");
+    EXPECT_EQ(way_in_words("flow.voice", Direction::up), "flow.voice.up: from A to B");
+    EXPECT_EQ(way_in_words("1-2.flow.voice", Direction::down), "2-1.flow.voice: from 2 to 1");
+    EXPECT_EQ(common_name("client.3.flow.voice"), "flow.voice");
+    EXPECT_EQ(common_name("flow.voice"), "flow.voice");
+    EXPECT_EQ(common_name("client.3"), "");
+}
+
+TEST(PathName, IsReadWithItsFlowBehindIt)
+{
+    for (const std::string_view path : {"flow.voice", "1-2.flow.voice", "wan.flow.a-1",
+                                        "client.3.flow.voice", "client.10.0.0.1:5000.flow.x"}) {
+        for (const Direction direction : {Direction::up, Direction::down}) {
+            EXPECT_EQ(parse_way(way_name(path, direction)), (Way{std::string{path}, direction}));
+        }
+    }
+    EXPECT_EQ(parse_way("flow.voice"), (Way{"flow.voice", std::nullopt}));
+    EXPECT_EQ(parse_way("client.3.flow.voice.both"), (Way{"client.3.flow.voice", std::nullopt}));
+    for (const char* const wrong :
+         {"flow", "flow.", "flow.up", "flow.Voice", "flow.voice.left", "flow.voice.all",
+          "1-2.flow.voice.up", "wan.up.flow.voice", "link.flow.voice", "flow.a.flow.b"}) {
+        EXPECT_EQ(parse_way(wrong), std::nullopt) << wrong;
+    }
+}
+
+TEST(PathName, OfAFlowThatIsNotThereIsRefusedWithTheNearest)
+{
+    const PathNames names{.links = {"1-2"}, .flows = {"voice", "ssh"}};
+    EXPECT_TRUE(names.contains("flow.voice"));
+    EXPECT_TRUE(names.contains("1-2.flow.ssh"));
+    EXPECT_FALSE(names.contains("1-3.flow.ssh"));
+    EXPECT_FALSE(names.contains("flow.voise"));
+    EXPECT_EQ(names.refusal("flow.voise"), "there is no flow 'voise': did you mean 'voice'?");
+    EXPECT_EQ(names.refusal("1-3.flow.ssh"), "there is no link 1-3: use one of 1-2");
+    EXPECT_EQ(PathNames{}.refusal("flow.x"),
+              "there is no flow 'x': a profile describes flows by [[flow]]");
+}
+
 } // namespace
 } // namespace hapnet::emulator::path_name_test

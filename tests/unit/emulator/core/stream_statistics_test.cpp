@@ -56,9 +56,9 @@ TEST(StreamStatistics, OfOneDepartureHasADelayAndNoVariation)
 TEST(StreamStatistics, ComparesTheLawThatWasDrawnWithTheOneThatCameOut)
 {
     StreamStatistics measured;
-    measured.on_packet({.delay = 10ms});
-    measured.on_packet({.drop = DropCause::random_loss});
-    measured.on_packet({.delay = 12ms});
+    measured.on_packet({.delay = 10ms}, start);
+    measured.on_packet({.drop = DropCause::random_loss}, start);
+    measured.on_packet({.delay = 12ms}, start);
     note(measured, passage(0, 10ms));
     note(measured, passage(2, 16ms));
     const StreamReport report = measured.report();

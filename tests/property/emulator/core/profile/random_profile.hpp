@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/path_name.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "proto/base/random.hpp"
 
@@ -34,6 +36,7 @@ public:
             drawn.timeline.push_back(change);
         }
         if (below(3) == 0) drawn.paths = paths();
+        if (below(3) == 0) add_flows(drawn);
         return drawn;
     }
 
@@ -48,6 +51,33 @@ private:
             if (below(2) == 0 && has_something) drawn.push_back(std::move(one));
         }
         return drawn;
+    }
+    /// Flows with and without conditions, on all paths and on one of them.
+    void add_flows(Profile& drawn)
+    {
+        for (const char* const name : {"a", "voice-2"}) {
+            if (below(3) == 0) continue;
+            Flow flow{.name = name, .match = possible<Match>()};
+            PathPatch own{flow_path("", name), patch(), patch()};
+            flow.passes = below(4) == 0;
+            flow.shares_rate = !flow.passes && below(3) == 0;
+            for (Patch* one : {&own.up, &own.down}) {
+                if (flow.passes) *one = {};
+                if (flow.shares_rate) one->rate.reset(), one->queue.reset();
+            }
+            drawn.flows.push_back(flow);
+            if (own.up == Patch{} && own.down == Patch{}) continue;
+            drawn.paths.push_back(own);
+            for (const char* const path : {"1-12", "client.3", "wan"}) {
+                own.path = flow_path(path, name);
+                if (below(3) == 0) drawn.paths.push_back(own);
+            }
+            own.path = flow_path("", name);
+            for (Change& change : drawn.timeline) {
+                if (below(2) == 0) patch_for(change.paths, own.path) = own;
+            }
+        }
+        std::ranges::sort(drawn.paths, {}, &PathPatch::path);
     }
     std::uint64_t bits() { return stream_.bits(index_++); }
     std::uint64_t below(std::uint64_t most) { return bits() % most; }
@@ -77,6 +107,17 @@ private:
     void draw(std::uint32_t& value)
     {
         value = static_cast<std::uint32_t>(bits() >> (32 + below(32)));
+    }
+    void draw(std::uint16_t& value) { value = static_cast<std::uint16_t>(below(257)); }
+    void draw(NumberRange& value)
+    {
+        value.first = static_cast<std::uint16_t>(below(2) == 0 ? 0 : below(1000));
+        value.last = static_cast<std::uint16_t>(below(2) == 0 ? 65'535 : value.first + below(9));
+    }
+    void draw(Net& value)
+    {
+        constexpr std::array texts{"10.0.0.1", "192.168.0.0/16", "::1", "2001:db8::/32"};
+        value = Net::parse(texts[below(texts.size())]).value();
     }
     void draw(std::uint64_t& value) { value = bits() >> (30 + below(34)); }
     void draw(QueueLaw& value)
@@ -140,7 +181,11 @@ private:
     T possible()
     {
         for (;;) {
-            const T drawn = fields<T>();
+            T drawn = fields<T>();
+            if constexpr (std::is_same_v<T, Match>) {
+                if (drawn.ip) drawn.ip = static_cast<std::uint8_t>(4 + 2 * below(2));
+                if (drawn.host) drawn.host = Net::parse("10.0.0.1").value();
+            }
             if (validate(As{drawn})) return drawn;
         }
     }

@@ -148,5 +148,24 @@ TEST(Fates, OfSeveralPathsNamesThemInFront)
     EXPECT_EQ(why(row + row), "line 3: number: expected 1, found '0'");
 }
 
+TEST(Fates, OfFlowsHaveAColumnForThem)
+{
+    const FatesOfPaths flows{{"", some}, {"flow.ssh", some}, {"flow.voice", {some.up, {}}}};
+    const auto text = to_text(flows);
+    EXPECT_TRUE(text.starts_with(fmt::format("flow,{}\nrest,up,0,deliver,", fates_header)));
+    EXPECT_NE(text.find("\nvoice,up,1,drop,gilbert_elliott,bad,,,,,\n"), std::string::npos);
+    EXPECT_EQ(parse_fates_of_paths(text).value(), flows);
+    const FatesOfPaths both{{"1-2", some}, {"1-2.flow.voice", some}};
+    EXPECT_TRUE(to_text(both).starts_with(fmt::format("link,flow,{}\n1-2,rest,up,", fates_header)));
+    EXPECT_EQ(parse_fates_of_paths(to_text(both)).value(), both);
+    const auto why = [](const std::string& rows) {
+        return parse_fates_of_paths(fmt::format("flow,{}\n{}", fates_header, rows)).error().message;
+    };
+    EXPECT_EQ(why("Voice,up,0,deliver,,,5,,,,\n"),
+              "line 2: flow: expected the name of a flow or rest, found 'Voice'");
+    EXPECT_EQ(why("voice,up,0,deliver,,,5,,,,\nvoice,up,0,deliver,,,5,,,,\n"),
+              "line 3: number: expected 1, found '0'");
+}
+
 } // namespace
 } // namespace hapnet::emulator

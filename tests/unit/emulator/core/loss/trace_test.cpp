@@ -37,9 +37,15 @@ TEST(LossTrace, IsReadFromTheColumnOfATable)
 {
     EXPECT_EQ(parse_loss_table("number,lost,delay\n0,1,2\n1,0,3\r\n2,0,4\n").value(),
               parse_loss_trace("100").value());
-    EXPECT_EQ(parse_loss_table("a,b\n").error().message, "line 1: there is no column named 'lost'");
+    EXPECT_EQ(parse_loss_table("\"number\";\"lost\"\n\"0\";\"1\"\n\"1\";\"0\"\n").value(),
+              parse_loss_trace("10").value());
+    EXPECT_EQ(parse_loss_table("a,b\n").error().message,
+              "line 1: no column is named lost: rename one, or say which it is, such as columns "
+              "\"lost=b\"");
     EXPECT_EQ(parse_loss_table("a,lost\n0,1\n1\n").error().message,
-              "line 3: 'lost' is 0 (arrived) or 1 (lost), nothing else");
+              "line 3: 1 cell where the header has 2");
+    EXPECT_EQ(parse_loss_table("a,lost\n0,0.5\n").error().message,
+              "line 2: lost 0.5 is neither 0 (arrived) nor 1 (lost)");
 }
 
 TEST(LossTrace, HasABound)

@@ -22,6 +22,7 @@ TEST(ProfileFiles, TablesAndTracesAreReadFromTheFilesTheyName)
         if (name == "pareto.dist") return "0 8192 12000\n";
         if (name == "lte.csv") return "time_s,delay_ms\n0,40\n1,45\n";
         if (name == "wrong.csv") return "40ms\n12\n";
+        if (name == "plain.txt") return "40\n12\n";
         return base::fail("there is no file " + name);
     };
     const auto profile = parse_profile("[up]\ndelay = { law = \"trace\", file = \"lte.csv\" }\n"
@@ -36,8 +37,12 @@ TEST(ProfileFiles, TablesAndTracesAreReadFromTheFilesTheyName)
         const auto result = parse_profile("[up]\njitter = { " + law + " }\n", "test.toml", open);
         return result ? "accepted" : result.error().message;
     };
-    EXPECT_EQ(refused("law = \"table\", file = \"wrong.csv\""),
-              "test.toml:2:10: wrong.csv: line 2: '12' has no unit: write 12ms");
+    EXPECT_EQ(
+        refused("law = \"table\", file = \"wrong.csv\""),
+        "test.toml:2:10: wrong.csv: line 2: '12' has no unit: write 12ms in each line, or say "
+        "columns \"delay=1:ms\"");
+    EXPECT_EQ(refused("law = \"table\", file = \"plain.txt\", columns = \"delay=1:ms\""),
+              "accepted");
     EXPECT_EQ(refused("law = \"table\", file = \"pareto.dist\""),
               "test.toml:2:10: sd must be more than 0");
     EXPECT_EQ(refused("law = \"trace\", file = \"no.csv\""),

@@ -120,8 +120,7 @@ down = { delay = "1ms", burst_loss = "none" }
 TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
 {
     EXPECT_EQ(refusal("[both]\ndelay = 160\n"),
-              "test.toml:2:9: '160' is not a duration: write a number and its unit, such as 160ms, "
-              "15us or 1.5s");
+              "test.toml:2:9: '160' has no unit: write 160ms, 160us or 160s");
     EXPECT_EQ(refusal("[both]\ndealy = \"160ms\"\n"),
               "test.toml:2:1: unknown key 'dealy': did you mean 'delay'?");
     EXPECT_EQ(refusal("[both]\ndelay = true\n"),
@@ -255,8 +254,7 @@ TEST(ProfileText, ASettingReadsWithoutQuotesAndItsErrorsNameIt)
     EXPECT_EQ(path->down.jitter.law, (DelayLaw{NormalLaw{0ms, 3ms}}));
     EXPECT_EQ(path->down.delay, Variation{});
     EXPECT_EQ(parse_setting("up.delay", "300", {}).error().message,
-              "up.delay: '300' is not a duration: write a number and its unit, such as 160ms, 15us "
-              "or 1.5s");
+              "up.delay: '300' has no unit: write 300ms, 300us or 300s");
     EXPECT_EQ(parse_setting("up.los", "3%", {}).error().message,
               "unknown key 'up.los': did you mean 'up.loss'?");
 }
@@ -269,7 +267,7 @@ TEST(ProfileText, NamesWhatIsWrongWithTheKeyOfASetting)
     EXPECT_EQ(why("upp.loss"), "upp.loss: unknown direction 'upp': use up, down or both");
     EXPECT_EQ(why("los"), "unknown key 'los': did you mean 'loss'?");
     EXPECT_EQ(why("up.x"), "unknown key 'up.x': use one of mtu, rate, queue, loss, burst_loss, "
-                           "corrupt, duplicate, delay, jitter, order, reorder");
+                           "corrupt, duplicate, delay, jitter, correlation_time, order, reorder");
     EXPECT_EQ(why("seed"), "seed: the seed of a run cannot change: start the emulator with --seed");
     EXPECT_EQ(why("up.loss.share"),
               "up.loss.share: a setting is set as a whole: up.loss '{ ... }'");
@@ -294,6 +292,51 @@ TEST(ProfileText, NamesTheUnknownParameterOfALawRatherThanTheOneItStandsFor)
     EXPECT_TRUE(why("loss", R"({ share = "1%" })")
                     .starts_with("missing key 'law': use one of random, k-of"));
     EXPECT_TRUE(why("loss", R"({ law = "table" })").starts_with("unknown law 'table': u"));
+}
+
+TEST(ProfileText, TakesACorrelationTimeBesideWhatItIsOf)
+{
+    const auto jitter = parse_setting("jitter", "5ms", {}).value();
+    const auto delay = parse_setting("delay", R"({ law = "gamma", mean = "9ms", sd = "3ms" })", {});
+    const auto time = parse_setting("up.correlation-time", "20ms", {});
+    ASSERT_TRUE(time) << time.error().message;
+    const std::vector<Setting> of_jitter{*time, jitter};
+    EXPECT_EQ(with_settings({}, of_jitter)->up.jitter, (Variation{UniformLaw{0ms, 5ms}, 20ms}));
+    EXPECT_EQ(with_settings({}, of_jitter)->down.jitter, (Variation{UniformLaw{0ms, 5ms}, 0ms}));
+    const std::vector<Setting> of_delay{*delay, *time};
+    EXPECT_EQ(with_settings({}, of_delay)->up.delay.correlation_time, 20ms);
+    EXPECT_EQ(with_settings({}, std::vector{*time}).error().message, nothing_to_correlate);
+    EXPECT_EQ(parsed("[up]\njitter = \"5ms\"\ncorrelation_time = \"20ms\"\n"),
+              parsed("[up]\njitter = { law = \"uniform\", half_width = \"5ms\", "
+                     "correlation_time = \"20ms\" }\n"));
+    EXPECT_EQ(refusal("[up]\njitter = \"5ms\"\n[[at]]\ntime = \"1s\"\nup.correlation_time = "
+                      "\"20ms\"\n"),
+              "test.toml:5:1: a change sets a jitter as a whole: write jitter or delay beside "
+              "correlation_time");
+}
+
+TEST(ProfileText, TakesATokenBucketByTheNameOfItsMeanRate)
+{
+    const auto rate = [](std::string_view value) {
+        const auto setting = parse_setting("rate", value, {});
+        if (!setting) return setting.error().message;
+        Profile profile;
+        profile.path = with_settings({}, std::vector{*setting}).value();
+        return to_text(profile);
+    };
+    EXPECT_EQ(rate(R"({ mean = "10Mbit/s", burst = "16KiB" })"),
+              rate(R"({ limit = "10Mbit/s", burst = "16KiB" })"));
+    EXPECT_NE(rate(R"({ mean = "10Mbit/s", burst = "16KiB" })")
+                  .find(R"(rate = { limit = "10Mbit/s", burst = "16KiB" })"),
+              std::string::npos);
+    const auto ends_with = [&](std::string_view value, std::string_view why) {
+        EXPECT_TRUE(rate(value).ends_with(why)) << rate(value);
+    };
+    ends_with(R"({ mean = "10Mbit/s" })",
+              "mean goes with burst: write limit for a rate without one");
+    ends_with(R"({ mean = "1Mbit/s", limit = "1Mbit/s", burst = "1KiB" })",
+              "mean and limit say the same: write one of them");
+    ends_with(R"({ limit = "1Mbit/s", burst = "2GiB" })", "burst must be at most 1GiB");
 }
 
 TEST(ProfileText, RefusesANegativeJitter)
@@ -430,7 +473,7 @@ TEST(ProfileText, SpeaksOnlyOfThePathsOfItsRun)
     EXPECT_EQ(why(pair, {.links = {"1-2", "1-3"}}), "");
     EXPECT_EQ(why(pair, {.links = {"1-2"}}), "t:1:7: there is no link 1-3: use one of 1-2");
     EXPECT_EQ(why(pair, {}), "t:1:7: there is no link 1-3: start the emulator with --link "
-                             "1-3=LISTEN_1,LISTEN_2");
+                             "1-3=LISTEN_A,LISTEN_B");
     EXPECT_EQ(why("[client.1]\ndelay = \"1ms\"\n", {.links = {"1-2"}}),
               "t:1:9: there is no client.1: clients are those of --upstream");
     EXPECT_EQ(why("[client.1]\ndelay = \"1ms\"\n", {.clients = true}), "");

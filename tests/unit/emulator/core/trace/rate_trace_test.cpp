@@ -27,6 +27,17 @@ struct Arrival {
 };
 using Departures = std::vector<std::pair<std::size_t, base::Duration>>;
 
+/// The number of opportunities at each moment of a schedule.
+std::vector<Opportunities::Moment> moments_of(const std::vector<base::Duration>& schedule)
+{
+    std::vector<Opportunities::Moment> moments;
+    for (std::size_t i = 0; i < schedule.size(); ++i) {
+        const bool is_last = i + 1 == schedule.size() || schedule[i + 1] != schedule[i];
+        if (is_last) moments.push_back({schedule[i], i + 1});
+    }
+    return moments;
+}
+
 /// Mahimahi's LinkQueue (src/frontend/link_queue.cc) in its own words, but for its clock, which is
 /// in nanoseconds here, and its queue, which is endless. Times since the trace began.
 class ReferenceLinkQueue {
@@ -175,7 +186,10 @@ TEST(RateTrace, DeliversExactlyWhatTheRuleOfMahimahiDelivers)
                                  .offset = std::chrono::milliseconds{seed % 3 * 41},
                                  .start = seed % 2 == 0 ? TraceStart::run : TraceStart::first};
         const RateTraceLaw law{
-            "x", std::make_shared<const RateTrace>(Opportunities{schedule}), {}, timing};
+            "x",
+            std::make_shared<const RateTrace>(Opportunities{moments_of(schedule)}),
+            {},
+            timing};
         const auto expected = of_reference(schedule, timing, arrivals, 1h);
         EXPECT_EQ(of_bottleneck(law, arrivals, 1h), expected) << "seed " << seed;
         compared += expected.size();
@@ -193,6 +207,24 @@ TEST(RateTrace, CarriesTheRestOfAnOpportunityToWhatWaits)
               (Completion{5ms, 1404 * work_per_byte}));
     EXPECT_EQ(trace->finish(5ms, 1, true)->at, 6ms); // it begins again
     EXPECT_FALSE(trace->finish(5ms, 1, false));
+}
+
+TEST(RateTrace, HasAsManyOpportunitiesAsAFastLineNeeds)
+{
+    // 25 of 1504 B each millisecond are 300.8 Mbit/s; 1.5 million of them in a minute.
+    constexpr int each_ms = 25;
+    std::string text;
+    for (int ms = 1; ms <= 60'000; ++ms) {
+        for (int i = 0; i < each_ms; ++i) text += std::to_string(ms) + "\n";
+    }
+    const auto trace = parse_rate_trace(text);
+    ASSERT_TRUE(trace) << trace.error().message;
+    EXPECT_EQ(trace->mean_rate(), 300.8e6);
+    EXPECT_EQ(trace->period(), 60s);
+    const Work minute = Work{60'000} * each_ms * 1504 * work_per_byte;
+    EXPECT_EQ(trace->sent(0s, 1ms, true), minute / 60'000);
+    EXPECT_EQ(trace->finish(0s, minute / 60'000 + 1, true)->at, 2ms);
+    static_assert(sizeof(Opportunities::Moment) == 16); // as the documents say
 }
 
 TEST(RateTrace, SendsInStepsWhatTheyAddUpTo)
@@ -260,7 +292,9 @@ TEST(RateTrace, RefusesWhatIsNotOneAndNamesTheLine)
               "line 2: 'x' is not a time in whole milliseconds, as Mahimahi has them; a table "
               "begins with the names of its columns");
     EXPECT_EQ(error("rate_bps\n1\n"),
-              "line 1: no column is named time_ns, time_us, time_ms or time_s");
+              "line 1: no column is named time_ns, time_us, time_ms or time_s: name it, such as "
+              "columns \"time=stamp:s\", or say how long each value lasts, such as slot = "
+              "\"10ms\"");
     EXPECT_EQ(error("t_s,rate_bps\n0,0\n"), "line 2: nothing would ever pass: each rate is 0");
     EXPECT_EQ(error(""), "line 1: the file ends without a rate");
 }

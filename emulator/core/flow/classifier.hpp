@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/flow/flow.hpp"
+#include "emulator/core/flow/packet_facts.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// The filters of all flows, ready to be asked. A table says of each value of a fact which flows
+/// take it, a bit for each flow, so that a question costs the same for one flow and for sixteen
+/// (bit vectors: Lakshman and Stiliadis, SIGCOMM 1998). Several paths share them.
+class FlowFilters {
+public:
+    /// At most flows_max, all valid.
+    explicit FlowFilters(std::span<const Match> matches);
+
+    /// The first flow that takes such a packet, from 0; nullopt: none.
+    [[nodiscard]] std::optional<std::size_t> first(const PacketFacts& facts) const;
+
+private:
+    using Flows = std::uint16_t; // a bit for each
+
+    /// Which flows take each number; empty: all take all.
+    class Table {
+    public:
+        /// `range_of(match)`: what it asks of the number; nullopt: nothing.
+        Table(std::span<const Match> matches, std::size_t numbers, const auto& range_of);
+
+        [[nodiscard]] Flows at(std::size_t number) const
+        {
+            return flows_.empty() ? Flows{0xffff} : flows_[number];
+        }
+
+    private:
+        std::vector<Flows> flows_;
+    };
+
+    std::vector<Match> matches_;
+    Table by_protocol_;
+    Table by_version_;
+    Table by_dscp_;
+    Table by_size_;
+    Table by_port_; // of either end
+    Table by_to_port_;
+    Table by_from_port_;
+    Flows all_ = 0;
+    Flows with_ports_ = 0; // that ask for ports
+    Flows with_nets_ = 0;  // that ask for addresses
+};
+
+/// Says which flow each packet of one path belongs to. Later fragments of a packet follow its first
+/// one, as far as it is remembered.
+class Classifier {
+public:
+    explicit Classifier(std::shared_ptr<const FlowFilters> filters) : filters_{std::move(filters)}
+    {}
+
+    /// The flow of a packet that arrived at `at`; nullopt: it belongs to none.
+    [[nodiscard]] std::optional<std::size_t> classify(const PacketFacts& facts, base::TimePoint at)
+    {
+        if (facts.part != PacketFacts::Part::whole) return classify_fragment(facts, at);
+        return filters_->first(facts);
+    }
+
+    /// Later fragments of which no first one was remembered. They were classified by what they say
+    /// themselves, without ports.
+    [[nodiscard]] std::uint64_t unknown_fragments() const { return unknown_fragments_; }
+
+    /// As many fragmented packets are remembered at a time, each for so long (RFC 8200, 4.5).
+    static constexpr std::size_t packets_max = 256;
+    static constexpr base::Duration remembered_for = std::chrono::seconds{60};
+
+private:
+    /// A packet of which the first fragment has come.
+    struct Fragmented {
+        Address from{};
+        Address to{};
+        std::uint32_t id = 0;
+        std::uint16_t protocol = 0; // of IPv4; that of IPv6 is not part of its identity
+        std::uint8_t version = 0;   // 0: none
+        std::int8_t flow = -1;      // -1: none
+        base::TimePoint at{};
+    };
+
+    std::optional<std::size_t> classify_fragment(const PacketFacts& facts, base::TimePoint at);
+
+    std::shared_ptr<const FlowFilters> filters_;
+    std::unique_ptr<std::array<Fragmented, packets_max>> fragmented_; // null: none came yet
+    std::uint64_t unknown_fragments_ = 0;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/cells.hpp"
+#include "proto/base/reading.hpp"
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hapnet::emulator {
+
+/// The text of a file of measured values. UTF-16 with a byte order mark, as PowerShell writes it,
+/// becomes UTF-8; other text stays as it is. The error says how to unpack a compressed file.
+[[nodiscard]] base::Result<std::string> plain_text(std::string bytes);
+
+/// The text of the file of measured values that a law names. The error names the file.
+[[nodiscard]] base::Result<std::string> open_measured(const base::Reading& reading,
+                                                      const std::string& file);
+
+/// The lines of a text that say something: without the blanks around them, empty lines and those
+/// that begin with '#'. A byte order mark is skipped.
+class LineReader {
+public:
+    explicit LineReader(std::string_view text);
+
+    /// nullopt at the end.
+    [[nodiscard]] std::optional<std::string_view> next();
+
+    /// The cells of the next line, which stay valid as `cells` says; nullopt at the end. The error
+    /// names the line.
+    [[nodiscard]] base::Result<std::optional<std::span<const std::string_view>>>
+    next_cells(base::Cells& cells);
+
+    /// The number of the line that was given last, from 1.
+    [[nodiscard]] std::size_t number() const;
+
+    /// An error at the line that was given last, or at the last one of the text.
+    [[nodiscard]] tl::unexpected<base::Error> fail(std::string_view why) const;
+
+private:
+    [[nodiscard]] bool find_next();
+
+    std::string_view rest_;
+    std::size_t number_ = 0; // of the last line of what was given last
+    std::size_t begun_ = 0;  // of its first line
+};
+
+/// The text without the blanks around it.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// For messages: at most 40 bytes of it, as a terminal may show them.
+[[nodiscard]] std::string shortened(std::string_view text);
+
+} // namespace hapnet::emulator
