@@ -24,7 +24,7 @@ refuse() {
     exit 2
 }
 
-names=() out='' options=() daemons=() real_time='' quick=() conventions=''
+names=() out='' options=() daemons=() real_time='' quick=() conventions='' changed=no
 while (($# > 0)); do
     case $1 in
     --quick) options+=(--quick) quick=(--quick) && shift ;;
@@ -40,7 +40,7 @@ while (($# > 0)); do
     --seeds | --jobs | --set)
         (($# > 1)) || refuse "$1: which value?"
         options+=("$1" "$2")
-        [[ $1 == --jobs ]] || daemons+=("$1" "$2")
+        [[ $1 == --jobs ]] || daemons+=("$1" "$2") changed=yes
         shift 2
         ;;
     -h | --help) echo "$usage" && exit 0 ;;
@@ -72,6 +72,11 @@ for name in "${names[@]}"; do
     more=()
     [[ -z $conventions || $name != fig6[ab] ]] || more=(--set "convention.seeds=$conventions")
     "$lab" run "$name" "${options[@]}" "${more[@]}" --out "$folder"
+    # Whether the limits of these seeds are those that are published: by the shipped one alone.
+    if [[ $name == fig6[ab] && -z ${quick[*]} && $changed == no ]] &&
+        command -v python3 >/dev/null; then
+        python3 scripts/limits_pool.py agree "$folder"
+    fi
     if [[ -n $real_time && $name == table1 ]]; then
         scripts/real-time.sh --out "$folder" "${quick[@]}"
     elif [[ -n $real_time ]]; then

@@ -260,7 +260,7 @@ private:
     {
         const auto& axes = experiment_.whole.axes;
         if (!axes.empty()) {
-            if (table.name.starts_with("replay/")) return;
+            if (table.name.starts_with("replay")) return; // of each point there is none
             table = with_leading(leading_cells(axes, part), std::move(table));
             table.name += axes.size() == 1 ? "_by_axis" : "_by_point";
         }

@@ -132,6 +132,7 @@ base::Result<void> load_own_algorithms(experiment::Experiment& experiment)
 
 void create_folder(const std::string& path)
 {
+    if (path.empty()) return; // of a file that is named without a folder
     std::error_code error;
     std::filesystem::create_directories(path, error);
     if (error) throw std::system_error{error, "cannot create the folder " + path};

@@ -24,7 +24,8 @@ namespace hapnet::lab {
 /// Loads the algorithms that are no part of the program.
 [[nodiscard]] base::Result<void> load_own_algorithms(experiment::Experiment& experiment);
 
-/// Creates a folder and those above it. Throws std::system_error naming the folder.
+/// Creates a folder and those above it; the empty path is the one where this runs. Throws
+/// std::system_error naming the folder.
 void create_folder(const std::string& path);
 
 /// What a folder holds of a session over real UDP. The error names the file that is missing.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/options.hpp"
 
+#include "emulator/core/profile/settings.hpp"
+
 #include "lab/cli/schemas.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/fields.hpp"
@@ -84,7 +86,8 @@ void add_analyse(cli::Command& command, AnalyseCommand& analyse)
     command.describe(
         "Compares the records of the peers of one session, two to eight: how far apart "
         "their cubes and forces were, what the network did, and whether the run is "
-        "valid. An invalid run is reported; the exit code stays 0.");
+        "valid. Of two, the first record is A and the second B. An invalid run is reported; the "
+        "exit code stays 0.");
     command.add_exit_codes(exit_codes_without_run);
     command.positional("RECORD_A", "The record of one peer", cli::into(analyse.record_a))
         .required("a.rec b.rec");
@@ -158,7 +161,8 @@ void add_report(cli::Command& command, ReportCommand& report)
         "recorded session; of a folder of such folders, without a manifest.json of its own, it "
         "writes one. The tables are read from results.json: run again what an older version "
         "wrote. Of two records or more: their session; the page is written "
-        "beside the first.");
+        "beside the first. The numbers of figures that no file of results has go to figures/ "
+        "beside the page.");
     command.add_exit_codes(exit_codes_without_run);
     command
         .positional("DIR|RECORD_A",
@@ -167,6 +171,9 @@ void add_report(cli::Command& command, ReportCommand& report)
         .required("results");
     command.positional("RECORD_B", "The record of another peer", cli::into(report.record_b));
     command.positional("MORE", "The records of all others", cli::onto(report.more)).repeated();
+    command.option("--out", "FILE",
+                   "Where the page goes (default: report.html in the folder, or beside RECORD_A)",
+                   cli::into(report.out));
 }
 
 void add_replay(cli::Command& command, ReplayCommand& replay)
@@ -268,6 +275,11 @@ void add_experiment(cli::Command& command, RunCommand& run, const std::string& w
 cli::Take condition_into(std::vector<std::string>& settings, std::string_view key)
 {
     return [&settings, key](const std::string& text) -> base::Result<void> {
+        const auto setting = emulator::parse_setting(key, text, {}, {});
+        if (!setting && !text.starts_with('{')) {
+            const std::string_view why = setting.error().message;
+            return base::fail(std::string{why.substr(key.size() + 2)});
+        }
         settings.push_back(fmt::format("both.{}={}", key, text));
         return {};
     };
@@ -295,6 +307,24 @@ cli::Take pace_into(PlayCommand& play)
     };
 }
 
+/// The name of a built-in algorithm.
+cli::Take algorithm_into(std::vector<std::string>& algorithms)
+{
+    return [&algorithms](const std::string& text) -> base::Result<void> {
+        if (text.find(',') != std::string::npos) {
+            return base::fail(fmt::format("there is no algorithm '{}': give --algorithm once for "
+                                          "each, such as --algorithm base --algorithm sep",
+                                          text));
+        }
+        const auto name = cli::meant_value("--algorithm", text);
+        if (!name) return tl::unexpected{name.error()};
+        if (const auto known = peer::algorithm_named(*name); !known)
+            return tl::unexpected{known.error()};
+        algorithms.push_back(*name);
+        return {};
+    };
+}
+
 void add_play(cli::Command& command, PlayCommand& play)
 {
     command.describe("Plays one session in virtual time and prints its numbers. With --control it "
@@ -314,7 +344,7 @@ void add_play(cli::Command& command, PlayCommand& play)
     command.option("--task", "NAME", "P1 (default) or T1 to T10", cli::into(play.task));
     command
         .option("--algorithm", "NAME", "base (default); up to three play under the same network",
-                cli::onto(play.algorithms))
+                algorithm_into(play.algorithms))
         .repeated();
     command.option("--profile", "FILE|NAME", "Conditions and their timeline",
                    cli::into(play.profile));
@@ -337,6 +367,15 @@ void add_play(cli::Command& command, PlayCommand& play)
     command.option("--control", "SOCKET",
                    "Wait on this Unix socket, and on SOCKET.peer-1 and so on, for whoever watches",
                    cli::into(play.control));
+    command.option("--device", "sim|page",
+                   "With --control: A's hand is simulated (default), or goes where clients of "
+                   "SOCKET.peer-1 tell it to with the command hand",
+                   [&play](const std::string& text) -> base::Result<void> {
+                       if (text != "sim" && text != "page")
+                           return base::fail(fmt::format("'{}': use sim or page", text));
+                       play.device = text;
+                       return {};
+                   });
     command.option("--out", "DIR", "With --control: where experiments are saved",
                    cli::into(play.out));
     command.option("--pace", "FACTOR",
@@ -350,7 +389,7 @@ base::Result<void> complete(PlayCommand& play, const cli::Command& command)
     if (!play.record.empty()) {
         for (const char* option :
              {"--task", "--algorithm", "--profile", "--delay", "--jitter", "--loss", "--set",
-              "--seed", "--duration", "--peers", "--json", "--out"}) {
+              "--seed", "--duration", "--peers", "--json", "--device", "--out"}) {
             if (command.is_given(option)) {
                 return base::fail(
                     fmt::format("play: a record is played as it is: leave {} out", option));
@@ -363,6 +402,10 @@ base::Result<void> complete(PlayCommand& play, const cli::Command& command)
     if (play.algorithms.empty()) play.algorithms = {"base"};
     if (play.control.empty() && (!play.out.empty() || command.is_given("--pace"))) {
         return base::fail("play: --out and --pace go with --control");
+    }
+    if (play.control.empty() && play.device == "page") {
+        return base::fail(
+            "play: the hand of --device page is moved over a socket: add --control SOCKET");
     }
     if (!play.control.empty() && play.json) {
         return base::fail("play: --json is for a session that plays to its end: leave --control "

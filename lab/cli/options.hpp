@@ -38,6 +38,7 @@ struct PlayCommand {
     std::uint32_t peers = 2;
     bool json = false;
     std::string control;              // a socket; empty: it plays to the end
+    std::string device = "sim";       // of A: sim or page
     std::string out;                  // where experiments are saved
     std::optional<double> pace = 1.0; // nullopt: as fast as possible
     bool paused = false;
@@ -89,11 +90,12 @@ struct ReplayCommand {
     bool csv = false;
 };
 
-/// `hapnet-lab report DIR`, `hapnet-lab report RECORD_A RECORD_B`
+/// `hapnet-lab report DIR [--out FILE]`, `hapnet-lab report RECORD_A RECORD_B [--out FILE]`
 struct ReportCommand {
     std::string path;                // a folder, or the record of one peer
     std::string record_b;            // of another; empty: path is a folder
     std::vector<std::string> more{}; // of more than two peers
+    std::string out{};               // the page; empty: report.html in the folder
 };
 
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`,

@@ -131,14 +131,20 @@ class SavedExperiments {
 public:
     explicit SavedExperiments(std::string folder) : folder_{std::move(folder)} {}
 
-    [[nodiscard]] base::Result<std::string> save(const std::string& text)
+    /// A way without a name goes to a file beside the experiment's, which names it from there.
+    [[nodiscard]] base::Result<std::string> save(experiment::Experiment saved)
     {
         if (folder_.empty()) return base::fail("start it with --out DIR to save experiments");
         std::string path;
         do {
             path = fmt::format("{}/experiment-{}.toml", folder_, ++count_);
         } while (std::filesystem::exists(path));
-        disk::ResultFile{path}.commit(text);
+        for (experiment::NamedTrace& way : saved.replay) {
+            if (!way.trace || !way.name.empty()) continue;
+            way.name = fmt::format("experiment-{}-hand.csv", count_);
+            disk::ResultFile{folder_ + "/" + way.name}.commit(device::print_hand_trace(*way.trace));
+        }
+        disk::ResultFile{path}.commit(experiment::to_text(saved));
         return path;
     }
 
@@ -166,7 +172,7 @@ int play_live(const PlayCommand& command, Played& session, base::Duration tick)
     live::Pace pace{command.pace, !command.paused};
     bool is_over = false;
     const live::Controlled<Played> controlled{
-        session, pace, [&saved](const std::string& text) { return saved.save(text); },
+        session, pace, [&saved](experiment::Experiment one) { return saved.save(std::move(one)); },
         [&is_over] { is_over = true; }};
     std::vector<Served> all;
     all.push_back(
@@ -222,7 +228,10 @@ base::Result<int> play_session(const PlayCommand& command)
     if (auto opened = load_own_algorithms(*experiment); !opened) {
         return tl::unexpected{opened.error()};
     }
-    auto session = live::Session::make(*experiment, preset_text);
+    auto session =
+        live::Session::make(*experiment, preset_text,
+                            command.device == "page" ? live::Session::HandOfA::page
+                                                     : live::Session::HandOfA::simulated);
     if (!session) return tl::unexpected{session.error()};
     if (command.control.empty()) return play_out(command, **session, *experiment);
     return play_live(command, **session, experiment->tick);

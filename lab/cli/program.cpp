@@ -26,6 +26,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -65,6 +66,13 @@ base::Result<int> run_circle(const AnalyseCommand& command)
     return 0;
 }
 
+/// Who is A and who is B, of two records that were compared.
+std::string sides_text(const record::Record& a, const record::Record& b)
+{
+    return fmt::format("A is peer {}, B is peer {}\n\n", a.config.at("peer_id").get<std::int64_t>(),
+                       b.config.at("peer_id").get<std::int64_t>());
+}
+
 base::Result<int> run(const AnalyseCommand& command)
 {
     if (!command.more.empty()) return run_circle(command);
@@ -77,7 +85,8 @@ base::Result<int> run(const AnalyseCommand& command)
         return base::fail("cannot compare " + command.record_a + " (A) with " + command.record_b +
                           " (B): " + analysis.error().message);
     }
-    print(command.json ? to_json(*analysis).dump(2) + '\n' : to_table(*analysis));
+    print(command.json ? to_json(*analysis).dump(2) + '\n'
+                       : sides_text(*a, *b) + to_table(*analysis));
     return 0;
 }
 

@@ -61,9 +61,9 @@ base::Result<std::vector<results::File>> read_files(const std::vector<fs::path>&
         }
         for (const char* name : {"manifest.json", results::tables_name, results::real_time_name,
                                  results::sessions_name}) {
-            const bool is_shown = name != results::sessions_name ||
-                                  fs::exists(place / "table1.csv") ||
-                                  fs::exists(place / "claims.csv");
+            const auto has = [&](const char* table) { return fs::exists(place / table); };
+            const bool is_shown = name != results::sessions_name || has("table1.csv") ||
+                                  has("table1_by_axis.csv") || has("claims.csv");
             if (auto fine = is_shown ? add(place / name) : base::Result<void>{}; !fine)
                 return tl::unexpected{fine.error()};
         }
@@ -90,9 +90,9 @@ std::vector<std::string> names_of_files(const std::vector<std::string>& paths)
 }
 
 /// Every two of the records: a session of more than two is shown in pairs. `name` tells the session
-/// from others; empty: that of its task.
+/// from others; empty: that of its task. The page will be in `folder`.
 base::Result<void> add_records(results::Results& results, const std::string& name,
-                               const std::vector<std::string>& paths)
+                               const std::vector<std::string>& paths, const fs::path& folder)
 {
     std::vector<record::Record> all;
     for (const std::string& path : paths) {
@@ -100,8 +100,9 @@ base::Result<void> add_records(results::Results& results, const std::string& nam
         if (!record) return tl::unexpected{record.error()};
         all.push_back(*std::move(record));
     }
-    std::vector<const record::Record*> records;
-    for (const record::Record& one : all) records.push_back(&one);
+    std::vector<results::RecordFile> records;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        records.push_back({&all[i], fs::proximate(paths[i], folder).generic_string()});
     if (const auto added = add_session(results, name, records); !added) {
         return base::fail(
             fmt::format("cannot compare {}: {}", fmt::join(paths, ", "), added.error().message));
@@ -133,7 +134,8 @@ base::Result<void> add_demo(results::Results& results, const fs::path& root)
     return {};
 }
 
-base::Result<results::Results> results_in(const fs::path& root)
+/// The page will be in `folder`.
+base::Result<results::Results> results_in(const fs::path& root, const fs::path& folder)
 {
     const auto places = places_in(root);
     for (const fs::path& place : places) {
@@ -144,13 +146,13 @@ base::Result<results::Results> results_in(const fs::path& root)
     auto results = read_results(*files);
     if (!results) return results;
     for (results::TableFile& file : results->files)
-        file.path = fs::path{file.path}.lexically_relative(root).generic_string();
+        file.path = fs::proximate(file.path, folder).generic_string();
     for (const fs::path& place : places) {
         const auto records = records_in(place);
         if (records.size() < 2) continue;
         if (records.size() > 2 && !are_of_one_session(records)) continue; // which belong together?
         const auto name = place == root ? "" : place.filename().string();
-        const auto added = add_records(*results, name, records);
+        const auto added = add_records(*results, name, records, folder);
         if (!added) return tl::unexpected{added.error()};
     }
     const auto added = add_demo(*results, root);
@@ -170,13 +172,24 @@ base::Result<results::Results> results_in(const fs::path& root)
     return results;
 }
 
-/// What the arguments name, and the folder for the page.
-struct Source {
-    results::Results results;
-    fs::path folder;
-};
+fs::path folder_of(const fs::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : fs::path{"."};
+}
 
-base::Result<Source> read_source(const ReportCommand& command)
+/// Where the page goes.
+base::Result<fs::path> page_for(const ReportCommand& command)
+{
+    const fs::path first{command.path};
+    if (command.out.empty())
+        return (command.record_b.empty() ? first : folder_of(first)) / "report.html";
+    if (!fs::is_directory(command.out)) return fs::path{command.out};
+    return base::fail(
+        fmt::format("--out: {0} is a folder: name the page, such as {0}/report.html", command.out));
+}
+
+/// What the arguments name, for a page in `folder`.
+base::Result<results::Results> read_source(const ReportCommand& command, const fs::path& folder)
 {
     const fs::path first{command.path};
     if (command.record_b.empty()) {
@@ -190,9 +203,7 @@ base::Result<Source> read_source(const ReportCommand& command)
         if (!fs::is_directory(first)) {
             return base::fail(first.string() + " is neither a folder of results nor a record");
         }
-        return results_in(first).map([&](results::Results results) {
-            return Source{std::move(results), first};
-        });
+        return results_in(first, folder);
     }
     std::vector<std::string> paths{command.path, command.record_b};
     paths.insert(paths.end(), command.more.begin(), command.more.end());
@@ -201,10 +212,10 @@ base::Result<Source> read_source(const ReportCommand& command)
         return base::fail(path +
                           " is a folder: report one folder, or the two records of a session");
     }
-    Source source{{}, first.has_parent_path() ? first.parent_path() : fs::path{"."}};
-    const auto added = add_records(source.results, "", paths);
+    results::Results results;
+    const auto added = add_records(results, "", paths, folder);
     if (!added) return tl::unexpected{added.error()};
-    return source;
+    return results;
 }
 
 void say_what_is_replaced(const fs::path& path, std::string_view page)
@@ -221,10 +232,9 @@ void say_what_is_replaced(const fs::path& path, std::string_view page)
 }
 
 /// Of a folder whose subfolders alone have one.
-void write_manifest(const Source& source)
+void write_manifest(const results::Results& results, std::string root)
 {
-    if (source.results.runs.empty()) return;
-    auto root = source.folder.generic_string();
+    if (results.runs.empty()) return;
     while (root.size() > 1 && root.ends_with('/')) root.pop_back();
     const auto path = root + "/manifest.json";
     if (fs::exists(path)) { // one of a run stays
@@ -235,24 +245,27 @@ void write_manifest(const Source& source)
                                                .start = {},
                                                .host = host(),
                                                .program = base::version_line("hapnet-lab")};
-    disk::ResultFile{path}.commit(several_manifest(source.results, root, circumstances).dump(2) +
-                                  '\n');
+    disk::ResultFile{path}.commit(several_manifest(results, root, circumstances).dump(2) + '\n');
 }
 
 } // namespace
 
 base::Result<std::string> write_report(const ReportCommand& command)
 {
-    const auto source = read_source(command);
-    if (!source) return tl::unexpected{source.error()};
-    for (const results::File& file : report::report_of(source->results, source->folder.string())) {
-        const fs::path path = source->folder / file.path;
+    const auto page = page_for(command);
+    if (!page) return tl::unexpected{page.error()};
+    const fs::path folder = folder_of(*page);
+    const auto results = read_source(command, folder);
+    if (!results) return tl::unexpected{results.error()};
+    for (const results::File& file : report::report_of(*results)) {
+        const bool is_page = file.path == "report.html";
+        const fs::path path = is_page ? *page : folder / file.path;
         create_folder(path.parent_path().string());
-        if (file.path == "report.html") say_what_is_replaced(path, file.text);
+        if (is_page) say_what_is_replaced(path, file.text);
         disk::ResultFile{path.string()}.commit(file.text);
     }
-    if (command.record_b.empty()) write_manifest(*source);
-    return (source->folder / "report.html").string();
+    if (command.record_b.empty()) write_manifest(*results, command.path);
+    return page->string();
 }
 
 } // namespace hapnet::lab

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <spdlog/fmt/fmt.h>
 #include <thread>
 #include <utility>
@@ -32,17 +33,26 @@ base::Result<std::uint64_t> hash_of_file(const std::string& path)
 
 /// Who plays: this very build, and the algorithms that are no part of it. A session that any other
 /// has played is not reused. The error names an algorithm whose file cannot be read.
-base::Result<std::string> program_identity(const experiment::Experiment& experiment)
+base::Result<std::string> program_identity(const LoadedExperiment& experiment)
 {
     std::string identity = fmt::format("{} {:016x}", base::version_line("hapnet-lab"),
                                        hash_of_file("/proc/self/exe").value_or(0));
-    for (const experiment::NamedAlgorithm& named : experiment.algorithms) {
-        const auto* const own = std::get_if<peer::SharedObject>(&named.algorithm);
-        if (own == nullptr) continue;
-        const auto hash = hash_of_file(own->options().file);
-        if (!hash) return base::fail(fmt::format("{}: {}", named.name, hash.error().message));
-        identity += fmt::format(" {:016x}", *hash);
+    std::set<std::string> hashed;
+    const auto add = [&](const experiment::Experiment& one) -> base::Result<void> {
+        for (const experiment::NamedAlgorithm& named : one.algorithms) {
+            const auto* const own = std::get_if<peer::SharedObject>(&named.algorithm);
+            if (own == nullptr || !hashed.insert(own->options().file).second) continue;
+            const auto hash = hash_of_file(own->options().file);
+            if (!hash) return base::fail(fmt::format("{}: {}", named.name, hash.error().message));
+            identity += fmt::format(" {:016x}", *hash);
+        }
+        return {};
+    };
+    auto added = add(experiment.whole);
+    for (const LoadedExperiment::Part& part : experiment.parts) {
+        if (added) added = add(part.experiment);
     }
+    if (!added) return tl::unexpected{std::move(added).error()};
     return identity;
 }
 
@@ -70,7 +80,7 @@ base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open
                                         point->values, std::move(part)});
         }
     }
-    auto identity = program_identity(experiment.whole);
+    auto identity = program_identity(experiment);
     if (!identity) return tl::unexpected{identity.error()};
     experiment.program = *std::move(identity);
     return experiment;

@@ -8,6 +8,7 @@
 #include "lab/cli/run_command.hpp"
 #include "lab/cli/session_records.hpp"
 #include "lab/experiment/daemons.hpp"
+#include "lab/metrics/exercise.hpp"
 #include "lab/records/recorded_trace.hpp"
 #include "lab/results/sweep.hpp"
 #include "lab/results/table_text.hpp"
@@ -145,16 +146,28 @@ virtual_time::Setting perfect(virtual_time::Setting setting)
     return setting;
 }
 
+/// What the session is held against.
+base::Result<metrics::Metrics> reference_of(const virtual_time::Setting& setting)
+{
+    const auto unimpaired = play(perfect(setting));
+    if (!unimpaired) return tl::unexpected{unimpaired.error()};
+    auto metrics = metrics::metrics_of(*unimpaired);
+    if (!metrics::exercise_of(setting.task).presses) return metrics;
+    const auto one_world = play(in_one_world(setting));
+    if (!one_world) return tl::unexpected{one_world.error()};
+    return make_reference(std::move(metrics), metrics::metrics_of(*one_world));
+}
+
 base::Result<void> play_twins(const results::RealTimeSession& session, results::PlayedCell& played)
 {
     const auto setting = twin_of(session, net::text_of_file);
     if (!setting) return tl::unexpected{setting.error()};
     const auto twin = play(*setting);
     if (!twin) return tl::unexpected{twin.error()};
-    const auto unimpaired = play(perfect(*setting));
-    if (!unimpaired) return tl::unexpected{unimpaired.error()};
+    auto reference = reference_of(*setting);
+    if (!reference) return tl::unexpected{std::move(reference).error()};
     played.simulated = metrics::metrics_of(*twin);
-    played.perfect = metrics::metrics_of(*unimpaired);
+    played.perfect = *std::move(reference);
     return {};
 }
 

@@ -129,11 +129,6 @@ emulator::Change healing(base::Duration at)
 
 std::span<const ClaimCell> claim_cells() { return cells(); }
 
-std::uint32_t judging_seeds(const Experiment& experiment)
-{
-    return std::min(experiment.seeds, std::get<Claims>(experiment.kind).judging_seeds);
-}
-
 std::vector<Job> claim_jobs(const Experiment& experiment)
 {
     std::vector<Job> jobs;
@@ -152,7 +147,7 @@ std::vector<Job> claim_jobs(const Experiment& experiment)
     const auto settled = std::ranges::find(claim_cells(), settled_cell, &ClaimCell::name);
     for (std::size_t i = 0; i < experiment.algorithms.size(); ++i) {
         const CellSpecs specs{experiment, i};
-        for (std::uint32_t seed = 0; seed < judging_seeds(experiment); ++seed) {
+        for (std::uint32_t seed = 0; seed < experiment.seeds; ++seed) {
             SessionSpec spec = specs.spec(*settled, Task::t3, experiment.first_seed + seed);
             spec.setting.length = std::min<base::Duration>(spec.setting.length, 10s);
             spec.silence = 1s;

@@ -32,9 +32,6 @@ inline constexpr std::string_view settled_cell = "all";
 /// judges, how far copies are apart after silence.
 [[nodiscard]] std::vector<Job> claim_jobs(const Experiment& experiment);
 
-/// How many of the seeds judge: the first ones.
-[[nodiscard]] std::uint32_t judging_seeds(const Experiment& experiment);
-
 /// How far two copies of the body are apart at most, so long after all hands let go and the
 /// network became perfect, metres. Played twice: the first time tells when that is.
 [[nodiscard]] base::Result<double> apart_after_silence(const virtual_time::Setting& setting,

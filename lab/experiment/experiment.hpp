@@ -31,7 +31,7 @@ struct NamedAlgorithm {
     peer::Algorithm algorithm{};
 };
 
-/// Whose hands play those that act as L and as R.
+/// Whose hands play those that act as A and as B.
 struct Hands {
     device::Operator left{};
     device::Operator right{};
@@ -52,6 +52,12 @@ struct NamedScene {
 struct NamedTrace {
     std::string name;
     std::shared_ptr<const device::HandTrace> trace{};
+};
+
+/// The contents of a file that an experiment names, as a hash.
+struct NamedContents {
+    std::string name;
+    std::uint64_t hash = 0;
 };
 
 /// A key of the experiment that is varied: over these values, or over a range.
@@ -172,7 +178,7 @@ struct Calibration {
 /// What is claimed of an algorithm beyond the paper's: claim_cells() are the conditions. Tasks,
 /// hands and peers are theirs.
 struct Claims {
-    std::uint32_t judging_seeds = 10;
+    std::uint32_t judging_seeds = 200; // that a claim needs: one of fewer is told as such
 
     friend bool operator==(const Claims&, const Claims&) = default;
 };
@@ -189,14 +195,14 @@ struct Experiment {
     base::Duration duration{std::chrono::seconds{30}}; // of a session, hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
     std::uint32_t seeds = 10;
-    std::uint32_t first_seed = 1;
+    std::uint32_t first_seed = 1001; // criteria are calibrated on 1 to 40
     std::vector<NamedAlgorithm> algorithms{};
     std::vector<device::Task> tasks{};
     std::vector<std::uint32_t> peers{2};
     std::vector<NamedScene> scenes{}; // none: each task's own
     Hands hands{};
     device::TaskOptions task_options{};
-    std::vector<NamedTrace> replay{}; // none, or of those that act as L and as R
+    std::vector<NamedTrace> replay{}; // none, or of those that act as A and as B
     std::vector<NamedTrace> script{}; // likewise: where their simulated hands mean to be
     bool energy_limit = false;
     bool keyed = false;    // the players seal their messages
@@ -208,6 +214,8 @@ struct Experiment {
     std::vector<emulator::Change> timeline{};
     std::vector<Axis> axes{}; // the same experiment again at each of the points of these
     std::optional<LatinHypercube> latin_hypercube{};
+    /// Every file that was read for it, by name. No key of the text has them.
+    std::vector<NamedContents> files{};
 };
 
 /// Every number of peers in every scene.

@@ -168,6 +168,16 @@ std::string SceneNames::print(const std::vector<NamedScene>& scenes) const
     return base::List<base::Text>{}.print(names);
 }
 
+void DurationFormat::read(const Node& node, base::Duration& target, Reading& reading) const
+{
+    const auto* text = std::get_if<std::string>(&node.value);
+    if (text != nullptr && *text == "script") {
+        target = base::Duration{0};
+    } else {
+        time().read(node, target, reading);
+    }
+}
+
 void TracesFormat::read(const Node& node, std::vector<NamedTrace>& target, Reading& reading) const
 {
     const auto* list = std::get_if<Node::List>(&node.value);
@@ -198,7 +208,7 @@ void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const
     const auto* list = std::get_if<Node::List>(&node.value);
     if (list != nullptr && list->size() != 2) {
         return reading.complain(node.place, "one operator for both hands, or a list of two: "
-                                            "[\"nominal\", \"firm\"] of L and of R");
+                                            "[\"nominal\", \"firm\"] of A and of B");
     }
     const auto left = device::read_operator(list == nullptr ? node : list->front(), reading);
     const auto right = list == nullptr ? left : device::read_operator(list->back(), reading);

@@ -53,24 +53,24 @@ struct SceneNames {
     }
 };
 
-/// A file for each side, L and R; empty where the simulated hand plays.
+/// A file for each side, A and B; empty where the simulated hand plays.
 struct TracesFormat {
     void read(const base::Node& node, std::vector<NamedTrace>& target,
               base::Reading& reading) const;
     [[nodiscard]] std::string print(const std::vector<NamedTrace>& traces) const;
     [[nodiscard]] std::string describe() const
     {
-        return "a list of two files, of L and of R; an empty text where the simulated hand plays";
+        return "a list of two files, of A and of B; an empty text where the simulated hand plays";
     }
 };
 
-/// One operator for both, or a list of two: L and R.
+/// One operator for both, or a list of two: A and B.
 struct HandsFormat {
     void read(const base::Node& node, Hands& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const Hands& hands) const;
     [[nodiscard]] std::string describe() const
     {
-        return "an operator, or a list of two: of L and of R";
+        return "an operator, or a list of two: of A and of B";
     }
 };
 
@@ -201,8 +201,8 @@ constexpr auto fields_of(base::Tag<Claims> /*struct*/)
 {
     return base::fields(
         "claims", base::field("judging_seeds", &Claims::judging_seeds, base::Count{1, seeds_max},
-                              "number of seeds that judge, the first ones; quantiles are "
-                              "those of all"));
+                              "number of seeds that a claim needs; `claims_numbers.csv` says how "
+                              "many played"));
 }
 
 /// Whether the keys of a kind stand in a table of its name, and not among those of the experiment.
@@ -237,6 +237,21 @@ constexpr auto fields_of(base::Tag<LatinHypercube> /*struct*/)
                                     "by which they are drawn"));
 }
 
+/// A session's length, or "script", which reads as 0 until the scripts are known.
+struct DurationFormat {
+    void read(const base::Node& node, base::Duration& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(base::Duration value) const { return time().print(value); }
+    [[nodiscard]] std::string example() const { return time().example(); }
+    [[nodiscard]] std::string describe() const { return time().describe() + ", or \"script\""; }
+
+private:
+    [[nodiscard]] static constexpr base::Time time()
+    {
+        using namespace std::chrono_literals;
+        return {100ms, 10min};
+    }
+};
+
 constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
 {
     using namespace std::chrono_literals;
@@ -244,8 +259,9 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
         "experiment",
         base::field("title", &Experiment::title, "names the folder's contents, with the kind"),
         base::field("kind", &Experiment::kind, KindFormat{}, "what to find out").required(),
-        base::field("duration", &Experiment::duration, base::Time{5s, 10min},
-                    "of a session, hands off included: the last 3 s, below 6 s the last half")
+        base::field("duration", &Experiment::duration, DurationFormat{},
+                    "of a session, hands off included: the last 3 s, below 6 s the last half; "
+                    "`\"script\"`: as long as the longest `script` or `replay`, and hands off")
             .always(),
         base::field("tick", &Experiment::tick, base::Time{100us, 10ms}, "of the haptic loops")
             .always(),

@@ -4,6 +4,7 @@
 
 #include "lab/experiment/claims.hpp"
 #include "lab/experiment/grid.hpp"
+#include "lab/metrics/exercise.hpp"
 
 #include <algorithm>
 #include <array>
@@ -142,6 +143,17 @@ private:
     }
 };
 
+/// What a session is held against. The one shared world is played where stiffness is measured.
+base::Result<metrics::Metrics> reference_of(const SessionSpec& spec, const PlaySession& play)
+{
+    auto perfect = play(perfect_twin(spec));
+    if (!perfect) return tl::unexpected{std::move(perfect).error()};
+    if (!metrics::exercise_of(spec.setting.task).presses) return std::move(perfect->metrics);
+    const auto one_world = play(one_world_twin(spec));
+    if (!one_world) return tl::unexpected{one_world.error()};
+    return make_reference(std::move(perfect->metrics), one_world->metrics);
+}
+
 /// One search: plays sessions as they are asked for, and keeps what it has scored.
 class LevelPlayer {
 public:
@@ -160,9 +172,9 @@ public:
         const auto spec = make_session_spec(experiment_, session_, path);
         const auto played = play_(spec);
         if (!played) return tl::unexpected{played.error()};
-        const auto perfect = play_(perfect_twin(spec));
-        if (!perfect) return tl::unexpected{perfect.error()};
-        const auto scores = scores_of(played->metrics, perfect->metrics);
+        const auto reference = reference_of(spec, play_);
+        if (!reference) return tl::unexpected{reference.error()};
+        const auto scores = scores_of(played->metrics, *reference);
         scores_.emplace(std::pair{level, seed}, scores);
         return scores;
     }
@@ -238,9 +250,9 @@ struct RunJob {
     {
         auto played = play(job.spec);
         if (!played) return tl::unexpected{played.error()};
-        auto perfect = play(perfect_twin(job.spec));
-        if (!perfect) return tl::unexpected{perfect.error()};
-        return SessionResult{std::move(played->metrics), std::move(perfect->metrics),
+        auto reference = reference_of(job.spec, play);
+        if (!reference) return tl::unexpected{reference.error()};
+        return SessionResult{std::move(played->metrics), *std::move(reference),
                              std::move(played->rows)};
     }
 

@@ -17,7 +17,7 @@ namespace hapnet::lab::experiment {
 // An experiment in jobs that do not depend on one another: on whatever thread and in whatever
 // order they are carried out, each finds the same.
 
-/// One session and its perfect twin.
+/// One session and what it is held against.
 struct SessionJob {
     std::size_t algorithm = 0; // of the experiment's
     device::Task task{};
@@ -55,7 +55,7 @@ using Job = std::variant<SessionJob, SearchJob, SensitivityJob, SilenceJob>;
 
 struct SessionResult {
     metrics::Metrics metrics{};
-    metrics::Metrics perfect{};
+    metrics::Metrics reference{}; // see metrics::make_reference()
     std::string rows{};
 };
 

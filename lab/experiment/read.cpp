@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/core/profile/setting_hints.hpp"
 #include "emulator/core/profile/text.hpp"
+#include "lab/experiment/claims.hpp"
 #include "lab/experiment/fields.hpp"
 #include "lab/experiment/patch.hpp"
 #include "lab/experiment/session_spec.hpp"
@@ -8,8 +10,13 @@
 #include "peer/core/sync/text.hpp"
 #include "proto/base/built_in.hpp"
 #include "proto/base/fields.hpp"
+#include "proto/base/random.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
 #include <utility>
@@ -59,12 +66,38 @@ void read_algorithms(TableReader& table, std::vector<NamedAlgorithm>& algorithms
     }
 }
 
+/// The profile in the file that an experiment names.
+emulator::Profile read_profile(const Node& node, Reading& reading)
+{
+    std::string file;
+    base::read_value(node, file, reading);
+    const auto text = reading.is_good() ? reading.open(file) : std::string{};
+    if (!text) reading.complain(node.place, text.error().message);
+    if (!reading.is_good()) return {};
+    const auto open = [&reading](const std::string& name) { return reading.open(name); };
+    auto profile = emulator::parse_profile(*text, file, open);
+    if (!profile) reading.complain(node.place, profile.error().message);
+    if (profile && !profile->flows.empty()) {
+        reading.complain(node.place, fmt::format("{}: messages of an experiment have neither "
+                                                 "addresses nor ports: leave out [[flow]]",
+                                                 file));
+    }
+    return profile.value_or(emulator::Profile{});
+}
+
 /// The conditions of all links, what single ones have of their own, and what changes meanwhile.
 void read_network(TableReader& table, Experiment& experiment)
 {
+    const Node* file = table.find("profile");
     emulator::Profile profile;
     emulator::read_conditions(table, {.any = true}, profile);
     emulator::read_timeline(table, {.any = true}, profile);
+    if (file != nullptr && profile != emulator::Profile{}) {
+        table.reading().complain(file->place, "a profile is the whole network: write its path, or "
+                                              "conditions such as [both] and [[at]], not both");
+    } else if (file != nullptr) {
+        profile = read_profile(*file, table.reading());
+    }
     experiment.path = std::move(profile.path);
     experiment.links = std::move(profile.paths);
     experiment.timeline = std::move(profile.timeline);
@@ -88,6 +121,33 @@ bool has_parties(const Kind& kind)
     return std::holds_alternative<Limits>(kind) || std::holds_alternative<ImpairmentGrid>(kind);
 }
 
+/// A task and who plays it.
+struct TaskOfParty {
+    device::Task task{};
+    Party party{};
+};
+
+/// All that an experiment plays.
+std::vector<TaskOfParty> played_in(const Experiment& experiment)
+{
+    std::vector<TaskOfParty> played;
+    if (std::holds_alternative<Claims>(experiment.kind)) {
+        for (const ClaimCell& cell : claim_cells())
+            for (const device::Task task : cell.tasks) played.push_back({task, {cell.peers, {}}});
+        return played;
+    }
+    auto tasks = experiment.tasks;
+    if (std::holds_alternative<Table1>(experiment.kind)) tasks.push_back(device::Task::p1);
+    if (const auto* limits = std::get_if<Limits>(&experiment.kind);
+        limits != nullptr && limits->sensitivity && limits->sensitivity->seeds > 0) {
+        const auto& more = limits->sensitivity->tasks;
+        tasks.insert(tasks.end(), more.begin(), more.end());
+    }
+    for (const Party& party : parties_of(experiment))
+        for (const device::Task task : tasks) played.push_back({task, party});
+    return played;
+}
+
 /// Complains of those that cannot play.
 void check_parties(const Experiment& experiment, base::Place place, Reading& reading)
 {
@@ -97,16 +157,14 @@ void check_parties(const Experiment& experiment, base::Place place, Reading& rea
                                                    "limits or plane",
                                                    name_of(experiment.kind)));
     }
-    for (const Party& party : parties) {
+    for (const auto& [task, party] : played_in(experiment)) {
         for (const NamedAlgorithm& algorithm : experiment.algorithms) {
-            for (const device::Task task : experiment.tasks) {
-                const auto spec = make_session_spec(
-                    experiment, {algorithm, experiment.hands, task, 1, party}, experiment.path);
-                const auto valid = validate(spec.setting);
-                if (valid) continue;
-                return reading.complain(place, fmt::format("{}, {} peers: {}", name_of(task),
-                                                           party.peers, valid.error().message));
-            }
+            const auto spec = make_session_spec(
+                experiment, {algorithm, experiment.hands, task, 1, party}, experiment.path);
+            const auto valid = validate(spec.setting);
+            if (valid) continue;
+            return reading.complain(place, fmt::format("{}, {} peers: {}", name_of(task),
+                                                       party.peers, valid.error().message));
         }
     }
 }
@@ -129,6 +187,32 @@ void check_ways(const Experiment& experiment, base::Place place, Reading& readin
         if (!experiment.replay[side].trace || !experiment.script[side].trace) continue;
         return reading.complain(place, "a hand has either a replay or a script: leave one empty");
     }
+}
+
+/// A session that is to be as long as its scripts: hands are off for the last 3 s, below 6 s for
+/// the last half.
+void take_length_of_scripts(Experiment& experiment, base::Place place, Reading& reading)
+{
+    using namespace std::chrono_literals;
+    if (experiment.duration != base::Duration{0}) return;
+    double end_s = 0.0;
+    for (const auto* traces : {&experiment.script, &experiment.replay}) {
+        for (const NamedTrace& named : *traces)
+            if (named.trace) end_s = std::max(end_s, named.trace->back().time_s);
+    }
+    if (end_s <= 0.0) {
+        return reading.complain(place, "there is no script or replay to take the duration from: "
+                                       "name one, or write a time");
+    }
+    constexpr double longest_s = 597.0;
+    if (end_s > longest_s) {
+        return reading.complain(place, fmt::format("the script is {:g} s long: a session lasts "
+                                                   "600s at most, hands off included",
+                                                   end_s));
+    }
+    const auto hands_on =
+        std::chrono::milliseconds{static_cast<std::int64_t>(std::ceil(1e3 * end_s - 1e-6))};
+    experiment.duration = hands_on + std::min<base::Duration>(3s, hands_on);
 }
 
 /// Complains of a reference that nothing can be held against.
@@ -168,18 +252,22 @@ Experiment read_experiment(const Node& document, Reading& reading)
 {
     TableReader table{std::get<Node::Table>(document.value), document.place, reading};
     Experiment experiment = usual_experiment();
-    std::ignore = table.require("kind"); // it decides which keys are known
+    const auto kinds = fmt::format("use one of {}", KindFormat{}.describe());
+    std::ignore = table.require("kind", kinds); // it decides which keys are known
     base::read_fields(table, experiment);
     read_algorithms(table, experiment.algorithms);
     read_network(table, experiment);
     read_kind(table, experiment.kind);
     table.finish();
+    if (const Node* node = table.find("duration"); node != nullptr && reading.is_good())
+        take_length_of_scripts(experiment, node->place, reading);
     check_axes(table, experiment);
     if (const Node* node = table.find("record"); node != nullptr && reading.is_good())
         check_record(experiment, node->place, reading);
     if (const Node* node = table.find("script"); node != nullptr && reading.is_good())
         check_ways(experiment, node->place, reading);
-    for (const char* key : {"matrix", "link", "scene", "peers", "replay"}) {
+    for (const char* key :
+         {"matrix", "link", "profile", "scene", "peers", "replay", "algorithms", "tasks"}) {
         const Node* node = table.find(key);
         if (node == nullptr || !reading.is_good()) continue;
         check_parties(experiment, node->place, reading);
@@ -188,10 +276,37 @@ Experiment read_experiment(const Node& document, Reading& reading)
     return experiment;
 }
 
-base::Result<Experiment> read_tree(const Node& document, Reading reading)
+/// Where a key belongs that its table does not have: at the top, as the fields of an experiment do,
+/// or where a profile has it.
+std::string advice_on_key(std::string_view key)
 {
+    const auto& rows = base::field_table<Experiment>().rows;
+    if (std::ranges::find(rows, key, &base::FieldRow::key) != rows.end())
+        return "write it at the top, above the first [table]";
+    return emulator::advice_on_key(key);
+}
+
+/// Of whom an error speaks.
+struct Source {
+    std::string name;
+    bool has_lines = true; // false: an option
+};
+
+base::Result<Experiment> read_tree(const Node& document, const Source& source,
+                                   const base::OpenFile& open)
+{
+    std::map<std::string, std::uint64_t> files; // that were read, with hashes of their contents
+    base::OpenFile noting = [&](const std::string& name) {
+        auto text = open ? open(name) : Reading{""}.open(name);
+        if (text) files.insert_or_assign(name, base::Seed{}.stream(*text).bits(0));
+        return text;
+    };
+    if (!open.is_quoted()) noting = noting.unquoted();
+    Reading reading{source.name, noting, source.has_lines};
+    reading.advise_on_keys(advice_on_key);
     auto experiment = read_experiment(document, reading);
     if (!reading.is_good()) return base::fail(*reading.complaint());
+    for (const auto& [name, hash] : files) experiment.files.push_back({name, hash});
     return experiment;
 }
 
@@ -201,11 +316,11 @@ base::Result<Experiment> complain_of_settings(Node document, const Overrides& ov
                                               const base::OpenFile& open,
                                               const base::Result<Experiment>& experiment)
 {
-    bool was_good = read_tree(document, Reading{"", open}).has_value();
+    bool was_good = read_tree(document, {""}, open).has_value();
     auto complaint = experiment;
     for (const std::string& setting : overrides.settings) {
         overlay(document, *setting_table(setting));
-        auto adjusted = read_tree(document, Reading{"--set " + setting, open, false});
+        auto adjusted = read_tree(document, {"--set " + setting, false}, open);
         if (was_good && !adjusted) complaint = adjusted;
         was_good = adjusted.has_value();
     }
@@ -218,6 +333,51 @@ bool is_of_axes(std::string_view setting)
     const std::string_view key = setting.substr(0, setting.find('='));
     const std::string_view table = key.substr(0, key.find('.'));
     return table == "axis" || table == "latin_hypercube";
+}
+
+/// The files that the text of `file` names: beside it, or else by the name as it stands.
+base::OpenFile beside(const std::string& file, const base::OpenFile& open)
+{
+    const std::string folder = file.substr(0, file.rfind('/') + 1);
+    if (folder.empty() || !open) return open;
+    const base::OpenFile files{[folder, open](const std::string& name) {
+        if (name.starts_with('/')) return open(name);
+        auto text = open(folder + name);
+        return text ? text : open(name);
+    }};
+    return open.is_quoted() ? files : files.unquoted();
+}
+
+/// What is wrong with a value of an axis, with the place in the file where the axis stands.
+std::string complaint_of_axis(const std::string& file_or_name, const base::OpenFile& open,
+                              const std::string& complaint)
+{
+    const auto found = base::find_text(file_or_name, built_in_experiments(), "an experiment", open);
+    const auto document = found ? base::parse_document(found->text) : base::parse_document("");
+    if (!found || !document) return complaint;
+    Node rest = *document;
+    Node quick = taken(rest, "quick");
+    Node::List list; // of all axes, each with its place
+    for (const Node& axes : {taken(rest, "axis"), taken(quick, "axis")}) {
+        const auto* several = std::get_if<Node::List>(&axes.value);
+        if (several == nullptr) {
+            list.push_back(axes);
+        } else {
+            list.insert(list.end(), several->begin(), several->end());
+        }
+    }
+    for (const Node& axis : list) {
+        const auto* entries = std::get_if<Node::Table>(&axis.value);
+        if (entries == nullptr) continue;
+        const auto entry = std::ranges::find(*entries, "key", &base::Entry::key);
+        if (entry == entries->end()) continue;
+        const auto* key = std::get_if<std::string>(&entry->value.value);
+        if (key == nullptr || !complaint.starts_with("--set " + *key + "=")) continue;
+        const auto what = std::string_view{complaint}.substr(std::string_view{"--set "}.size());
+        return fmt::format("{}:{}:{}: axis {}", found->source, entry->value.place.line,
+                           entry->value.place.column, what);
+    }
+    return complaint;
 }
 
 } // namespace
@@ -251,14 +411,14 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
         }
         overlay(adjusted, *table);
     }
-    auto experiment = read_tree(adjusted, Reading{source, open});
+    auto experiment = read_tree(adjusted, {source}, open);
     if (!experiment) {
         if (overrides.settings.empty()) return experiment;
         return complain_of_settings(chosen, overrides, open, experiment);
     }
     // What the text says for another day is to be right today, if the rest is so by itself.
-    if (overrides.settings.empty() || read_tree(document, Reading{source, open})) {
-        if (auto read = read_tree(quick_document, Reading{source, open}); !read) return read;
+    if (overrides.settings.empty() || read_tree(document, {source}, open)) {
+        if (auto read = read_tree(quick_document, {source}, open); !read) return read;
     }
     return experiment;
 }
@@ -268,7 +428,7 @@ base::Result<Experiment> load_experiment(const std::string& file_or_name,
 {
     const auto found = base::find_text(file_or_name, built_in_experiments(), "an experiment", open);
     if (!found) return tl::unexpected{found.error()};
-    return parse_experiment(found->text, found->source, overrides, open);
+    return parse_experiment(found->text, found->source, overrides, beside(found->source, open));
 }
 
 base::Result<std::vector<AxisPoint>> load_axis_points(const std::string& file_or_name,
@@ -291,7 +451,7 @@ base::Result<std::vector<AxisPoint>> load_axis_points(const std::string& file_or
         for (std::size_t i = 0; i < values.size(); ++i)
             at.settings.push_back(fmt::format("{}={}", whole->axes[i].key, values[i]));
         auto one = load_experiment(file_or_name, open, at);
-        if (!one) return tl::unexpected{one.error()};
+        if (!one) return base::fail(complaint_of_axis(file_or_name, open, one.error().message));
         points.push_back({std::move(values), *std::move(one)});
     }
     return points;

@@ -36,8 +36,8 @@ std::string way_text(std::string text, const std::shared_ptr<const device::HandT
     if (!way) return {};
     for (const device::HandMoment& moment : *way) {
         const auto& hip = moment.hip;
-        text += fmt::format(" {} {} {} {} {}", moment.time_s, hip.x(), hip.y(), hip.z(),
-                            moment.gripping);
+        text += fmt::format(" {} {} {} {} {}{}", moment.time_s, hip.x(), hip.y(), hip.z(),
+                            moment.gripping, moment.docked ? " docked" : "");
     }
     return text + '\n';
 }
@@ -60,6 +60,18 @@ std::string player_text(const virtual_time::PlayerSetting& player)
                        way_text("script", player.way), ticks_text(player.ticks));
 }
 
+/// What the files contain that a setting's text names: a trace of delays stands there by its name.
+std::string contents_text(const std::vector<NamedContents>& files, std::string_view setting)
+{
+    std::string text;
+    for (const NamedContents& file : files) {
+        const auto name = base::quoted(file.name);
+        if (setting.find(name) != std::string_view::npos)
+            text += fmt::format("contents of {} = {:016x}\n", name, file.hash);
+    }
+    return text;
+}
+
 } // namespace
 
 SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,
@@ -67,6 +79,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
 {
     SessionSpec spec;
     spec.algorithm = one.algorithm.name;
+    spec.files = experiment.files;
     virtual_time::Setting& setting = spec.setting;
     setting.task = one.task;
     setting.task_options = experiment.task_options;
@@ -97,6 +110,15 @@ SessionSpec perfect_twin(const SessionSpec& spec)
     SessionSpec twin = spec;
     twin.setting.profile = {};
     twin.rows_per_s = 0;
+    return twin;
+}
+
+SessionSpec one_world_twin(const SessionSpec& spec)
+{
+    SessionSpec twin = spec;
+    twin.setting = in_one_world(spec.setting);
+    twin.rows_per_s = 0;
+    twin.algorithm = "one world";
     return twin;
 }
 
@@ -136,8 +158,11 @@ std::string key_of(const SessionSpec& spec, std::string_view program)
         spec.silence ? fmt::format("silence = {}\n", spec.silence->count()) : std::string{};
     const bool is_usual = setting.task_options == device::TaskOptions{};
     const auto options = is_usual ? std::string{} : base::field_lines(setting.task_options);
+    const std::string_view world = setting.is_one_world ? "one world\n" : "";
+    const auto contents = contents_text(spec.files, all);
     return fmt::format("{} {:016x}", label,
-                       hash_of(fmt::format("{}{}{}{}{}", all, limit, keyed, silence, options)));
+                       hash_of(fmt::format("{}{}{}{}{}{}{}", all, limit, keyed, silence, options,
+                                           world, contents)));
 }
 
 } // namespace hapnet::lab::experiment

@@ -20,6 +20,8 @@ struct SessionSpec {
     virtual_time::Setting setting{};
     std::uint32_t rows_per_s = 0;
     std::string algorithm{}; // what the experiment calls it; nothing follows from that
+    /// The files that the experiment names. The setting has their contents, its texts only names.
+    std::vector<NamedContents> files{};
     /// Nothing is kept but how far copies are apart so long after all is silent: see claims.hpp.
     std::optional<base::Duration> silence{};
 };
@@ -48,12 +50,16 @@ struct SessionCase {
 
 /// The same session on a perfect network: what scores are relative to. Keeps no rows.
 [[nodiscard]] SessionSpec perfect_twin(const SessionSpec& spec);
+/// The same hands in one scene, whatever the algorithm: what stiffness is relative to. Keeps no
+/// rows.
+[[nodiscard]] SessionSpec one_world_twin(const SessionSpec& spec);
 
 /// A profile on one line.
 [[nodiscard]] std::string network_text(const emulator::Profile& profile);
 
 /// One line that tells sessions apart: what a person looks for, and a hash of all that the session
-/// follows from. `program` is who plays it: another program may play it differently.
+/// follows from, the contents of the files that it names included. `program` is who plays it:
+/// another program may play it differently.
 [[nodiscard]] std::string key_of(const SessionSpec& spec, std::string_view program);
 
 } // namespace hapnet::lab::experiment

@@ -44,7 +44,8 @@ struct BuiltInExperiment {
 /// All of them, by name.
 [[nodiscard]] std::span<const BuiltInExperiment> built_in_experiments();
 
-/// Reads the built-in experiment of that name, or else the file that `open` gives the text of.
+/// Reads the built-in experiment of that name, or else the file that `open` gives the text of. A
+/// file that it names is looked for beside it first.
 [[nodiscard]] base::Result<Experiment> load_experiment(const std::string& file_or_name,
                                                        const base::OpenFile& open,
                                                        const Overrides& overrides);

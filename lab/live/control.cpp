@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/live/control.hpp"
 
-#include "lab/experiment/text.hpp"
 #include "peer/control/answer.hpp"
 #include "peer/control/scene_report.hpp"
 #include "proto/base/fields.hpp"
@@ -105,9 +104,9 @@ base::Result<Json> pace_done(Members& members, const Controlled<Played>& control
         };
     } else if (what == "save") {
         act = [&]() -> base::Result<Json> {
-            const auto saved = session.as_experiment();
+            auto saved = session.as_experiment();
             if (!saved) return tl::unexpected{saved.error()};
-            const auto file = save(experiment::to_text(*saved));
+            const auto file = save(*std::move(saved));
             if (!file) return tl::unexpected{file.error()};
             return Json{{"file", *file}};
         };
@@ -181,6 +180,11 @@ template <typename Played>
 control::Subject peer_subject(const Controlled<Played>& controlled, std::size_t seat)
 {
     Played& session = controlled.session;
+    decltype(peer::PeerControl::hand) hand;
+    if constexpr (!Played::is_read_only) {
+        if (seat == 0 && session.has_page_hand())
+            hand = [&session](const auto& wish) { session.hand(wish); };
+    }
     return peer::subject_of(
         {.show = [&session, seat] { return session.show_peer(seat); },
          .statistics = [&session, seat] { return session.peer_statistics(seat); },
@@ -188,7 +192,8 @@ control::Subject peer_subject(const Controlled<Played>& controlled, std::size_t 
          .stop = controlled.stop,
          .stop_in_emergency = controlled.stop,
          .scene = [&session] { return peer::scene_json(session.scene()); },
-         .frames = [&session, seat] { return session.watch_peer(seat); }});
+         .frames = [&session, seat] { return session.watch_peer(seat); },
+         .hand = std::move(hand)});
 }
 
 template control::Subject subject_of(const Controlled<Session>& controlled);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/experiment/experiment.hpp"
 #include "lab/live/pace.hpp"
 #include "lab/live/recording.hpp"
 #include "lab/live/session.hpp"
@@ -18,8 +19,8 @@ template <typename Played>
 struct Controlled {
     Played& session;
     Pace& pace;
-    /// Keeps the text of an experiment; gives the name of its file.
-    std::function<base::Result<std::string>(const std::string& text)> save;
+    /// Keeps an experiment, and the way of its hand; gives the name of its file.
+    std::function<base::Result<std::string>(experiment::Experiment saved)> save;
     /// Ends it, as SIGTERM does.
     std::function<void()> stop;
 };

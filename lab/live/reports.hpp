@@ -25,6 +25,7 @@ struct PeerIntroduction {
     std::uint64_t seed = 0;
     base::Duration duration{};
     std::string_view device = "simulated Omni, in virtual time";
+    bool takes_hand = false;
     double force_limit_n = 0.0;
     base::Duration elapsed{};
 };
@@ -41,6 +42,7 @@ constexpr auto fields_of(base::Tag<PeerIntroduction>)
         base::member("seed", &P::seed, "The seed of the session."),
         base::member("duration_s", &P::duration, "The length of the session."),
         base::member("device", &P::device, "The device in words."),
+        base::member("takes_hand", &P::takes_hand, "True if the request `hand` moves its device."),
         base::member("force_limit_n", &P::force_limit_n, "The limit of the governor."),
         base::member("elapsed_s", &P::elapsed, "Virtual time since the beginning.")
             .gauge("hapnet_peer_elapsed"));

@@ -15,6 +15,7 @@
 #include <bit>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
+#include <variant>
 
 namespace hapnet::lab::live {
 
@@ -47,7 +48,7 @@ bool is_in_session(const virtual_time::VirtualPlayer& player)
 } // namespace
 
 base::Result<std::unique_ptr<Session>> Session::make(const experiment::Experiment& experiment,
-                                                     Presets presets)
+                                                     Presets presets, HandOfA hand_of_a)
 {
     if (!experiment.axes.empty())
         return base::fail("an experiment with an axis is many: choose one value");
@@ -64,6 +65,11 @@ base::Result<std::unique_ptr<Session>> Session::make(const experiment::Experimen
             experiment.path);
         if (auto valid = validate(spec.setting); !valid) return tl::unexpected{valid.error()};
         settings.push_back(spec.setting);
+        auto& player = settings.back().players.front();
+        if (hand_of_a == HandOfA::simulated) continue;
+        if (player.replay || player.way)
+            return base::fail("A's hand is that of a page: leave its replay or script out");
+        player.page = std::make_shared<device::HandWishes>();
     }
     return std::unique_ptr<Session>{
         new Session{experiment, std::move(settings), std::move(presets)}};
@@ -84,6 +90,11 @@ void Session::begin()
 {
     journals_.clear();
     emulations_.clear();
+    hand_.clear();
+    for (virtual_time::Setting& setting : settings_) {
+        auto& page = setting.players.front().page;
+        if (page) page = std::make_shared<device::HandWishes>(); // without an old wish
+    }
     world_ = std::make_unique<World>(settings_, roomy);
     for (std::size_t group = 0; group < world_->groups(); ++group) {
         emulations_.push_back(
@@ -95,7 +106,8 @@ void Session::begin()
     frames_ = std::make_shared<emulator::Frames>();
     for (std::size_t seat = 0; seat < peers(); ++seat) {
         journals_.emplace_back(world_->side(seat), [this, seat](const record::Row& row) {
-            if (is_shown_) taps_[seat].take(row);
+            const bool is_session = std::holds_alternative<record::SessionRow>(row);
+            if (is_shown_ || is_session) taps_[seat].take(row); // which session it is, is known
         });
         taps_[seat].begin_anew();
     }
@@ -125,7 +137,7 @@ void Session::play_to(base::Duration time)
         const base::Duration end = std::min(time, length());
         const bool is_next = done_ < requests_.size() && requests_[done_].at <= end;
         run_to(World::start + (is_next ? requests_[done_].at : end));
-        if (is_next) static_cast<void>(apply(requests_[done_++].line));
+        if (is_next) apply(requests_[done_++]);
     }
 }
 
@@ -143,7 +155,54 @@ void Session::step()
         if (player.stepped_at != world_->now()) continue;
         if (is_in_session(player)) note(player);
         if (side < journals_.size()) journals_[side].on_tick();
+        if (side == 0 && has_page_hand() && is_in_session(player)) note_hand();
     }
+}
+
+/// Records the motion of A's hand in the first session; it is the same in all sessions.
+void Session::note_hand()
+{
+    const virtual_time::VirtualPlayer& player = world_->side(0);
+    const base::TimePoint start = player.peer().session()->start;
+    const device::Sample& sample = player.side->sample();
+    const device::HandMoment moment{
+        .time_s = base::to_seconds(player.stepped_at + player.clock_ahead - start),
+        .hip = sample.hip,
+        .gripping = sample.gripping,
+        .docked = sample.docked};
+    const auto rests = [&](const device::HandMoment& before) {
+        return before.hip == moment.hip && before.docked == moment.docked &&
+               before.gripping == moment.gripping;
+    };
+    // The first and the last moment describe a hand at rest.
+    const std::size_t count = hand_.size();
+    if (count >= 2 && rests(hand_[count - 1]) && rests(hand_[count - 2])) hand_.pop_back();
+    hand_.push_back(moment);
+}
+
+void Session::hand(const std::optional<device::HandWish>& wish)
+{
+    keep({.at = at(), .line = {}, .hand = wish});
+    apply(requests_.back());
+}
+
+/// Adds a request and drops those that a seek has gone back before. Of several wishes at the same
+/// time only the last is kept.
+void Session::keep(Request request)
+{
+    requests_.erase(requests_.begin() + static_cast<std::ptrdiff_t>(done_), requests_.end());
+    const bool is_newer_wish = request.is_for_hand() && !requests_.empty() &&
+                               requests_.back().is_for_hand() && requests_.back().at == request.at;
+    if (is_newer_wish) requests_.pop_back();
+    requests_.push_back(std::move(request));
+    done_ = requests_.size();
+}
+
+void Session::apply(const Request& request)
+{
+    if (!request.is_for_hand()) return static_cast<void>(apply(request.line));
+    for (const virtual_time::Setting& setting : settings_)
+        setting.players.front().page->put(request.hand);
 }
 
 /// FNV-1a, of whole numbers.
@@ -168,7 +227,7 @@ void Session::seek(base::Duration time)
     is_shown_ = false;
     play_to(std::max(at(), time - shown_of_a_seek));
     is_shown_ = true;
-    for (auto& tap : taps_) tap.begin_anew();
+    for (auto& tap : taps_) tap.skip();
     play_to(time);
 }
 
@@ -192,9 +251,7 @@ control::Answer Session::answer(std::string_view line)
     std::string text{line};
     std::string reply = apply(text);
     if (emulations_.front().paths.generation() == before) return reply;
-    requests_.erase(requests_.begin() + static_cast<std::ptrdiff_t>(done_), requests_.end());
-    requests_.push_back({at(), std::move(text)});
-    done_ = requests_.size();
+    keep({.at = at(), .line = std::move(text)});
     return reply;
 }
 
@@ -241,12 +298,16 @@ void Session::append_others(std::string& text) const
 PeerIntroduction Session::introduce_peer(std::size_t seat) const
 {
     const virtual_time::Setting& setting = settings_.front();
+    const bool is_page = seat == 0 && has_page_hand();
     return {.peer_id = static_cast<std::int64_t>(seat + 1),
             .task = setting.task,
             .scene = setting.scene.name,
             .algorithm = experiment_.algorithms.front().name,
             .seed = setting.seed.value(),
             .duration = setting.length,
+            .device =
+                is_page ? "page: a hand on a page, in virtual time" : PeerIntroduction{}.device,
+            .takes_hand = is_page,
             .force_limit_n = world_->side(seat).rig.governor().limits().force_max_n,
             .elapsed = at()};
 }
@@ -321,6 +382,11 @@ base::Result<experiment::Experiment> Session::as_experiment() const
     saved.tasks.resize(1);
     saved.peers = {2};
     saved.record = !saved.keyed;
+    if (has_page_hand()) {
+        if (hand_.empty()) return base::fail("the session has not begun: play on, then save");
+        saved.replay = {{.name = {}, .trace = std::make_shared<const device::HandTrace>(hand_)},
+                        {}};
+    }
     saved.timeline.clear();
     for (const emulator::ConditionChange& change : path.changes().entries()) {
         saved.timeline.push_back({.time = change.elapsed,

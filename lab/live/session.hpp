@@ -32,11 +32,15 @@ public:
     static constexpr std::size_t algorithms_max = 3;
     static constexpr bool is_read_only = false;
 
+    /// Who moves the hand of A.
+    enum class HandOfA : std::uint8_t { simulated, page };
+
     /// The first task and seed of the experiment, and up to three of its algorithms. `presets`
     /// gives the text of a built-in profile.
     using Presets = std::function<base::Result<std::string>(const std::string& name)>;
     [[nodiscard]] static base::Result<std::unique_ptr<Session>>
-    make(const experiment::Experiment& experiment, Presets presets);
+    make(const experiment::Experiment& experiment, Presets presets,
+         HandOfA hand_of_a = HandOfA::simulated);
 
     ~Session() = default;
     Session(const Session&) = delete;
@@ -60,6 +64,15 @@ public:
     [[nodiscard]] control::Answer answer(std::string_view line);
     [[nodiscard]] nlohmann::ordered_json statistics() const;
 
+    /// Tells the hand of a page what to do from now on, in all sessions; nullopt: it is let go. It
+    /// is part of the session as a change of the conditions is.
+    void hand(const std::optional<device::HandWish>& wish);
+    /// True if a page moves A's hand.
+    [[nodiscard]] bool has_page_hand() const
+    {
+        return settings_.front().players.front().page != nullptr;
+    }
+
     /// Frames of the emulator, with how far apart the copies are with the other algorithms; and of
     /// a peer of the first.
     [[nodiscard]] control::FrameSource watch();
@@ -73,8 +86,9 @@ public:
 
     /// What has changed so far, each as {"at_s","settings"}.
     [[nodiscard]] nlohmann::ordered_json steps() const;
-    /// An experiment that plays the same, bit for bit: with what was changed as its timeline. The
-    /// error says why there is none.
+    /// An experiment that plays the same, bit for bit: with what was changed as its timeline, and
+    /// with the way of a page's hand so far as its replay, without a name yet. The error says why
+    /// there is none.
     [[nodiscard]] base::Result<experiment::Experiment> as_experiment() const;
 
     /// Of all that the hands felt and the bodies did in every session so far: equal bits, equal
@@ -85,7 +99,10 @@ private:
     using World = virtual_time::VirtualWorld;
     struct Request {
         base::Duration at{};
-        std::string line;
+        std::string line; // to the emulator; empty: `hand` is for the hand of a page
+        std::optional<device::HandWish> hand{};
+
+        [[nodiscard]] bool is_for_hand() const { return line.empty(); }
     };
 
     Session(const experiment::Experiment& experiment, std::vector<virtual_time::Setting> settings,
@@ -95,6 +112,9 @@ private:
     void run_to(base::TimePoint end);
     void step();
     void note(const virtual_time::VirtualPlayer& player);
+    void note_hand();
+    void keep(Request request);
+    void apply(const Request& request);
     [[nodiscard]] std::string apply(const std::string& line);
     void append_others(std::string& text) const;
     [[nodiscard]] PeerIntroduction introduce_peer(std::size_t seat) const;
@@ -109,6 +129,7 @@ private:
     std::vector<virtual_time::Journal> journals_; // of the first session's players
     std::vector<peer::FrameTap> taps_;            // likewise
     bool is_shown_ = true;                        // to those who watch
+    device::HandTrace hand_;                      // of a page, since the session is agreed on
     std::vector<Request> requests_;               // ascending; those that changed something
     std::size_t done_ = 0;                        // of them
     std::uint64_t digest_ = 0;

@@ -46,17 +46,17 @@ std::optional<double> median_vibration(std::span<const Scores> sessions, double 
     return largest;
 }
 
-/// The least of the tasks' medians.
-std::optional<double> median_stiffness(std::span<const Scores> sessions)
+/// The largest of the tasks' medians.
+std::optional<double> median_stiffness_error(std::span<const Scores> sessions)
 {
-    std::optional<double> least;
-    const auto values = by_task(
-        sessions, [](const Scores& scores) { return scores.stiffness_ratio[judged_press]; });
+    std::optional<double> largest;
+    const auto values =
+        by_task(sessions, [](const Scores& scores) { return scores.slow_stiffness_error; });
     for (const auto& [task, of_task] : values) {
         const double median = median_of(of_task);
-        least = std::min(least.value_or(median), median);
+        largest = std::max(largest.value_or(median), median);
     }
-    return least;
+    return largest;
 }
 
 double rounded(double value, double steps) { return std::round(value * steps) / steps; }
@@ -66,7 +66,7 @@ std::optional<std::string> objection_to(std::span<const Scores> sessions, Criter
 {
     constexpr double none = std::numeric_limits<double>::infinity();
     criteria.usable.vibration_max_m = {none, none, none};
-    criteria.usable.stiffness_ratio_min = -none;
+    criteria.usable.slow_stiffness_error_max = none;
     std::map<device::Task, std::pair<std::size_t, std::size_t>> counts; // failed, of
     std::map<device::Task, std::string> reasons;
     for (const Scores& scores : sessions) {
@@ -92,19 +92,16 @@ base::Result<Criteria> calibrated(const CalibrationSessions& sessions, const Cri
     const auto first = median_vibration(lossy, &ByOrder::first);
     const auto second = median_vibration(lossy, &ByOrder::second);
     const auto fourth = median_vibration(lossy, &ByOrder::fourth);
-    const auto stiffness = median_stiffness(sessions.at_delay);
+    const auto stiffness = median_stiffness_error(sessions.at_delay);
     if (!first || !second || !fourth) {
         return base::fail("no session under random loss tells of vibration");
     }
     if (!stiffness) return base::fail("no session under delay tells of stiffness: play T2");
-    if (rounded(*stiffness, stiffness_steps) <= 0.0) {
-        return base::fail(fmt::format("at the delay no stiffness is left: {:.3f}", *stiffness));
-    }
     Criteria criteria = rest;
     criteria.usable.vibration_max_m = {.first = rounded(*first, vibration_steps_per_m),
                                        .second = rounded(*second, vibration_steps_per_m),
                                        .fourth = rounded(*fourth, vibration_steps_per_m)};
-    criteria.usable.stiffness_ratio_min = rounded(*stiffness, stiffness_steps);
+    criteria.usable.slow_stiffness_error_max = rounded(*stiffness, stiffness_steps);
     for (const auto& played : {sessions.at_delay, sessions.at_random_loss}) {
         const auto objection = objection_to(played, criteria);
         if (objection) {

@@ -18,12 +18,11 @@ struct CalibrationSessions {
 
 /// `rest` with the two numbers that are calibrated: the median over the seeds of the vibration at
 /// the random loss (of each filter order), to the nearest hundredth of a millimetre; and the median
-/// of the stiffness ratio at the delay, to the nearest thousandth; each of the task in which it is
-/// worst. So half of that task's sessions fail there, which is what a limit is.
+/// of the slow stiffness error at the delay, to the nearest thousandth; each of the task in which
+/// it is worst. So half of that task's sessions fail there, which is what a limit is.
 ///
-/// Refuses sessions of which none tells a number, tasks of which more than half of the sessions are
-/// not usable by what is not calibrated, and sessions without any stiffness left: no threshold
-/// above 0 would let those pass.
+/// Refuses sessions of which none tells a number, and tasks of which more than half of the sessions
+/// are not usable by what is not calibrated.
 [[nodiscard]] base::Result<Criteria> calibrated(const CalibrationSessions& sessions,
                                                 const Criteria& rest);
 

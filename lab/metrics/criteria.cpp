@@ -39,6 +39,14 @@ std::string commented_lines(const base::FieldTable& fields, const void* value)
     return text;
 }
 
+/// What took the place of a key that is gone.
+std::string advice_on_key(std::string_view key)
+{
+    if (key != "stiffness_ratio_min") return {};
+    return "write slow_stiffness_error_max below [usable] and stiffness_error_max below [good]; "
+           "|B - B0| / |B0| judges, and not |B| / |B0|";
+}
+
 } // namespace
 
 void FilterOrderFormat::read(const base::Node& node, FilterOrder& target,
@@ -68,6 +76,7 @@ double at_order(const ByOrder& values, FilterOrder order)
 base::Result<Criteria> parse_criteria(std::string_view text, const std::string& source)
 {
     return base::parse_text(text, source, [](const base::Node& node, base::Reading& reading) {
+        reading.advise_on_keys(advice_on_key);
         Criteria criteria;
         base::read_table(node, criteria, reading);
         return criteria;

@@ -24,7 +24,7 @@ struct Exercise {
     bool along_path = false;              // device::path_x()
     double path_pace = 1.0;               // of it
     bool presses = false;                 // as device::press_schedule says
-    bool taps = false;                    // L taps while all rests
+    bool taps = false;                    // A taps while all rests
     std::optional<double> stopped_at_m{}; // x of the body at which the static cube stops it
     std::span<const Stretch> contact{};   // while both hands are to push
     std::span<const Stretch> lifted{};    // while the body is to be up

@@ -90,7 +90,7 @@ std::optional<double> contact_lost(const TraceColumns& columns, const Columns& s
 void measure_side(const TraceColumns& columns, std::size_t index, Metrics& metrics)
 {
     const Columns& side = columns.sides[index];
-    const std::size_t role = index % 2; // L or R
+    const std::size_t role = index % 2; // A or B
     const auto note = [role]<typename Value>(BySide<Value>& of_roles,
                                              const std::optional<Value>& value) {
         of_roles[role] = worse(of_roles[role], value);
@@ -126,9 +126,13 @@ void measure_presses(const TraceColumns& columns, Metrics& metrics)
         if (!columns.covers(steady) || at == press_hertz.end()) continue;
         const std::size_t presser = press.left_presses ? 0 : 1;
         const Columns& side = columns.sides[presser];
-        metrics.stiffness_n_per_m[static_cast<std::size_t>(at - press_hertz.begin())][presser] =
+        const auto felt =
             stiffness_of(columns.cut(side.hand_force, steady), columns.cut(side.hip_x, steady),
                          press.hertz, columns.tick_s);
+        if (!felt) continue;
+        const auto index = static_cast<std::size_t>(at - press_hertz.begin());
+        metrics.stiffness_n_per_m[index][presser] = felt->storage_n_per_m;
+        metrics.loss_stiffness_n_per_m[index][presser] = felt->loss_n_per_m;
     }
     Stretch left{device::press_schedule[0].begin_s, device::press_schedule[0].end_s};
     for (const device::PressInterval& press : device::press_schedule) {

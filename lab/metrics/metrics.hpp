@@ -17,14 +17,15 @@
 
 namespace hapnet::lab::metrics {
 
-/// Of L and of R. Among more than two hands, the larger value of the hands that act as L, and of
-/// those that act as R.
+/// Of A and of B. Among more than two hands, the larger value of the hands that act as A, and of
+/// those that act as B.
 template <typename Value>
 using BySide = std::array<std::optional<Value>, 2>;
 
 /// The frequencies at which stiffness is measured.
 inline constexpr std::array press_hertz{0.5, 1.0, 2.0};
-inline constexpr std::size_t judged_press = 1; // of them
+inline constexpr std::size_t judged_press = 1; // of them: of stiffness_ratio
+inline constexpr std::size_t slow_press = 0;   // the slowest
 
 /// What a session is measured by, A to L. SI units. What a task does not exercise is nullopt.
 /// As measured: what has to be taken relative to the unimpaired session is, in scores_of().
@@ -36,8 +37,10 @@ struct Metrics {
     /// A: root mean square of the body's x above 20 Hz, metres; in a task by turns only while the
     /// side follows.
     BySide<ByOrder> body_vibration_m{};
-    /// B: by the frequency of pressing (press_hertz) and the side that presses, N/m.
+    /// B: dynamic stiffness by the frequency of pressing (press_hertz) and the side that presses,
+    /// N/m: its storage and its loss.
     std::array<BySide<double>, press_hertz.size()> stiffness_n_per_m{};
+    std::array<BySide<double>, press_hertz.size()> loss_stiffness_n_per_m{};
     /// C: mean ||F_L| - |F_R|| over the mean force, at equal times; of the first two hands.
     std::optional<double> force_discrepancy{};
     /// D: |x_L - x_R| of the body at equal times, metres. Among more than two copies, or several
@@ -69,7 +72,7 @@ struct Metrics {
     std::optional<double> drops{};
     /// J: how far a side's body was beyond where the static cube stops it, metres.
     BySide<double> overshoot_m{};
-    /// K: from a tap of L to the motion of R's body, seconds.
+    /// K: from a tap of A to the motion of B's body, seconds.
     std::optional<double> response_s{};
     /// L: of what the resting hand feels to what the pressing hand does.
     std::optional<Similarity> similarity{};
@@ -87,7 +90,10 @@ constexpr auto fields_of(base::Tag<Metrics>)
                      "A: root mean square of the body's x above 20 Hz, by the order of the filter, "
                      "for each side."),
         base::member("stiffness_n_per_m", &M::stiffness_n_per_m,
-                     "B: stiffness by the frequency of pressing, for each side."),
+                     "B: stiffness in phase with the deflection, by the frequency of pressing, "
+                     "for each side."),
+        base::member("loss_stiffness_n_per_m", &M::loss_stiffness_n_per_m,
+                     "B: stiffness a quarter of a period ahead, likewise."),
         base::member("force_discrepancy", &M::force_discrepancy,
                      "C: mean ||F_L| - |F_R|| over the mean force."),
         base::member("discrepancy_m", &M::discrepancy_m,
@@ -110,7 +116,7 @@ constexpr auto fields_of(base::Tag<Metrics>)
         base::member("drops", &M::drops, "J: lifts in which a body is down by half."),
         base::member("overshoot_m", &M::overshoot_m,
                      "J: how far a body was beyond where the static cube stops it."),
-        base::member("response_s", &M::response_s, "K: from a tap of L to the motion of R's body."),
+        base::member("response_s", &M::response_s, "K: from a tap of A to the motion of B's body."),
         base::member("similarity", &M::similarity,
                      "L: of what the resting hand feels to what the pressing hand does."));
 }

@@ -6,6 +6,9 @@
 #include "proto/base/random.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -18,6 +21,53 @@ double median_of(std::vector<double> values)
     const std::size_t middle = values.size() / 2;
     if (values.size() % 2 == 1) return values[middle];
     return (values[middle - 1] + values[middle]) / 2.0;
+}
+
+Interval interval_of_mean(std::span<const double> values)
+{
+    base::ensure(!values.empty());
+    if (values.size() < interval_seeds_min) {
+        const auto [least, most] = std::ranges::minmax(values);
+        return {least, most};
+    }
+    const auto count = static_cast<double>(values.size());
+    std::vector<double> means;
+    for (const auto& weights : drawn_weights(values.size(), values.size()))
+        means.push_back(std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) /
+                        count);
+    return interval_of(std::move(means), static_cast<std::uint32_t>(values.size()));
+}
+
+double quantile_of(std::vector<double> values, double share)
+{
+    base::ensure(!values.empty());
+    std::ranges::sort(values);
+    const double rank = std::ceil(share * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+Interval interval_of_quantile(std::vector<double> values, double share)
+{
+    constexpr double tail = 0.025;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    std::ranges::sort(values);
+    const auto count = static_cast<double>(values.size());
+    // In logarithms: of a thousand values the first terms are too small for a double.
+    const auto chance_of = [&](double k) {
+        return std::exp(std::lgamma(count + 1.0) - std::lgamma(k + 1.0) -
+                        std::lgamma(count - k + 1.0) + k * std::log(share) +
+                        (count - k) * std::log1p(-share));
+    };
+    Interval interval{-infinite, infinite};
+    double fewer = 0.0; // the chance that fewer than `rank` lie below the true quantile
+    for (std::size_t rank = 1; rank <= values.size(); ++rank) {
+        fewer += chance_of(static_cast<double>(rank - 1));
+        if (fewer <= tail) interval.low = values[rank - 1];
+        if (fewer < 1.0 - tail) continue;
+        interval.high = values[rank - 1];
+        break;
+    }
+    return interval;
 }
 
 double sign_test(std::uint32_t above, std::uint32_t below)

@@ -28,6 +28,17 @@ struct PairedTest {
 /// The mean of the two middle values; at least one.
 [[nodiscard]] double median_of(std::vector<double> values);
 
+/// The 95 % interval of the mean, by resampling the values; of fewer than interval_seeds_min, but
+/// at least one, the least and the most of them.
+[[nodiscard]] Interval interval_of_mean(std::span<const double> values);
+
+/// The value that `share` of the values do not exceed, by the nearest rank; at least one.
+[[nodiscard]] double quantile_of(std::vector<double> values, double share);
+
+/// The 95 % interval of a quantile, from the order of the values alone: how many of them lie below
+/// the true one follows a binomial law. An end is infinite where there are too few values.
+[[nodiscard]] Interval interval_of_quantile(std::vector<double> values, double share);
+
 /// Of how uneven a split of `above` and `below` is.
 [[nodiscard]] double sign_test(std::uint32_t above, std::uint32_t below);
 

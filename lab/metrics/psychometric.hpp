@@ -110,6 +110,10 @@ struct Interval {
 };
 [[nodiscard]] Interval interval_of(std::vector<double> values, std::uint32_t seeds);
 
+/// The fewest seeds of which interval_of() gives 95 %. Of fewer its ends would lie beyond all
+/// replicates, and it goes from the least of these to the most.
+inline constexpr std::uint32_t interval_seeds_min = 6;
+
 /// A paired difference of p50, and its 95 % interval. Two that are both `beyond` do not differ.
 struct Difference {
     double value = 0.0;

@@ -6,6 +6,8 @@
 #include "proto/base/ensure.hpp"
 
 #include <cmath>
+#include <complex>
+#include <cstddef>
 
 namespace hapnet::lab::metrics {
 
@@ -62,56 +64,87 @@ const auto ratio_of = [](double value, double reference) -> std::optional<double
     return value / reference;
 };
 
-/// Of the stiffness that the hands feel when it is their turn to press: the mean of both, as both
-/// press on the same coupling, and each on its own is off by how the hands waver meanwhile. Of one
-/// alone, where the session ended before the other's turn.
-std::optional<double> stiffness_ratio(const BySide<double>& impaired, const BySide<double>& perfect)
+using Complex = std::complex<double>;
+
+/// What both hands feel and what is due to them at one frequency of pressing: the sum of both, as
+/// both press on the same coupling, and each on its own is off by how the hands waver meanwhile. Of
+/// one alone, where the session ended before the other's turn. nullopt: nothing is due.
+struct FeltStiffness {
+    Complex felt;
+    Complex due;
+};
+std::optional<FeltStiffness> felt_stiffness(const Metrics& impaired, const Metrics& reference,
+                                            std::size_t press)
 {
-    double felt = 0.0;
-    double reference = 0.0;
-    for (std::size_t side = 0; side < impaired.size(); ++side) {
-        if (!impaired[side] || !perfect[side]) continue;
-        felt += *impaired[side];
-        reference += *perfect[side];
+    FeltStiffness sum;
+    const auto of = [press](const Metrics& metrics, std::size_t side) -> std::optional<Complex> {
+        const auto storage = metrics.stiffness_n_per_m[press][side];
+        if (!storage) return std::nullopt;
+        return Complex{*storage, metrics.loss_stiffness_n_per_m[press][side].value_or(0.0)};
+    };
+    for (const std::size_t side : {0U, 1U}) {
+        const auto felt = of(impaired, side), due = of(reference, side);
+        if (!felt || !due) continue;
+        sum.felt += *felt;
+        sum.due += *due;
     }
-    return ratio_of(felt, reference);
+    if (!(std::abs(sum.due) > 0.0)) return std::nullopt;
+    return sum;
+}
+
+void score_stiffness(const Metrics& impaired, const Metrics& reference, Scores& scores)
+{
+    for (std::size_t press = 0; press < press_hertz.size(); ++press) {
+        const auto stiffness = felt_stiffness(impaired, reference, press);
+        if (!stiffness) continue;
+        const auto& [felt, due] = *stiffness;
+        scores.stiffness_ratio[press] = std::abs(felt) / std::abs(due);
+        const double error = std::abs(felt - due) / std::abs(due);
+        scores.stiffness_error = worse(scores.stiffness_error, std::optional{error});
+        if (press == slow_press) scores.slow_stiffness_error = error;
+    }
 }
 
 } // namespace
 
-Scores scores_of(const Metrics& impaired, const Metrics& perfect)
+Metrics make_reference(Metrics perfect, const Metrics& one_world)
 {
-    base::ensure(impaired.task == perfect.task);
+    base::ensure(perfect.task == one_world.task);
+    perfect.stiffness_n_per_m = one_world.stiffness_n_per_m;
+    perfect.loss_stiffness_n_per_m = one_world.loss_stiffness_n_per_m;
+    return perfect;
+}
+
+Scores scores_of(const Metrics& impaired, const Metrics& reference)
+{
+    base::ensure(impaired.task == reference.task);
     Scores scores{
         .task = impaired.task,
-        .scored_share = perfect.scored_s > 0.0 ? impaired.scored_s / perfect.scored_s : 0.0,
-        .vibration_m =
-            worse_side(against(impaired.body_vibration_m, perfect.body_vibration_m, in_quadrature)),
+        .scored_share = reference.scored_s > 0.0 ? impaired.scored_s / reference.scored_s : 0.0,
+        .vibration_m = worse_side(
+            against(impaired.body_vibration_m, reference.body_vibration_m, in_quadrature)),
         .force_discrepancy = impaired.force_discrepancy,
         .force_discrepancy_added =
-            difference(impaired.force_discrepancy, perfect.force_discrepancy),
+            difference(impaired.force_discrepancy, reference.force_discrepancy),
         .discrepancy_m = impaired.discrepancy_m,
         .turned_apart_rad = impaired.turned_apart_rad,
         .force_vibration_n = worse_side(impaired.force_vibration_n),
         .force_vibration_added_n = worse_side(
-            against(impaired.force_vibration_n, perfect.force_vibration_n, in_quadrature)),
+            against(impaired.force_vibration_n, reference.force_vibration_n, in_quadrature)),
         .force_above_2hz_added_n = worse_side(
-            against(impaired.force_above_2hz_n, perfect.force_above_2hz_n, in_quadrature)),
+            against(impaired.force_above_2hz_n, reference.force_above_2hz_n, in_quadrature)),
         .felt_vibration_n = worse_side(impaired.felt_vibration_n),
-        .contact_lost = worse_side(against(impaired.contact_lost, perfect.contact_lost, minus)),
+        .contact_lost = worse_side(against(impaired.contact_lost, reference.contact_lost, minus)),
         .force_steps = worse_side(impaired.force_steps),
         .energy_taken_j = impaired.energy_taken_j,
-        .drag_n = worse_side(against(impaired.drag_n, perfect.drag_n, minus)),
+        .drag_n = worse_side(against(impaired.drag_n, reference.drag_n, minus)),
         .path_rms_m = worse_side(impaired.path_rms_m),
-        .path_rms_ratio = worse_side(against(impaired.path_rms_m, perfect.path_rms_m, ratio_of)),
+        .path_rms_ratio = worse_side(against(impaired.path_rms_m, reference.path_rms_m, ratio_of)),
         .drops = impaired.drops,
         .overshoot_m = worse_side(impaired.overshoot_m),
-        .response_added_s = difference(impaired.response_s, perfect.response_s),
+        .response_added_s = difference(impaired.response_s, reference.response_s),
         .similarity = impaired.similarity};
-    for (std::size_t i = 0; i < press_hertz.size(); ++i) {
-        scores.stiffness_ratio[i] =
-            stiffness_ratio(impaired.stiffness_n_per_m[i], perfect.stiffness_n_per_m[i]);
-    }
+    score_stiffness(impaired, reference, scores);
     return scores;
 }
 

@@ -10,7 +10,8 @@
 namespace hapnet::lab::metrics {
 
 /// Metrics against those of the same session (task, algorithm, hands, seed) on a perfect network:
-/// what the network did. SI units; of the side that is worse off.
+/// what the network did. Stiffness is held against that of the same hands in one shared world. SI
+/// units; of the side that is worse off.
 struct Scores {
     device::Task task = device::Task::p1;
     /// How long all sides were running, of what it was on the perfect network.
@@ -18,9 +19,14 @@ struct Scores {
 
     /// A: sqrt(a^2 - a0^2), a the vibration, a0 that on the perfect network; 0 when it is less.
     std::optional<ByOrder> vibration_m{};
-    /// B: mean stiffness of both hands over that on the perfect network, by press_hertz; can be
-    /// below 0.
+    /// B: magnitude of the mean dynamic stiffness of both hands over that in one shared world, by
+    /// press_hertz.
     std::array<std::optional<double>, press_hertz.size()> stiffness_ratio{};
+    /// B: the largest of |B - B0| / |B0| over press_hertz, B the mean dynamic stiffness of both
+    /// hands and B0 that in one shared world: 0 is what is due, 1 is nothing felt.
+    std::optional<double> stiffness_error{};
+    /// B: the same at the slowest press alone.
+    std::optional<double> slow_stiffness_error{};
     /// C as measured, and the part of it that the perfect network does not show.
     std::optional<double> force_discrepancy{};
     std::optional<double> force_discrepancy_added{};
@@ -54,7 +60,11 @@ struct Scores {
     friend bool operator==(const Scores&, const Scores&) = default;
 };
 
-/// Both are to be of the same task.
-[[nodiscard]] Scores scores_of(const Metrics& impaired, const Metrics& perfect);
+/// What sessions are held against: the metrics on a perfect network, with the stiffness that the
+/// hands feel in one shared world.
+[[nodiscard]] Metrics make_reference(Metrics perfect, const Metrics& one_world);
+
+/// Both are to be of the same task; see make_reference().
+[[nodiscard]] Scores scores_of(const Metrics& impaired, const Metrics& reference);
 
 } // namespace hapnet::lab::metrics

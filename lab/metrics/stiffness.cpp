@@ -43,8 +43,9 @@ struct SignalPart {
 
 } // namespace
 
-std::optional<double> stiffness_of(std::span<const double> force_on_hand,
-                                   std::span<const double> hip, double hertz, double tick_s)
+std::optional<DynamicStiffness> stiffness_of(std::span<const double> force_on_hand,
+                                             std::span<const double> hip, double hertz,
+                                             double tick_s)
 {
     const std::size_t given = std::min(force_on_hand.size(), hip.size());
     const double periods = std::floor(static_cast<double>(given) * tick_s * hertz + 1e-9);
@@ -66,7 +67,9 @@ std::optional<double> stiffness_of(std::span<const double> force_on_hand,
     const double square = place_part.c * place_part.c + place_part.s * place_part.s;
     const double amplitude = 2.0 * std::sqrt(square) / static_cast<double>(count);
     if (!(amplitude >= amplitude_min_m)) return std::nullopt;
-    return -(force_part.c * place_part.c + force_part.s * place_part.s) / square;
+    return DynamicStiffness{
+        .storage_n_per_m = -(force_part.c * place_part.c + force_part.s * place_part.s) / square,
+        .loss_n_per_m = (force_part.s * place_part.c - force_part.c * place_part.s) / square};
 }
 
 } // namespace hapnet::lab::metrics

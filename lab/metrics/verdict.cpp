@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::lab::metrics {
 
@@ -18,7 +19,8 @@ struct Wording {
 };
 
 constexpr Wording vibration_words{"vibration", " mm", 1e3};
-constexpr Wording stiffness_words{"stiffness ratio", "", 1.0};
+constexpr Wording stiffness_words{"stiffness error", " %", 1e2};
+constexpr Wording slow_stiffness_words{"stiffness error at 0.5 Hz", " %", 1e2};
 constexpr Wording force_vibration_words{"force vibration added", " N", 1.0};
 constexpr Wording scored_words{"time together", " %", 1e2};
 constexpr Wording force_discrepancy_words{"force discrepancy", " %", 1e2};
@@ -33,28 +35,34 @@ std::string sentence(const Wording& words, double value, char relation, double l
                        relation, limit * words.scale, words.unit);
 }
 
-// A number that is not finite keeps no limit.
+/// What a session does not keep of a tier, in words, and by which metrics.
+struct Objections {
+    std::vector<std::string> sentences;
+    std::vector<std::string_view> metrics;
 
-void at_most(std::optional<double> value, double limit, const Wording& words,
-             std::vector<std::string>& objections)
-{
-    if (!value || *value <= limit) return;
-    objections.push_back(sentence(words, *value, '>', limit));
-}
+    // A number that is not finite keeps no limit.
 
-void at_least(std::optional<double> value, double limit, const Wording& words,
-              std::vector<std::string>& objections)
-{
-    if (!value || *value >= limit) return;
-    objections.push_back(sentence(words, *value, '<', limit));
-}
+    void at_most(std::optional<double> value, double limit, const Wording& words)
+    {
+        if (value && !(*value <= limit)) add(*value, '>', limit, words);
+    }
+    void at_least(std::optional<double> value, double limit, const Wording& words)
+    {
+        if (value && !(*value >= limit)) add(*value, '<', limit, words);
+    }
+    void at_most(const std::optional<Spread>& value, std::optional<double> limit,
+                 const Wording& words)
+    {
+        if (value && limit) at_most(value->mean, *limit, words);
+    }
 
-/// What a text may leave out.
-void at_most(const std::optional<Spread>& value, std::optional<double> limit, const Wording& words,
-             std::vector<std::string>& objections)
-{
-    if (value && limit) at_most(value->mean, *limit, words, objections);
-}
+private:
+    void add(double value, char relation, double limit, const Wording& words)
+    {
+        sentences.push_back(sentence(words, value, relation, limit));
+        metrics.push_back(words.name);
+    }
+};
 
 std::optional<double> judged(const std::optional<ByOrder>& values, FilterOrder order)
 {
@@ -77,29 +85,33 @@ std::string_view to_text(Tier tier)
 Judgement judge(const Scores& scores, const Criteria& criteria)
 {
     const FilterOrder order = criteria.filter_order;
-    const auto stiffness = scores.stiffness_ratio[judged_press];
-    Judgement judgement;
-    auto& failures = judgement.failures;
-    at_least(scores.scored_share, criteria.usable.scored_share_min, scored_words, failures);
-    at_most(judged(scores.vibration_m, order), at_order(criteria.usable.vibration_max_m, order),
-            vibration_words, failures);
-    at_least(stiffness, criteria.usable.stiffness_ratio_min, stiffness_words, failures);
-    at_most(judged(scores.force_vibration_added_n, order), criteria.usable.force_vibration_max_n,
-            force_vibration_words, failures);
-    at_most(scores.discrepancy_m, criteria.usable.discrepancy_max_m, discrepancy_words, failures);
-    at_most(scores.turned_apart_rad, criteria.usable.turned_apart_max_rad, turned_apart_words,
-            failures);
+    const UsableCriteria& usable = criteria.usable;
+    Objections failures;
+    failures.at_least(scores.scored_share, usable.scored_share_min, scored_words);
+    failures.at_most(judged(scores.vibration_m, order), at_order(usable.vibration_max_m, order),
+                     vibration_words);
+    failures.at_most(scores.slow_stiffness_error, usable.slow_stiffness_error_max,
+                     slow_stiffness_words);
+    failures.at_most(judged(scores.force_vibration_added_n, order), usable.force_vibration_max_n,
+                     force_vibration_words);
+    failures.at_most(scores.discrepancy_m, usable.discrepancy_max_m, discrepancy_words);
+    failures.at_most(scores.turned_apart_rad, usable.turned_apart_max_rad, turned_apart_words);
 
-    auto& shortcomings = judgement.shortcomings;
-    at_least(stiffness, criteria.good.stiffness_ratio_min, stiffness_words, shortcomings);
-    at_most(scores.force_discrepancy, criteria.good.force_discrepancy_max, force_discrepancy_words,
-            shortcomings);
-    at_most(scores.contact_lost, criteria.good.contact_lost_max, contact_words, shortcomings);
-    at_most(scores.drag_n, criteria.good.drag_max_n, drag_words, shortcomings);
-    at_most(scores.discrepancy_m, criteria.good.discrepancy_max_m, discrepancy_words, shortcomings);
-    at_most(scores.turned_apart_rad, criteria.good.turned_apart_max_rad, turned_apart_words,
-            shortcomings);
-    if (failures.empty()) judgement.tier = shortcomings.empty() ? Tier::good : Tier::usable;
+    const GoodCriteria& good = criteria.good;
+    Objections shortcomings;
+    shortcomings.at_most(scores.stiffness_error, good.stiffness_error_max, stiffness_words);
+    shortcomings.at_most(scores.force_discrepancy, good.force_discrepancy_max,
+                         force_discrepancy_words);
+    shortcomings.at_most(scores.contact_lost, good.contact_lost_max, contact_words);
+    shortcomings.at_most(scores.drag_n, good.drag_max_n, drag_words);
+    shortcomings.at_most(scores.discrepancy_m, good.discrepancy_max_m, discrepancy_words);
+    shortcomings.at_most(scores.turned_apart_rad, good.turned_apart_max_rad, turned_apart_words);
+
+    Judgement judgement{.failures = std::move(failures.sentences),
+                        .failed = std::move(failures.metrics),
+                        .shortcomings = std::move(shortcomings.sentences)};
+    if (judgement.failures.empty())
+        judgement.tier = judgement.shortcomings.empty() ? Tier::good : Tier::usable;
     return judgement;
 }
 

@@ -23,6 +23,8 @@ struct Judgement {
     Tier tier = Tier::unusable;
     /// What keeps it from `usable`, e.g. "vibration 1.31 mm > 0.95 mm"; empty when usable.
     std::vector<std::string> failures;
+    /// The metrics of `failures`, in the same order, e.g. "vibration".
+    std::vector<std::string_view> failed;
     /// What keeps it from `good` besides, e.g. "contact lost 12 % > 5 %".
     std::vector<std::string> shortcomings;
 };

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/claim_tables.hpp"
 
+#include "lab/metrics/paired.hpp"
+#include "proto/base/names.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -22,18 +26,22 @@ using Measure = std::function<std::optional<double>(const metrics::Scores&)>;
 const Tasks pressed{Task::t1, Task::t2, Task::t3};
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// What a number has to keep, and of which of the seeds.
+/// By what a number is judged: nine of ten sessions are to keep it, or their mean, or each of them.
+enum class JudgedBy : std::uint8_t { quantile, mean, each };
+constexpr auto names_of(base::Tag<JudgedBy>) { return base::names("quantile", "mean", "worst"); }
+constexpr double kept_share = 0.9;
+
+/// What a number has to keep.
 struct Wanted {
     double least = -unbounded;
     double most = unbounded;
-    bool of_mean = false; // of the seeds' mean, and not of each
+    JudgedBy by = JudgedBy::quantile;
 };
 
-/// A number of a claim: those of the seeds that judge, and of all.
+/// A number of a claim, of all seeds.
 struct Number {
     std::string name; // empty: the claim's only one
-    std::vector<double> judging{};
-    std::vector<double> all{};
+    std::vector<double> values{};
     Wanted wanted{};
     std::string_view unit{};
 };
@@ -43,21 +51,53 @@ double mean_of(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// The value that `share` of them do not exceed (nearest rank).
-double quantile_of(std::vector<double> values, double share)
+/// What is held against one or both bounds of a number, with its interval.
+struct HeldValue {
+    double value = 0.0;
+    metrics::Interval interval{};
+    double least = -unbounded;
+    double most = unbounded;
+
+    [[nodiscard]] bool is_met() const { return interval.low >= least && interval.high <= most; }
+    [[nodiscard]] bool is_missed() const { return interval.high < least || interval.low > most; }
+    /// How far the value is beyond its bounds.
+    [[nodiscard]] double shortfall() const { return std::max(least - value, value - most); }
+};
+
+/// One of a mean, or of the worst; of quantiles one for each bound. None where nothing was
+/// measured.
+std::vector<HeldValue> held_values(const Number& number)
 {
-    std::sort(values.begin(), values.end());
-    const double rank = std::ceil(share * static_cast<double>(values.size()));
-    return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+    const auto& [least, most, by] = number.wanted;
+    const auto& values = number.values;
+    std::vector<HeldValue> judged;
+    if (values.empty()) return judged;
+    const auto add_quantile = [&](double share, double low, double high) {
+        judged.push_back({metrics::quantile_of(values, share),
+                          metrics::interval_of_quantile(values, share), low, high});
+    };
+    if (by == JudgedBy::mean) {
+        judged.push_back({mean_of(values), metrics::interval_of_mean(values), least, most});
+    } else if (by == JudgedBy::each) {
+        const auto [lowest, highest] = std::ranges::minmax(values);
+        const bool is_low = least - lowest > highest - most;
+        judged.push_back({is_low ? lowest : highest, {lowest, highest}, least, most});
+    } else {
+        if (least > -unbounded) add_quantile(1.0 - kept_share, least, unbounded);
+        if (most < unbounded) add_quantile(kept_share, -unbounded, most);
+    }
+    return judged;
 }
 
-bool is_kept(const Number& number)
+/// nullopt: it was not measured, or an interval lies across a bound.
+std::optional<bool> is_kept(const Number& number)
 {
-    const auto keeps = [&](double value) {
-        return value >= number.wanted.least && value <= number.wanted.most;
-    };
-    if (number.wanted.of_mean) return keeps(mean_of(number.judging));
-    return std::ranges::all_of(number.judging, keeps);
+    const auto judged = held_values(number);
+    if (judged.empty()) return std::nullopt;
+    if (number.wanted.by == JudgedBy::each) return judged.front().is_met();
+    if (std::ranges::all_of(judged, &HeldValue::is_met)) return true;
+    if (std::ranges::any_of(judged, &HeldValue::is_missed)) return false;
+    return std::nullopt;
 }
 
 /// One value, or the two ends where both are bounded.
@@ -67,17 +107,13 @@ std::string with_unit(std::string text, const Number& number)
     return number.name.empty() ? text : fmt::format("{}: {}", number.name, text);
 }
 
-/// The worst of the values, or what `share` of them keep.
-std::string said(const Number& number, const std::vector<double>& values, double share)
+/// What is judged.
+std::string said(const Number& number)
 {
-    if (values.empty()) return with_unit("not measured", number);
-    if (number.wanted.of_mean) return with_unit(fmt::format("{:.3g}", mean_of(values)), number);
-    const double low = quantile_of(values, 1.0 - share);
-    const double high = quantile_of(values, share);
-    const bool has_least = number.wanted.least > -unbounded;
-    const bool has_most = number.wanted.most < unbounded;
-    if (has_least && has_most) return with_unit(fmt::format("{:.3g} to {:.3g}", low, high), number);
-    return with_unit(fmt::format("{:.3g}", has_least ? low : high), number);
+    const auto judged = held_values(number);
+    if (judged.empty()) return with_unit("not measured", number);
+    if (judged.size() == 1) return with_unit(fmt::format("{:.3g}", judged[0].value), number);
+    return with_unit(fmt::format("{:.3g} to {:.3g}", judged[0].value, judged[1].value), number);
 }
 
 std::string accepted(const Number& number)
@@ -167,16 +203,12 @@ public:
         claim_contact_and_energy();
         claim_three();
         claim_silence();
-        return {std::move(claims_), std::move(quantiles_)};
+        return {std::move(claims_), std::move(quantiles_), std::move(numbers_)};
     }
 
 private:
     using Cells = std::vector<std::string_view>;
 
-    [[nodiscard]] bool judges(std::uint32_t seed) const
-    {
-        return seed < experiment_.first_seed + judging_seeds(experiment_);
-    }
     /// Of the first algorithm, in these conditions and tasks.
     [[nodiscard]] Number
     number(std::string name, const Cells& cells, const Tasks& tasks,
@@ -187,10 +219,7 @@ private:
             if (session.algorithm != experiment_.algorithms.front().name) continue;
             if (std::ranges::find(cells, session.cell->name) == cells.end()) continue;
             if (std::ranges::find(tasks, session.task) == tasks.end()) continue;
-            const auto value = measure(session);
-            if (!value) continue;
-            found.all.push_back(*value);
-            if (judges(session.seed)) found.judging.push_back(*value);
+            if (const auto value = measure(session)) found.values.push_back(*value);
         }
         return found;
     }
@@ -204,7 +233,7 @@ private:
         found.unit = unit;
         return found;
     }
-    /// The share of the sessions that are usable: all that judge are to be.
+    /// The share of the sessions that are usable: nine of ten are to be.
     [[nodiscard]] Number usable(std::string name, const Cells& cells) const
     {
         const Measure is_usable = [this](const metrics::Scores& scores) {
@@ -212,19 +241,35 @@ private:
                                                                                           : 100.0};
         };
         Number found = of(std::move(name), cells, pressed, is_usable,
-                          {.least = 100.0, .of_mean = true}, "% usable");
+                          {.least = 100.0 * kept_share, .by = JudgedBy::mean}, "% usable");
         return found;
     }
     void add(std::string_view claim, const std::vector<Number>& numbers)
     {
-        quantiles_.add(claim, joined(numbers, [](const Number& n) { return said(n, n.all, 0.9); }),
-                       experiment_.seeds);
-        const auto is_empty = [](const Number& n) { return n.judging.empty(); };
-        const std::string_view verdict = std::ranges::any_of(numbers, is_empty)  ? "undecided"
-                                         : std::ranges::all_of(numbers, is_kept) ? "met"
-                                                                                 : "missed";
-        claims_.add(claim, joined(numbers, [](const Number& n) { return said(n, n.judging, 1.0); }),
-                    joined(numbers, accepted), verdict);
+        quantiles_.add(claim, joined(numbers, said), experiment_.seeds);
+        const auto is = [](std::optional<bool> wanted) {
+            return [wanted](const Number& number) { return is_kept(number) == wanted; };
+        };
+        const std::string_view verdict = std::ranges::all_of(numbers, is(true))    ? "met"
+                                         : std::ranges::any_of(numbers, is(false)) ? "missed"
+                                                                                   : "undecided";
+        claims_.add(claim, joined(numbers, said), joined(numbers, accepted), verdict);
+        for (const Number& one : numbers) add_number(claim, one);
+    }
+    void add_number(std::string_view claim, const Number& number)
+    {
+        const auto judged = held_values(number);
+        const auto worst = std::ranges::max_element(judged, {}, &HeldValue::shortfall);
+        const auto if_any = [&](double value) {
+            return worst == judged.end() || !std::isfinite(value) ? std::nullopt
+                                                                  : std::optional{value};
+        };
+        const HeldValue shown = worst == judged.end() ? HeldValue{} : *worst;
+        numbers_.add(claim, number.name, if_any(shown.value), if_any(shown.interval.low),
+                     if_any(shown.interval.high), number.wanted.least, number.wanted.most,
+                     number.unit, number.wanted.by, number.values.size(), is_kept(number),
+                     experiment_.seeds,
+                     std::get<experiment::Claims>(experiment_.kind).judging_seeds);
     }
 
     void claim_usable()
@@ -244,7 +289,7 @@ private:
     {
         const Tasks press{Task::t2};
         constexpr Wanted each{.least = 0.75, .most = 1.25};
-        constexpr Wanted mean{.least = 0.85, .most = 1.15, .of_mean = true};
+        constexpr Wanted mean{.least = 0.85, .most = 1.15, .by = JudgedBy::mean};
         add("stiffness at 1 Hz at 100 and 200 ms", {of("100 ms", {"100ms"}, press, stiffness, each),
                                                     of("mean", {"100ms"}, press, stiffness, mean),
                                                     of("200 ms", {"200ms"}, press, stiffness, each),
@@ -264,8 +309,8 @@ private:
     void claim_agreement()
     {
         const auto at = [&](std::string name, std::string_view cell, Task task, double most) {
-            return of(std::move(name), {cell}, {task}, mean_mm, {.most = most, .of_mean = true},
-                      "mm");
+            return of(std::move(name), {cell}, {task}, mean_mm,
+                      {.most = most, .by = JudgedBy::mean}, "mm");
         };
         add("mean discrepancy at 160 ms",
             {at("P1", "160ms", Task::p1, 6.0), at("T1", "160ms", Task::t1, 7.0),
@@ -290,7 +335,7 @@ private:
                                    if (!drawn) return std::nullopt;
                                    return energy_bound_mj(*session.cell) - *drawn;
                                });
-        margin.wanted.least = 0.0;
+        margin.wanted = {.least = 0.0, .by = JudgedBy::each}; // it bounds every session
         margin.unit = "mJ";
         add("energy of all hands above its bound, by", {margin});
     }
@@ -298,13 +343,14 @@ private:
     {
         const auto ratio = [&](std::string name, std::string_view of_three,
                                std::string_view of_two) {
-            Number worst{.name = std::move(name), .wanted = {.most = 1.3}, .unit = "x of two"};
+            Number worst{.name = std::move(name),
+                         .wanted = {.most = 1.3, .by = JudgedBy::each},
+                         .unit = "x of two"};
             for (const Task task : pressed) {
                 const Number three = of("", {of_three}, {task}, mean_mm, {});
                 const Number two = of("", {of_two}, {task}, mean_mm, {});
-                if (three.judging.empty() || two.judging.empty()) continue;
-                worst.judging.push_back(mean_of(three.judging) / mean_of(two.judging));
-                worst.all.push_back(mean_of(three.all) / mean_of(two.all));
+                if (three.values.empty() || two.values.empty()) continue;
+                worst.values.push_back(mean_of(three.values) / mean_of(two.values));
             }
             return worst;
         };
@@ -316,8 +362,7 @@ private:
     void claim_silence()
     {
         Number apart{.name = {}, .wanted = {.most = 0.1}, .unit = "mm"};
-        for (const double metres : sessions_.silence_m) apart.judging.push_back(1e3 * metres);
-        apart.all = apart.judging;
+        for (const double metres : sessions_.silence_m) apart.values.push_back(1e3 * metres);
         add("copies apart a second after silence on a healed network", {apart});
     }
 
@@ -326,13 +371,17 @@ private:
     const ClaimSessions& sessions_;
     Table claims_{"claims", columns_in("claim,value,accept,verdict")};
     Table quantiles_{"claims_quantiles", columns_in("claim,quantile,seeds")};
+    Table numbers_{"claims_numbers",
+                   columns_in("claim,number,value:4,low:4,high:4,accept_low,accept_high,unit,"
+                              "judged_by,sessions,kept,seeds,seeds_needed")};
 };
 
 using Stiffness = decltype(metrics::Metrics::stiffness_n_per_m);
 
-/// What each side feels on a perfect network, the median of the seeds: in one session a hand that
+/// What each side feels in one shared world, the median of the seeds: in one session a hand that
 /// holds against the press is kept by the friction of its device, or slips as it wavers.
-Stiffness usual_stiffness(std::span<const experiment::JobResult> of_seeds)
+Stiffness usual_stiffness(std::span<const experiment::JobResult> of_seeds,
+                          Stiffness metrics::Metrics::*part)
 {
     Stiffness usual{};
     for (std::size_t press = 0; press < usual.size(); ++press) {
@@ -340,10 +389,9 @@ Stiffness usual_stiffness(std::span<const experiment::JobResult> of_seeds)
             std::vector<double> felt;
             for (const experiment::JobResult& result : of_seeds) {
                 const auto& one = std::get<experiment::SessionResult>(result);
-                if (const auto value = one.perfect.stiffness_n_per_m[press][side])
-                    felt.push_back(*value);
+                if (const auto value = (one.reference.*part)[press][side]) felt.push_back(*value);
             }
-            if (!felt.empty()) usual[press][side] = quantile_of(felt, 0.5);
+            if (!felt.empty()) usual[press][side] = metrics::quantile_of(felt, 0.5);
         }
     }
     return usual;
@@ -360,20 +408,24 @@ ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
         for (const experiment::ClaimCell& cell : experiment::claim_cells()) {
             for (const Task task : cell.tasks) {
                 const auto of_seeds = results.subspan(next, experiment.seeds);
-                const auto due = usual_stiffness(of_seeds);
+                const auto storage =
+                    usual_stiffness(of_seeds, &metrics::Metrics::stiffness_n_per_m);
+                const auto loss =
+                    usual_stiffness(of_seeds, &metrics::Metrics::loss_stiffness_n_per_m);
                 for (std::uint32_t seed = 0; seed < experiment.seeds; ++seed) {
                     const auto& one = std::get<experiment::SessionResult>(of_seeds[seed]);
-                    metrics::Metrics perfect = one.perfect;
-                    perfect.stiffness_n_per_m = due;
+                    metrics::Metrics reference = one.reference;
+                    reference.stiffness_n_per_m = storage;
+                    reference.loss_stiffness_n_per_m = loss;
                     found.sessions.push_back({&cell, algorithm.name, task,
                                               experiment.first_seed + seed,
-                                              scores_of(one.metrics, perfect)});
+                                              scores_of(one.metrics, reference)});
                 }
                 next += experiment.seeds;
             }
         }
     }
-    for (std::uint32_t seed = 0; seed < judging_seeds(experiment); ++seed) {
+    for (std::uint32_t seed = 0; seed < experiment.seeds; ++seed) {
         const auto& one = std::get<experiment::SilenceResult>(results[next++]);
         found.silence_m.push_back(one.apart_m);
     }
@@ -392,7 +444,8 @@ Table claim_sessions_table(const metrics::Criteria& criteria, const ClaimSession
                 columns_in("algorithm,condition,task,hands,peers,delay_ms,jitter_ms,loss_percent,"
                            "burst_of_100,seed,mean_mm:3,max_mm:3,vibration_mm:3,stiffness_ratio:4,"
                            "force_vibration_n:4,force_above_2hz_n:4?,force_discrepancy:4,"
-                           "contact_lost:4,energy_mj:4,scored_share:4,tier")};
+                           "contact_lost:4,energy_mj:4,scored_share:4,tier,stiffness_error:4?,"
+                           "slow_stiffness_error:4?")};
     for (const ClaimSession& session : sessions.sessions) {
         const metrics::Scores& scores = session.scores;
         const experiment::ClaimCell& cell = *session.cell;
@@ -405,7 +458,8 @@ Table claim_sessions_table(const metrics::Criteria& criteria, const ClaimSession
                   session.seed, mean_mm(scores), max_mm, vibration_mm(scores), stiffness(scores),
                   force_vibration_n(scores), swings_n, scores.force_discrepancy,
                   scores.contact_lost, energy_mj(scores), scores.scored_share,
-                  judge(scores, criteria).tier);
+                  judge(scores, criteria).tier, scores.stiffness_error,
+                  scores.slow_stiffness_error);
     }
     return table;
 }

@@ -31,11 +31,14 @@ struct ClaimSessions {
 [[nodiscard]] ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
                                               std::span<const experiment::JobResult> results);
 
-/// The claims of the first of the algorithms, in two tables of a row for each. Of `claims`: `value`
+/// The claims of the first of the algorithms, in two tables of a row for each, and one of a row for
+/// each of their numbers. Of `claims`: `value`
 /// has the claim's numbers of the worst seed that judges, or of their mean where the claim says so;
 /// `accept` what they have to keep. `verdict` is met when all are, for the seeds that judge, and
 /// undecided when one was not measured. Of `claims_quantiles`: `quantile` is what 9 of 10 of all
-/// seeds keep, or the mean.
+/// seeds keep, or the mean. Of `claims_numbers`: `value` is the mean, `low` and `high` its 95 %
+/// interval; or, as `judged_by` says, the worst of the sessions, their least and their most. `kept`
+/// is empty where no session has the number.
 [[nodiscard]] std::vector<Table> claim_tables(const experiment::Experiment& experiment,
                                               const metrics::Criteria& criteria,
                                               const ClaimSessions& sessions);

@@ -17,11 +17,13 @@ namespace hapnet::lab::results {
 namespace {
 
 /// By which a session is measured; all other columns say which session it is.
-constexpr std::array<std::string_view, 13> measures{"mean_mm",
+constexpr std::array<std::string_view, 15> measures{"mean_mm",
                                                     "std_mm",
                                                     "max_mm",
                                                     "vibration_mm",
                                                     "stiffness_ratio",
+                                                    "stiffness_error",
+                                                    "slow_stiffness_error",
                                                     "force_vibration_n",
                                                     "force_above_2hz_n",
                                                     "contact_lost",

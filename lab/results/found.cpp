@@ -13,6 +13,7 @@
 #include "lab/results/shipped.hpp"
 #include "lab/results/summary.hpp"
 #include "proto/base/math.hpp"
+#include "scene/text/text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,6 +32,7 @@ struct Group {
     std::vector<metrics::Scores> scores{};
     std::string_view rows{}; // of the first seed
     experiment::Party party{};
+    scene::Description scene{};
 };
 
 /// The results of single sessions, by algorithm and task; each point of a grid begins anew.
@@ -43,10 +45,14 @@ std::vector<Group> groups_of(const experiment::Experiment& experiment,
         const auto& job = std::get<experiment::SessionJob>(jobs[i]);
         const auto& result = std::get<experiment::SessionResult>(results[i]);
         if (job.spec.setting.seed.value() == experiment.first_seed) {
-            groups.push_back(
-                {experiment.algorithms[job.algorithm].name, job.task, {}, result.rows, job.party});
+            groups.push_back({experiment.algorithms[job.algorithm].name,
+                              job.task,
+                              {},
+                              result.rows,
+                              job.party,
+                              job.spec.setting.scene});
         }
-        groups.back().scores.push_back(scores_of(result.metrics, result.perfect));
+        groups.back().scores.push_back(scores_of(result.metrics, result.reference));
     }
     return groups;
 }
@@ -86,11 +92,16 @@ void add_table1_row(const Group& group, const Summary& summary,
     Claim verdict{};
     if (paper)
         verdict = summary.typical_m ? table1_verdict(group.algorithm, mm, base_mm) : Claim::missed;
-    const Table1Bands bands = table1_bands(group.algorithm, base_mm).value_or(Table1Bands{});
+    const auto bands = paper ? table1_bands(group.algorithm, base_mm) : std::nullopt;
+    const auto end = [&](Band Table1Bands::*of, double Band::*side) {
+        return bands ? std::optional{(*bands).*of.*side} : std::nullopt;
+    };
     table.add(group.algorithm, mm.mean, mm.min, mm.max, mm.std, papers(&PaperRow::mean_mm),
               papers(&PaperRow::max_mm), papers(&PaperRow::std_mm), verdict, provenance.typical,
-              provenance.max, bands.mean_mm.low, bands.mean_mm.high, bands.std_mm.low,
-              bands.std_mm.high, bands.max_mm.low, bands.max_mm.high);
+              provenance.max, end(&Table1Bands::mean_mm, &Band::low),
+              end(&Table1Bands::mean_mm, &Band::high), end(&Table1Bands::std_mm, &Band::low),
+              end(&Table1Bands::std_mm, &Band::high), end(&Table1Bands::max_mm, &Band::low),
+              end(&Table1Bands::max_mm, &Band::high));
 }
 
 /// As in the paper's table: the built-in algorithm of that name, under the built-in conditions.
@@ -108,18 +119,23 @@ void add_task_row(const Group& group, const Summary& summary, const metrics::Cri
                   const PartyCells& party, Table& table)
 {
     const Judged judged = make_judged(summary, criteria);
-    std::optional<double> std_mm, turned_deg, swings_n;
+    std::optional<double> std_mm, turned_deg, swings_n, low_m, high_m;
+    if (summary.mean_m) {
+        low_m = summary.mean_m->low;
+        high_m = summary.mean_m->high;
+    }
     if (summary.typical_m) std_mm = 1e3 * summary.typical_m->std;
     if (const auto& turned = summary.turned_apart_max_rad)
         turned_deg = *turned * (360.0 / base::two_pi);
     if (const auto& swings = summary.worst.force_above_2hz_added_n)
         swings_n = at_order(*swings, criteria.filter_order);
-    table.add(group.algorithm, name_of(group.task), group.scores.size(), judged.mean_mm, std_mm,
-              in_thousandths(summary.discrepancy_max_m), judged.vibration_mm,
-              judged.stiffness_ratio, judged.force_vibration_n, summary.worst.force_discrepancy,
-              summary.worst.contact_lost, summary.force_step_n, summary.worst.drag_n,
-              in_thousandths(summary.worst.energy_taken_j), judged.tier, summary.limited_by,
-              turned_deg, party.scene, swings_n);
+    table.add(
+        group.algorithm, name_of(group.task), group.scores.size(), judged.mean_mm, std_mm,
+        in_thousandths(summary.discrepancy_max_m), judged.vibration_mm, judged.stiffness_ratio,
+        judged.force_vibration_n, summary.worst.force_discrepancy, summary.worst.contact_lost,
+        summary.force_step_n, summary.worst.drag_n, in_thousandths(summary.worst.energy_taken_j),
+        judged.tier, summary.limited_by, turned_deg, party.scene, swings_n, judged.stiffness_error,
+        judged.slow_stiffness_error, in_thousandths(low_m), in_thousandths(high_m), summary.usable);
 }
 
 /// Which command wrote the criteria.
@@ -150,8 +166,11 @@ struct ResultsOf {
                     columns_in("algorithm,task,seeds,mean_mm:3,std_mm:3,max_mm:3,vibration_mm:3,"
                                "stiffness_ratio:4,force_vibration_n:4,force_discrepancy:4,"
                                "contact_lost:4,force_step_n:4,drag_n:4,energy_mj:3,tier,"
-                               "limited_by,turned_apart_deg:3?,scene?,force_above_2hz_n:4?")};
+                               "limited_by,turned_apart_deg:3?,scene?,force_above_2hz_n:4?,"
+                               "stiffness_error:4?,slow_stiffness_error:4?,ci_low_mm:3?,ci_high_mm:"
+                               "3?,usable_seeds")};
         Found found;
+        Table scenes = replay_scenes();
         for (const Group& group : groups) {
             const Summary summary = summarize(group.scores, criteria);
             if (group.task == device::Task::p1) {
@@ -160,9 +179,12 @@ struct ResultsOf {
             } else {
                 add_task_row(group, summary, criteria, party_cells(experiment, group.party), tasks);
             }
-            found.tables.push_back(from_kept_lines(
-                fmt::format("replay/{}-{}", group.algorithm, name_of(group.task)), group.rows));
+            const auto replay = fmt::format("{}-{}", group.algorithm, name_of(group.task));
+            found.tables.push_back(from_kept_lines("replay/" + replay, group.rows));
+            if (group.scene != scene::paper_scene())
+                scenes.add(replay, group.scene.name, scene::to_text(group.scene));
         }
+        if (!scenes.is_empty()) found.tables.push_back(std::move(scenes));
         const auto sessions = make_session_rows(experiment, criteria, results);
         found.tables.push_back(std::move(table1));
         found.tables.push_back(std::move(tasks));
@@ -175,7 +197,7 @@ struct ResultsOf {
     {
         Found found;
         found.tables = {limits_table(experiment, criteria, results),
-                        paired_limits_table(experiment, results),
+                        paired_limits_table(experiment, criteria, results),
                         curves_table(experiment, criteria, results), sessions()};
         if (limits.sensitivity && limits.sensitivity->seeds > 0) {
             found.tables.push_back(sensitivity_table(experiment, *limits.sensitivity, results));
@@ -216,17 +238,20 @@ struct ResultsOf {
         const auto groups = groups_of(experiment, results);
         const auto points = grid_points(grid);
         const std::size_t groups_per_point = groups.size() / points.size();
-        Table table{"qos",
-                    columns_in(fmt::format("algorithm,task,delay_ms,jitter_ms,loss_percent,{},{}",
-                                           judged_columns, party_columns))};
+        Table table{
+            "qos", columns_in(fmt::format("algorithm,task,delay_ms,jitter_ms,loss_percent,{},{},"
+                                          "{},limited_by+",
+                                          judged_columns, party_columns, stiffness_error_columns))};
         for (std::size_t i = 0; i < groups.size(); ++i) {
             const experiment::GridPoint& point = points[i / groups_per_point];
-            const Judged judged = make_judged(summarize(groups[i].scores, criteria), criteria);
+            const Summary summary = summarize(groups[i].scores, criteria);
+            const Judged judged = make_judged(summary, criteria);
             const auto party = party_cells(experiment, groups[i].party);
             table.add(groups[i].algorithm, name_of(groups[i].task), in_units(point.delay),
                       in_units(point.jitter), in_units(point.loss), judged.mean_mm,
                       judged.vibration_mm, judged.stiffness_ratio, judged.force_vibration_n,
-                      judged.tier, judged.turned_apart_deg, party.peers, party.scene);
+                      judged.tier, judged.turned_apart_deg, party.peers, party.scene,
+                      judged.stiffness_error, judged.slow_stiffness_error, summary.limited_by);
         }
         return Found{{std::move(table), sessions()}, {}};
     }
@@ -244,7 +269,7 @@ struct ResultsOf {
         std::vector<metrics::Scores> scores;
         for (const experiment::JobResult& result : results) {
             const auto& session = std::get<experiment::SessionResult>(result);
-            scores.push_back(scores_of(session.metrics, session.perfect));
+            scores.push_back(scores_of(session.metrics, session.reference));
         }
         const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
         const auto rest = std::span{scores}.subspan(half.size());

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace hapnet::lab::results {
 
@@ -22,6 +24,7 @@ struct TaskLimit {
     std::string_view task;
     experiment::Party party{};
     metrics::Threshold threshold{};
+    std::string_view decided_by{}; // see decided_by()
 };
 
 /// Less, and found rather than not.
@@ -30,8 +33,36 @@ bool is_worse(const metrics::Threshold& a, const metrics::Threshold& b)
     return std::tuple{a.p50, a.is_open} < std::tuple{b.p50, b.is_open};
 }
 
+/// The metric that most of the sessions fail by at the first level that counts from p50 on; empty
+/// where less than half fails at the top of the range.
+std::string_view decided_by(const experiment::SearchResult& search,
+                            const metrics::Threshold& threshold, const metrics::Criteria& criteria)
+{
+    if (threshold.is_open) return {};
+    std::vector<std::pair<std::string_view, std::size_t>> counts; // in the order of the criteria
+    std::optional<experiment::ImpairmentLevel> level;
+    for (const experiment::CurvePoint& point : search.curve) {
+        const bool is_failure = point.counts && point.tier == metrics::Tier::unusable;
+        if (!is_failure || in_units(point.level) < threshold.p50) continue;
+        if (!level) level = point.level;
+        if (*level != point.level) break;
+        for (const std::string_view metric : judge(point.scores, criteria).failed) {
+            const auto known =
+                std::ranges::find(counts, metric, [](auto& one) { return one.first; });
+            if (known == counts.end()) {
+                counts.emplace_back(metric, 1);
+            } else {
+                ++known->second;
+            }
+        }
+    }
+    const auto most = std::ranges::max_element(counts, {}, [](auto& one) { return one.second; });
+    return most == counts.end() ? std::string_view{} : most->first;
+}
+
 /// The tasks of an algorithm and impairment, and after them the worst.
 std::vector<TaskLimit> limits_of(const experiment::Experiment& experiment,
+                                 const metrics::Criteria& criteria,
                                  std::span<const experiment::JobResult> results)
 {
     const auto jobs = make_jobs(experiment);
@@ -40,10 +71,11 @@ std::vector<TaskLimit> limits_of(const experiment::Experiment& experiment,
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const auto* job = std::get_if<experiment::SearchJob>(&jobs[i]);
         if (job == nullptr) continue;
-        const auto& outcomes = std::get<experiment::SearchResult>(results[i]).outcomes;
+        const auto& search = std::get<experiment::SearchResult>(results[i]);
+        const auto threshold = metrics::threshold_of(search.outcomes, in_units(job->range.to));
         limits.push_back({&experiment.algorithms[job->algorithm], job->range.impairment,
-                          name_of(job->task), job->party,
-                          metrics::threshold_of(outcomes, in_units(job->range.to))});
+                          name_of(job->task), job->party, threshold,
+                          decided_by(search, threshold, criteria)});
         if (!worst || is_worse(limits.back().threshold, worst->threshold)) {
             worst = limits.back();
             worst->task = worst_task;
@@ -98,31 +130,34 @@ Table limits_table(const experiment::Experiment& experiment, const metrics::Crit
 {
     Table table{"limits",
                 columns_in(fmt::format("algorithm,impairment,task,limit:2,bound,unit,paper_limit,"
-                                       "status,class,p50:2,p10:2,ci_low:2,ci_high:2,seeds,{},band+",
+                                       "status,class,p50:2,p10:2,ci_low:2,ci_high:2,seeds,{},band+,"
+                                       "decided_by",
                                        party_columns))};
-    const auto limits = limits_of(experiment, results);
+    const auto limits = limits_of(experiment, criteria, results);
     const bool is_shipped = plays_as_shipped(experiment, criteria, "fig6a");
     for (const TaskLimit& one : limits) {
         const metrics::Threshold& threshold = one.threshold;
         const bool is_papers = is_shipped && is_built_in(*one.algorithm);
         const PaperCells paper = is_papers ? paper_cells(limits, one) : PaperCells{};
         const auto party = party_cells(experiment, one.party);
-        const bool has_band = one.task == worst_task && !party.peers && !party.scene;
+        const bool has_band = is_papers && one.task == worst_task && !party.peers && !party.scene;
         const auto impairment = name_of(one.impairment);
         table.add(one.algorithm->name, impairment, one.task, threshold.p50, bound_of(threshold),
                   unit_of(one.impairment), paper.limit, paper.status, paper.provenance,
                   threshold.p50, threshold.p10, threshold.low, threshold.high, threshold.seeds,
                   party.peers, party.scene,
-                  has_band ? limit_band(one.algorithm->name, impairment) : std::string_view{});
+                  has_band ? limit_band(one.algorithm->name, impairment) : std::string_view{},
+                  one.decided_by);
     }
     return table;
 }
 
 Table paired_limits_table(const experiment::Experiment& experiment,
+                          const metrics::Criteria& criteria,
                           std::span<const experiment::JobResult> results)
 {
     Table table{"paired", columns_in(paired_columns)};
-    const auto limits = limits_of(experiment, results);
+    const auto limits = limits_of(experiment, criteria, results);
     const std::string& reference = experiment.algorithms.front().name;
     for (const TaskLimit& one : limits) {
         const TaskLimit* against = limit_of(limits, one, reference);
@@ -140,8 +175,8 @@ Table curves_table(const experiment::Experiment& experiment, const metrics::Crit
                    std::span<const experiment::JobResult> results)
 {
     Table table{"curves",
-                columns_in(fmt::format("algorithm,impairment,task,level,unit,seed,counts,{},{}",
-                                       judged_columns, party_columns))};
+                columns_in(fmt::format("algorithm,impairment,task,level,unit,seed,counts,{},{},{}",
+                                       judged_columns, party_columns, stiffness_error_columns))};
     const auto jobs = make_jobs(experiment);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const auto* job = std::get_if<experiment::SearchJob>(&jobs[i]);
@@ -156,7 +191,7 @@ Table curves_table(const experiment::Experiment& experiment, const metrics::Crit
                       name_of(job->task), in_units(point.level), unit_of(impairment), point.seed,
                       point.counts, judged.mean_mm, judged.vibration_mm, judged.stiffness_ratio,
                       judged.force_vibration_n, point.tier, judged.turned_apart_deg, party.peers,
-                      party.scene);
+                      party.scene, judged.stiffness_error, judged.slow_stiffness_error);
         }
     }
     return table;

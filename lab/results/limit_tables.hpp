@@ -20,6 +20,7 @@ namespace hapnet::lab::results {
 
 /// How p50 of each algorithm differs from that of the first.
 [[nodiscard]] Table paired_limits_table(const experiment::Experiment& experiment,
+                                        const metrics::Criteria& criteria,
                                         std::span<const experiment::JobResult> results);
 
 /// Every session that a search played.

@@ -19,8 +19,10 @@ namespace hapnet::lab::results {
 // What sides did over time.
 
 /// Samples of a trace of two, `rows_per_s` a second or all when there are fewer: the table
-/// replay/ALGORITHM-TASK. It has of each side, L and R, the places of the cube and of the hand in
-/// mm and the force on the hand along x in N.
+/// replay/ALGORITHM-TASK. It has of each side, A as `l` and B as `r`, the places of the first
+/// shared body and of the hand in mm and the force on the hand along x in N; where a body turns or
+/// several are shared, also how that body is turned, and the pose of each further one (`l2x`,
+/// `l2qw`).
 [[nodiscard]] Table replay_table(const virtual_time::Trace& trace, std::uint32_t rows_per_s);
 /// The rows as a session keeps them: CSV without a header.
 [[nodiscard]] std::string kept_lines(const Table& replay);
@@ -28,7 +30,7 @@ namespace hapnet::lab::results {
 
 /// One of those who played, with its copy of what is shared, in equal steps of time.
 struct ReplaySide {
-    std::string name; // "L", or "peer 3"
+    std::string name; // "A", or "peer 3"
     bool is_left = true;
     std::vector<glm::dvec3> hand_mm{};
     std::vector<glm::dvec3> force_n{}; // on the hand
@@ -57,7 +59,13 @@ struct Replay {
                                                    std::span<const std::string> names,
                                                    std::size_t every);
 
-/// Of the table replay/ALGORITHM-TASK. The error: it has not two rows.
+/// Of the table replay/ALGORITHM-TASK, in the paper's scene. The error: it has not two rows.
 [[nodiscard]] base::Result<Replay> replay_of(const Table& table);
+
+/// The table replay_scenes, empty: a row for each replay in another scene than the paper's, with
+/// the scene as TOML in JSON alone.
+[[nodiscard]] Table replay_scenes();
+/// Puts the replay into a scene of that table's text. False: it is no scene with those bodies.
+[[nodiscard]] bool set_scene(Replay& replay, const std::string& toml);
 
 } // namespace hapnet::lab::results

@@ -186,19 +186,37 @@ std::string text_in(const nlohmann::json& config, const char* key)
     return found != config.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-base::Result<RecordedSession> recorded_session(const std::string& name, const record::Record& a,
-                                               const record::Record& b)
+/// The lower id is A.
+std::vector<RecordFile> by_peer(std::span<const RecordFile> files)
 {
-    const auto analysis = records::analyse(a, b);
+    std::vector<RecordFile> sorted{files.begin(), files.end()};
+    std::ranges::stable_sort(sorted, {}, [](const RecordFile& file) {
+        const auto id = file.record->config.value("peer_id", nlohmann::json{});
+        return id.is_number_integer() ? id.get<std::int64_t>() : 0;
+    });
+    return sorted;
+}
+
+std::string name_of(std::span<const RecordFile> records, std::size_t place)
+{
+    const std::string& path = records[place].path;
+    return path.empty() ? fmt::format("record {}", place + 1) : path;
+}
+
+base::Result<RecordedSession> recorded_session(const std::string& name, const RecordFile& a,
+                                               const RecordFile& b)
+{
+    const auto analysis = records::analyse(*a.record, *b.record);
     if (!analysis) return tl::unexpected{analysis.error()};
-    const auto session = records::common_session(a, b);
+    const auto session = records::common_session(*a.record, *b.record);
     if (!session) return tl::unexpected{session.error()};
     const std::string of_task = session->task.empty() ? "session" : session->task;
     return RecordedSession{.name = name.empty() ? of_task : name,
                            .task = session->task,
-                           .algorithm = text_in(a.config, "algorithm"),
-                           .peer_a = session->a.peer_id,
-                           .peer_b = session->b.peer_id,
+                           .algorithm = text_in(a.record->config, "algorithm"),
+                           .a = {session->a.peer_id, a.record->config, a.path},
+                           .b = {session->b.peer_id, b.record->config, b.path},
+                           .length = session->a.terms.length,
                            .analysis = *analysis,
                            .curves = curves_of(*session)};
 }
@@ -217,8 +235,11 @@ std::optional<Replay> replay_of(std::span<const records::Session> sessions,
     std::vector<std::int64_t> ids{sessions.front().a.peer_id};
     for (const records::Session& session : sessions) ids.push_back(session.b.peer_id);
     std::ranges::sort(ids);
-    std::vector<std::string> names;
-    for (const std::int64_t id : ids) names.push_back(fmt::format("peer {}", id));
+    std::vector<std::string> names{"A", "B"};
+    if (ids.size() > 2) {
+        names.clear();
+        for (const std::int64_t id : ids) names.push_back(fmt::format("peer {}", id));
+    }
     replay.sides = replay_sides(trace, names, every);
     for (const records::RecordedBody& body : bodies_of(sessions)) {
         const auto first = first_movable(replay.scene);
@@ -262,27 +283,28 @@ std::optional<metrics::Criteria> Results::criteria() const
 base::Result<void> add_session(Results& results, const std::string& name, const record::Record& a,
                                const record::Record& b)
 {
-    const std::array records{&a, &b};
-    return add_session(results, name, records);
+    return add_session(results, name, std::array{RecordFile{&a}, RecordFile{&b}});
 }
 
 base::Result<void> add_session(Results& results, const std::string& name,
-                               std::span<const record::Record* const> records)
+                               std::span<const RecordFile> records)
 {
+    const std::vector<RecordFile> ordered = by_peer(records);
     std::vector<RecordedSession> pairs;
     std::vector<records::Session> with_first; // of the first record with each of the others
-    for (std::size_t a = 0; a < records.size(); ++a) {
-        for (std::size_t b = a + 1; b < records.size(); ++b) {
-            auto pair = recorded_session(name, *records[a], *records[b]);
+    for (std::size_t a = 0; a < ordered.size(); ++a) {
+        for (std::size_t b = a + 1; b < ordered.size(); ++b) {
+            auto pair = recorded_session(name, ordered[a], ordered[b]);
             if (!pair) {
-                return base::fail(fmt::format("record {} with record {}: {}", a + 1, b + 1,
-                                              pair.error().message));
+                return base::fail(fmt::format("{} with {}: {}", name_of(ordered, a),
+                                              name_of(ordered, b), pair.error().message));
             }
             pairs.push_back(*std::move(pair));
-            if (a == 0) with_first.push_back(*records::common_session(*records[0], *records[b]));
+            if (a > 0) continue;
+            with_first.push_back(*records::common_session(*ordered[0].record, *ordered[b].record));
         }
     }
-    auto replay = replay_of(with_first, text_in(records.front()->config, "scene_toml"));
+    auto replay = replay_of(with_first, text_in(ordered.front().record->config, "scene_toml"));
     if (replay) { // there is none when they were hardly in session together
         const std::string& algorithm = pairs.front().algorithm;
         replay->algorithm = algorithm.empty() ? "recorded" : algorithm;
@@ -304,6 +326,14 @@ base::Result<Results> read_results(std::span<const File> files)
         const bool is_manifest = file_name_of(file->path) == "manifest.json";
         const auto added = is_manifest ? add_run(*file, results) : add_tables(*file, results);
         if (!added) return tl::unexpected{added.error()};
+    }
+    for (const TableRow& row : results.rows("replay_scenes")) {
+        for (Replay& replay : results.replays) {
+            if (fmt::format("{}-{}", replay.algorithm, replay.task) != row.text("replay")) continue;
+            if (!set_scene(replay, row.text("toml")))
+                return base::fail("replay_scenes: the scene of " + row.text("replay") +
+                                  " cannot be read: run the experiment again");
+        }
     }
     const auto ordered_well = put_in_order(results);
     if (!ordered_well) return tl::unexpected{ordered_well.error()};

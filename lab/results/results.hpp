@@ -29,13 +29,21 @@ struct Run {
     [[nodiscard]] bool is_valid() const;
 };
 
+/// What one of the peers of a session has recorded.
+struct RecordedPeer {
+    std::int64_t id = 0;
+    nlohmann::json config; // the configuration in its record
+    std::string file{};    // of the record, as a path from the page; empty: not said
+};
+
 /// A session that two peers have recorded.
 struct RecordedSession {
     std::string name; // of the folder of the two records; of the task when there is one session
     std::string task; // empty: the record does not say
     std::string algorithm; // empty: the record does not say
-    std::int64_t peer_a = 0;
-    std::int64_t peer_b = 0;
+    RecordedPeer a;
+    RecordedPeer b;
+    base::Duration length{};
     records::Analysis analysis;
     records::SessionCurves curves;
 };
@@ -64,15 +72,19 @@ struct Results {
     [[nodiscard]] std::optional<metrics::Criteria> criteria() const;
 };
 
-/// Adds the session that two records share, and its replay: both sides as the player shows them.
-/// The error: the records cannot be compared.
+/// A record, and where it is.
+struct RecordFile {
+    const record::Record* record = nullptr;
+    std::string path{}; // from the page; empty: not said
+};
+
+/// Adds the session that two or more records share: every two of them, and one replay of all sides
+/// as the player shows them. Of every two the one with the lower id is A. The error says which two,
+/// by their ids in order, cannot be compared.
+[[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
+                                             std::span<const RecordFile> records);
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              const record::Record& a, const record::Record& b);
-
-/// Likewise that of two or more: every two of them, and one replay of all. The error says which two
-/// cannot be compared.
-[[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
-                                             std::span<const record::Record* const> records);
 
 /// Reads the manifests and tables of a result folder and of its subfolders; their order does not
 /// matter. Errors begin with "FILE:". Of two results that exclude each other, such as two rows of

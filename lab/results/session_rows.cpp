@@ -92,6 +92,8 @@ void note_scores(const metrics::Scores& scores, const metrics::Criteria& criteri
     row.energy_mj = times(1e3, scores.energy_taken_j);
     row.scored_share = scores.scored_share;
     row.tier = judge(scores, criteria).tier;
+    row.stiffness_error = scores.stiffness_error;
+    row.slow_stiffness_error = scores.slow_stiffness_error;
 }
 
 /// What is known of the sessions of an algorithm before one is played.
@@ -116,7 +118,7 @@ public:
 
     void add(const experiment::SessionJob& job, const experiment::SessionResult& result)
     {
-        const auto scores = scores_of(result.metrics, result.perfect);
+        const auto scores = scores_of(result.metrics, result.reference);
         rows_.push_back(make_session_row(experiment_, job, scores, criteria_));
     }
 
@@ -160,6 +162,7 @@ constexpr std::array paired_measures{
     PairedMeasure{"mean_mm", &SessionRow::mean_mm},
     PairedMeasure{"vibration_mm", &SessionRow::vibration_mm},
     PairedMeasure{"stiffness_ratio", &SessionRow::stiffness_ratio},
+    PairedMeasure{"stiffness_error", &SessionRow::stiffness_error},
     PairedMeasure{"force_vibration_n", &SessionRow::force_vibration_n},
     PairedMeasure{"force_above_2hz_n", &SessionRow::force_above_2hz_n}};
 

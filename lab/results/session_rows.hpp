@@ -43,6 +43,8 @@ struct SessionRow {
     std::optional<double> energy_mj{};
     double scored_share = 0.0;
     metrics::Tier tier{};
+    std::optional<double> stiffness_error{};
+    std::optional<double> slow_stiffness_error{};
 };
 constexpr auto fields_of(base::Tag<SessionRow>)
 {
@@ -67,7 +69,9 @@ constexpr auto fields_of(base::Tag<SessionRow>)
         base::field("contact_lost", &Row::contact_lost, four),
         base::field("force_step_n", &Row::force_step_n, four),
         base::field("drag_n", &Row::drag_n, four), base::field("energy_mj", &Row::energy_mj, three),
-        base::field("scored_share", &Row::scored_share, four), base::field("tier", &Row::tier));
+        base::field("scored_share", &Row::scored_share, four), base::field("tier", &Row::tier),
+        base::field("stiffness_error", &Row::stiffness_error, four_or_none),
+        base::field("slow_stiffness_error", &Row::slow_stiffness_error, four_or_none));
 }
 
 /// Of one session of an experiment, whoever has played it.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
+#include <vector>
 
 namespace hapnet::lab::results {
 
@@ -46,6 +47,8 @@ metrics::Scores worst_of(std::span<const metrics::Scores> all)
         raise(worst.vibration_m, scores.vibration_m);
         lower(worst.stiffness_ratio[metrics::judged_press],
               scores.stiffness_ratio[metrics::judged_press]);
+        raise(worst.stiffness_error, scores.stiffness_error);
+        raise(worst.slow_stiffness_error, scores.slow_stiffness_error);
         raise(worst.force_discrepancy, scores.force_discrepancy);
         worst.discrepancy_m = metrics::worse(worst.discrepancy_m, scores.discrepancy_m);
         worst.turned_apart_rad = metrics::worse(worst.turned_apart_rad, scores.turned_apart_rad);
@@ -80,11 +83,15 @@ std::optional<metrics::Spread> mean_spread(std::span<const metrics::Scores> all)
 Summary summarize(std::span<const metrics::Scores> scores, const metrics::Criteria& criteria)
 {
     Summary summary{.typical_m = mean_spread(scores), .worst = worst_of(scores)};
+    std::vector<double> means_m;
     for (const metrics::Scores& one : scores) {
+        if (one.discrepancy_m) means_m.push_back(one.discrepancy_m->mean);
+        if (judge(one, criteria).tier != metrics::Tier::unusable) ++summary.usable;
         if (one.discrepancy_m) raise(summary.discrepancy_max_m, one.discrepancy_m->max);
         if (one.turned_apart_rad) raise(summary.turned_apart_max_rad, one.turned_apart_rad->max);
         if (one.force_steps) raise(summary.force_step_n, one.force_steps->largest_n);
     }
+    if (means_m.size() > 1) summary.mean_m = metrics::interval_of_mean(means_m);
     const metrics::Judgement judgement = judge(summary.worst, criteria);
     summary.tier = judgement.tier;
     const auto& reasons = judgement.failures.empty() ? judgement.shortcomings : judgement.failures;
@@ -103,6 +110,8 @@ Judged make_judged(const Summary& summary, const metrics::Criteria& criteria)
     if (vibration_m) judged.vibration_mm = 1e3 * *vibration_m;
     if (const auto turned = summary.worst.turned_apart_rad)
         judged.turned_apart_deg = turned->mean / base::radians_per_degree;
+    judged.stiffness_error = summary.worst.stiffness_error;
+    judged.slow_stiffness_error = summary.worst.slow_stiffness_error;
     return judged;
 }
 

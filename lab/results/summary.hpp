@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/metrics/paired.hpp"
 #include "lab/metrics/verdict.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,11 +17,13 @@ namespace hapnet::lab::results {
 struct Summary {
     std::optional<metrics::Spread>
         typical_m{}; // the means over the seeds of the discrepancy's figures
+    std::optional<metrics::Interval> mean_m{}; // 95 % of the mean over the seeds of the mean
     std::optional<double> discrepancy_max_m{}; // the largest of any seed
     std::optional<double> force_step_n{};      // as well
     std::optional<double> turned_apart_max_rad{};
     metrics::Scores worst{};                  // in every respect as bad as that of the worst seed
     metrics::Tier tier = metrics::Tier::good; // of the worst
+    std::size_t usable = 0;                   // seeds that are at least usable
     std::string limited_by{};                 // what keeps it from the next tier
 };
 
@@ -35,10 +39,15 @@ struct Judged {
     std::optional<double> force_vibration_n{};
     metrics::Tier tier{};
     std::optional<double> turned_apart_deg{}; // mean of the worst seed; where a body turns
+    std::optional<double> stiffness_error{};
+    std::optional<double> slow_stiffness_error{};
 };
-/// The columns of its members, in their order.
+/// The columns of its members, in their order, but for stiffness errors.
 inline constexpr std::string_view judged_columns =
     "mean_mm:3,vibration_mm:3,stiffness_ratio:4,force_vibration_n:4,tier,turned_apart_deg:3?";
+/// Those of stiffness errors, which stand behind the columns of the parties.
+inline constexpr std::string_view stiffness_error_columns =
+    "stiffness_error:4?,slow_stiffness_error:4?";
 
 /// What is judged of the worst, by the filter that the criteria judge by; the mean is the typical.
 [[nodiscard]] Judged make_judged(const Summary& summary, const metrics::Criteria& criteria);

@@ -23,7 +23,7 @@ namespace hapnet::lab::results {
 struct PlayedCell {
     metrics::Metrics real{};
     metrics::Metrics simulated{}; // in virtual time, with the ticks of the daemons
-    metrics::Metrics perfect{};   // in virtual time, on a perfect network
+    metrics::Metrics perfect{};   // in virtual time: what the session is held against
     std::uint64_t missed_ticks = 0;
     double longest_gap_ms = 0.0; // between two ticks of a peer
     std::vector<std::string> invalid_because{};

@@ -117,7 +117,7 @@ bool ResultTables::commit_json(const char* name, bool of_sessions) const
     const auto is_meant = [&](const Table& table) {
         return table.name.starts_with("sessions") == of_sessions;
     };
-    if (std::ranges::none_of(tables_, is_meant)) return false;
+    if (of_sessions && std::ranges::none_of(tables_, is_meant)) return false;
     BlockFile file{folder_ / name};
     file.add(results::json_begin);
     std::string_view between_tables;

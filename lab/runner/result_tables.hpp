@@ -54,7 +54,8 @@ private:
     void wait(const WaitingLines& lines, const std::string& text, const std::string& name) const;
     void for_each_line(const Table& table, const WaitingLines& lines, const TakeLine& take) const;
     void commit_csv(const Table& table) const;
-    /// Of the tables that are, or are not, of sessions. False: there are none.
+    /// Of the tables that are, or are not, of sessions. False: there are none of sessions. Each
+    /// folder of results has a file of the others.
     [[nodiscard]] bool commit_json(const char* name, bool of_sessions) const;
     [[noreturn]] void refuse(const std::string& name) const;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/virtual_time/play.hpp"
 
+#include "lab/virtual_time/one_world.hpp"
 #include "scene/maths/rotation.hpp"
 
 #include <algorithm>
@@ -290,6 +291,7 @@ std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop
 base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop, PlaysOn plays_on)
 {
     if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
+    if (setting.is_one_world) return play_in_one_world(setting, stop);
     VirtualWorld world{setting};
     std::optional<Trace> trace = play_out(world, stop, plays_on);
     if (trace && has_overflowed(world)) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/virtual_time/player.hpp"
 
+#include "device/page/page_hand.hpp"
 #include "device/replay/replay.hpp"
 #include "device/simulated/omni.hpp"
 #include "peer/core/energy_budget.hpp"
@@ -59,22 +60,12 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId
 {
     const PlayerSetting& player = setting.players.at(id.seat);
     if (player.replay) return std::make_unique<device::Replay>(*player.replay, "a trace");
+    if (player.page) return std::make_unique<device::PageHand>(player.page);
     return std::make_unique<device::SimulatedOmni>(
         device::Performer{.task = setting.task,
                           .options = setting.task_options,
                           .person = player.person,
                           .way = player.way});
-}
-
-device::Rig rig_of(const Setting& setting, const PlayerId& id)
-{
-    auto device = device_of(setting, id);
-    device::GovernorLimits limits{.tick = setting.tick};
-    if (setting.energy_limit) {
-        limits.energy =
-            peer::energy_budget(device->capabilities(), setting.players.at(id.seat).algorithm);
-    }
-    return {std::move(device), limits};
 }
 
 /// A secret that follows from two numbers: in virtual time nothing has to be kept from anybody.
@@ -138,8 +129,19 @@ std::vector<peer::line::Line> lines_of(const Setting& setting, const PlayerId& i
 
 } // namespace
 
+device::Rig make_rig(const Setting& setting, const PlayerId& id)
+{
+    auto device = device_of(setting, id);
+    device::GovernorLimits limits{.tick = setting.tick};
+    if (setting.energy_limit) {
+        limits.energy =
+            peer::energy_budget(device->capabilities(), setting.players.at(id.seat).algorithm);
+    }
+    return {std::move(device), limits};
+}
+
 VirtualPlayer::VirtualPlayer(const Setting& setting, const PlayerId& id)
-    : rig{rig_of(setting, id)},
+    : rig{make_rig(setting, id)},
       side{std::make_unique<peer::Side>(settings_of(setting, id, rig.device().capabilities()))},
       lines{lines_of(setting, id)},
       own_seat{id.seat},

@@ -30,6 +30,9 @@ struct PlayerId {
     return place;
 }
 
+/// The device of a player, behind its governor.
+[[nodiscard]] device::Rig make_rig(const Setting& setting, const PlayerId& id);
+
 /// One player of a session in virtual time: everything that a peer daemon has but socket, clock,
 /// thread and journal.
 class VirtualPlayer {

@@ -46,6 +46,10 @@ base::Result<void> validate_number(const Setting& setting)
 
 base::Result<void> validate_network(const Setting& setting)
 {
+    if (!setting.profile.flows.empty()) {
+        return base::fail("the profile has flows, and messages in virtual time have neither "
+                          "addresses nor ports: leave out [[flow]]");
+    }
     const auto links = links_between(setting.players.size());
     const emulator::PathNames names{.links =
                                         links.size() == 1 ? std::vector<std::string>{} : links};
@@ -63,6 +67,22 @@ base::Result<void> validate_network(const Setting& setting)
 }
 
 } // namespace
+
+Setting in_one_world(Setting setting)
+{
+    setting.is_one_world = true;
+    setting.profile = {};
+    setting.wait_for = 0;
+    for (PlayerSetting& player : setting.players) {
+        PlayerSetting same;
+        same.person = player.person;
+        same.replay = player.replay;
+        same.page = player.page;
+        same.way = player.way;
+        player = std::move(same);
+    }
+    return setting;
+}
 
 std::vector<std::string> links_between(std::size_t players)
 {

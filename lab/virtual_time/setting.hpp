@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/page/page_hand.hpp"
 #include "device/replay/hand_trace.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
@@ -28,6 +29,8 @@ struct PlayerSetting {
     device::Operator person{};
     std::shared_ptr<const device::HandTrace> replay{}; // plays instead of the person; at least one
                                                        // moment, in the order of time
+    /// The hand is that of a page, and goes where it is told here; without a replay.
+    std::shared_ptr<device::HandWishes> page{};
     /// The way that the person means to go, instead of its task's; at least one moment.
     std::shared_ptr<const device::HandTrace> way{};
     base::Duration clock_ahead{}; // of the world's time
@@ -54,13 +57,19 @@ struct Setting {
     /// Conditions both ways between any two; its timeline counts from the first hello. What it has
     /// for link "1-2" holds between the players with these ids, who are more than two.
     emulator::Profile profile{};
+    /// All hands play in one scene, without a network: what the profile and the algorithms would
+    /// spoil. See in_one_world().
+    bool is_one_world = false;
     bool energy_limit = false; // the energy into the hands is limited as the daemons do it
-    /// Two to eight, with the ids 1, 2, ...; the 1st, 3rd, ... acts as L, the others as R. Up is
+    /// Two to eight, with the ids 1, 2, ...; the 1st, 3rd, ... acts as A, the others as B. Up is
     /// from the lower id to the higher.
     std::vector<PlayerSetting> players = std::vector<PlayerSetting>(2);
     /// So many of more than two must hear each other before they start; 0: all. Others join.
     std::size_t wait_for = 0;
 };
+
+/// The same hands in one scene, without a network: equal for all algorithms, networks and clocks.
+[[nodiscard]] Setting in_one_world(Setting setting);
 
 /// The links of a session between so many, as `hapnet-emulator --link` calls them: "1-2", "1-3",
 /// "2-3". Of two only: "", the only path.

@@ -45,8 +45,8 @@ struct Trace {
     device::Task task = device::Task::p1;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration begin{}; // of sample 0, from the session's start
-    /// Two or more, equally long, in the order of their ids: the 1st, 3rd, ... acts as L, the
-    /// others as R.
+    /// Two or more, equally long, in the order of their ids: the 1st, 3rd, ... acts as A, the
+    /// others as B.
     std::vector<std::vector<Sample>> sides = std::vector<std::vector<Sample>>(2);
     /// Of each side where the further shared bodies are, `further_bodies` after each tick in the
     /// order of their ids; empty where there is one body.

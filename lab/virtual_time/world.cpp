@@ -24,9 +24,11 @@ VirtualWorld::VirtualWorld(std::span<const Setting> settings, emulator::QueueLim
 
 void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
 {
-    emulator::Paths paths{
-        setting.profile,
-        {.seed = setting.seed, .start = start, .limits = limits, .has_stream_statistics = false}};
+    emulator::Paths paths{setting.profile,
+                          {.seed = setting.seed,
+                           .start = start,
+                           .limits = limits,
+                           .stream_detail = emulator::StreamDetail::nothing}};
     groups_.push_back({setting, std::move(paths), sides_.size(), setting.players.size()});
     for (const PlayerSetting& player : setting.players) {
         sides_.push_back({.player = std::nullopt,

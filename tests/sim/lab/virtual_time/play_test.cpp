@@ -232,7 +232,7 @@ TEST(Play, LosesNoDatagramThatTheEmulatorWouldKeep)
     EXPECT_GT(full(small), 0U) << "5 s of states are more than it holds";
     const auto trace = play(setting);
     ASSERT_TRUE(trace);
-    // R's cube is L's of 5 s ago, as long as nothing is missing.
+    // B's cube is A's of 5 s ago, as long as nothing is missing.
     const auto &left = trace->sides[0], &right = trace->sides[1];
     ASSERT_GT(left.size(), 20'000U);
     for (std::size_t i = 10'000; i < left.size(); ++i) {

@@ -87,5 +87,7 @@ TEST_F(FilesOfASession, AreRefusedByTheNameOfTheFileWithAValueOfAnotherType)
     EXPECT_EQ(refusal(), "");
 }
 
+TEST(CreateFolder, LeavesTheOneWhereItRuns) { EXPECT_NO_THROW(create_folder("")); }
+
 } // namespace
 } // namespace hapnet::lab

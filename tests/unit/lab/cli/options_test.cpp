@@ -27,9 +27,11 @@ TEST(LabOptions, HaveACompleteHelp)
 {
     const auto prints = cli::prints_of("hapnet-lab", parse_command_line);
     EXPECT_EQ(cli::help_faults("hapnet-lab", prints), std::vector<std::string>{});
-    EXPECT_EQ(prints({"report", "--help"})
-                  ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B] [MORE ...]\n", 0),
-              0U);
+    EXPECT_EQ(
+        prints({"report", "--help"})
+            ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B] [MORE ...] [--out FILE]\n",
+                    0),
+        0U);
     EXPECT_EQ(prints({"help", "plan"})
                   ->rfind("Usage: hapnet-lab plan EXPERIMENT --out DIR [OPTIONS]\n", 0),
               0U);
@@ -70,7 +72,7 @@ TEST(LabOptions, ReportAFolderOrTwoRecords)
 TEST(LabOptions, ListWhatIsBuiltIn)
 {
     const auto list = cli::prints_of("hapnet-lab", parse_command_line)({"list"}).value();
-    for (const char* name : {" fig6a, ", "paper\n", " stack-10, ", " dead-reckoning, ", " T1, "})
+    for (const char* name : {" fig6a, ", "paper\n", " rolling, ", " dead-reckoning, ", " T1, "})
         EXPECT_NE(list.find(name), std::string::npos) << name << " in\n" << list;
 }
 

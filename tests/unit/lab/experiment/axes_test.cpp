@@ -196,14 +196,15 @@ TEST(Axes, SayWhatIsWrongAndWhatWouldBeRight)
     says(many, {"more than 10000 points", "[latin_hypercube]"});
 }
 
-TEST(Axes, OfWhichAPointIsNoExperimentNameTheSetting)
+TEST(Axes, OfWhichAPointIsNoExperimentNameTheirPlaceAndTheValue)
 {
     const auto text = with("[axis]\nkey = \"seeds\"\nfrom = \"1\"\nto = \"2\"\n"
                            "[latin_hypercube]\npoints = 3\n");
     const auto open = [&](const std::string&) -> base::Result<std::string> { return text; };
     const auto loaded = load_axis_points("mine.toml", open, {});
     ASSERT_FALSE(loaded);
-    EXPECT_EQ(loaded.error().message.find("--set seeds=1."), 0U) << loaded.error().message;
+    EXPECT_EQ(loaded.error().message.find(": axis seeds=1."), std::string{"mine.toml:11:7"}.size())
+        << loaded.error().message;
 }
 
 } // namespace hapnet::lab::experiment::axes_test

@@ -17,24 +17,21 @@ Experiment beat(const std::string& setting)
     return load_experiment("beat", none, {.quick = false, .settings = {setting}}).value();
 }
 
-TEST(Claims, PlayEachConditionWithEverySeedAndSilenceWithThoseThatJudge)
+TEST(Claims, PlayEachConditionWithEverySeedAndSilence)
 {
     const Experiment experiment = beat("seeds=12");
-    EXPECT_EQ(judging_seeds(experiment), 10U);
     std::size_t tasks = 0;
     for (const ClaimCell& cell : claim_cells()) tasks += cell.tasks.size();
     const auto jobs = make_jobs(experiment);
-    EXPECT_EQ(jobs.size(), 12 * tasks + 10);
+    EXPECT_EQ(jobs.size(), 12 * tasks + 12);
     for (const Job& job : jobs) {
         const auto* const silence = std::get_if<SilenceJob>(&job);
         const SessionSpec& spec =
             silence != nullptr ? silence->spec : std::get<SessionJob>(job).spec;
         EXPECT_TRUE(validate(spec.setting));
-        EXPECT_GE(spec.setting.seed.value(), 9001U);
+        EXPECT_GE(spec.setting.seed.value(), 400001U);
     }
 }
-
-TEST(Claims, JudgeWithAllSeedsWhereThereAreFewer) { EXPECT_EQ(judging_seeds(beat("seeds=3")), 3U); }
 
 TEST(Claims, OfSilenceFindTheCopiesTogetherWhereNothingHadToHeal)
 {

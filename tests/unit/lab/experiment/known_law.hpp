@@ -10,11 +10,12 @@
 
 namespace hapnet::lab::experiment {
 
-/// Vibration up to 0.95 mm is usable, by whatever filter.
+/// Vibration up to 0.95 mm is usable, by whatever filter, and any distance of the copies.
 inline metrics::Criteria known_criteria()
 {
     metrics::Criteria criteria;
     criteria.usable.vibration_max_m = {.first = 0.95e-3, .second = 0.95e-3, .fourth = 0.95e-3};
+    criteria.usable.discrepancy_max_m = criteria.good.discrepancy_max_m = 1.0;
     return criteria;
 }
 
@@ -29,9 +30,10 @@ inline double delay_ms(const SessionSpec& spec)
 /// A session whose outcome is known beforehand: it vibrates 9.99 um for every millisecond of delay
 /// by the filter of first order, half as much by the second's and a fifth by the fourth's, and from
 /// seed to seed 1 % more. So it is usable up to 0.95 mm: at seed 1 up to 95 ms, at seed 3 up to 93.
+/// Seed 1001 is like seed 1.
 inline PlayedSession known_session(const SessionSpec& spec)
 {
-    const double seed = static_cast<double>(spec.setting.seed.value());
+    const double seed = static_cast<double>((spec.setting.seed.value() - 1) % 1000 + 1);
     const double vibration_m = 9.99e-6 * delay_ms(spec) * (1.0 + 0.01 * (seed - 1.0));
     PlayedSession played;
     played.metrics.task = spec.setting.task;

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 // What an experiment's text says, and what is said of texts that are none.
 #include "emulator/core/profile/paths.hpp"
+#include "emulator/core/profile/text.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/jobs.hpp"
 #include "lab/experiment/text.hpp"
 #include "scene/text/text.hpp"
 
 #include <gtest/gtest.h>
+#include <map>
+#include <string>
 
 namespace hapnet::lab::experiment {
 
@@ -40,7 +43,7 @@ void expect_words(const std::string& text, std::initializer_list<std::string_vie
 
 TEST(ExperimentText, EveryBuiltInExperimentReadsBackAsItIsPrinted)
 {
-    ASSERT_EQ(built_in_experiments().size(), 16U);
+    ASSERT_EQ(built_in_experiments().size(), 17U);
     for (const auto& built_in : built_in_experiments()) {
         for (const bool quick : {false, true}) {
             const auto read = parse_experiment(built_in.text, "it", {quick, {}});
@@ -53,6 +56,48 @@ TEST(ExperimentText, EveryBuiltInExperimentReadsBackAsItIsPrinted)
                         again->hands == read->hands && again->tasks == read->tasks);
         }
     }
+}
+
+TEST(ExperimentText, TakesItsNetworkFromTheFileOfAProfile)
+{
+    const base::OpenFile open = [](const std::string& name) -> base::Result<std::string> {
+        const std::string inside = "[up]\ndelay = \"40ms\"\n[[at]]\ntime = \"9s\"\n"
+                                   "up.loss = \"2%\"\n";
+        if (name == "home.toml") return inside;
+        if (name == "three.toml") return inside + "[link.\"1-3\"]\ndelay = \"80ms\"\n";
+        if (name == "wrong.toml") return "[up]\ndelay = \"40\"\n";
+        if (name == "trace.toml") return "[up]\ndelay = { law = \"trace\", file = \"d.csv\" }\n";
+        if (name == "d.csv") return "10ms\n20ms\n";
+        if (name == "lost.toml") return "[up]\ndelay = { law = \"trace\", file = \"e.csv\" }\n";
+        return base::fail("there is no file " + name);
+    };
+    const auto text = [](std::string_view file) {
+        return "profile = \"" + std::string{file} + "\"\n" + std::string{smallest};
+    };
+    const auto named = parse_experiment(text("home.toml"), "mine.toml", {}, open);
+    ASSERT_TRUE(named) << named.error().message;
+    const auto same = emulator::parse_profile(*open("home.toml"), "home.toml", {});
+    EXPECT_EQ(named->path, same->path);
+    EXPECT_EQ(named->timeline, same->timeline);
+    const auto again = parse_experiment(to_text(*named), "again"); // it needs no file any more
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->path, named->path);
+    const auto why = [&](const std::string& of) {
+        const auto read = parse_experiment(of, "mine.toml", {}, open);
+        return read ? "accepted" : read.error().message;
+    };
+    EXPECT_EQ(why(text("wrong.toml")),
+              "mine.toml:1:11: wrong.toml:2:9: '40' has no unit: write 40ms, 40us or 40s");
+    EXPECT_EQ(why(text("no.toml")), "mine.toml:1:11: there is no file no.toml");
+    EXPECT_EQ(why(text("three.toml")), "mine.toml:1:11: T1, 2 peers: there is no link 1-3 between "
+                                       "two: use both, up or down");
+    const auto traced = parse_experiment(text("trace.toml"), "mine.toml", {}, open);
+    ASSERT_TRUE(traced) << traced.error().message;
+    EXPECT_TRUE(std::holds_alternative<emulator::TraceLaw>(traced->path.up.delay.law));
+    expect_words(why(text("lost.toml")), {"mine.toml:1:11:", "lost.toml:2:9:", "no file e.csv"});
+    EXPECT_EQ(why(text("home.toml") + "[both]\ndelay = \"5ms\"\n"),
+              "mine.toml:1:11: a profile is the whole network: write its path, or conditions such "
+              "as [both] and [[at]], not both");
 }
 
 TEST(ExperimentText, PrintsAsymmetricHandsOwnOperatorsAndOwnAlgorithms)
@@ -197,7 +242,7 @@ TEST(ExperimentText, ABadSettingIsNamedWithWhatWouldBeRight)
     expect_words(complaint(text, {"duration=20s", "seeds=many"}),
                  {"--set seeds=many: ", "'many'", "whole number from 1 to 1000"});
     expect_words(complaint(text, {"seedz=3"}), {"--set seedz=3: ", "did you mean 'seeds'?"});
-    expect_words(complaint(text, {"both.delay=5"}), {"--set both.delay=5: ", "160ms"});
+    expect_words(complaint(text, {"both.delay=5"}), {"--set both.delay=5: ", "write 5ms"});
     expect_words(complaint(text, {"seeds"}), {"--set seeds: ", "KEY=VALUE"});
     expect_words(complaint(text, {"tasks=[T1]"}), {"--set tasks=[T1]: ", "[\"T1\", \"T3\"]"});
     expect_words(complaint(text, {".=1"}), {"--set .=1: ", "KEY=VALUE"});
@@ -217,7 +262,7 @@ TEST(ExperimentText, ComplaintsSayWhereAndWhatWouldBeRight)
     expect_words(complaint(with("algorithms = [\"a,b\"]\n")), {"letters, digits"});
     expect_words(complaint(with("algorithms = [\"base\", \"base\"]\n")), {"there already"});
     expect_words(complaint(with("seeds = 0\n")), {"mine.toml:3:9: ", "from 1 to 1000"});
-    expect_words(complaint(with("duration = \"1s\"\n")), {"mine.toml:3:12: ", "5s", "600s"});
+    expect_words(complaint(with("duration = \"50ms\"\n")), {"mine.toml:3:12: ", "100ms", "600s"});
     expect_words(complaint(with("hands = \"weak\"\n")), {"mine.toml:3:9: ", "weak"});
     expect_words(complaint(with("hands = [\"firm\"]\n")), {"a list of two"});
     expect_words(complaint(with("[quick]\nseedz = 1\n")), {"seedz"});
@@ -226,7 +271,7 @@ TEST(ExperimentText, ComplaintsSayWhereAndWhatWouldBeRight)
     expect_words(complaint(limits("to = \"0ms\"\nstep = \"10ms\"\nresolution = \"5ms\"\n")),
                  {"'from' has to be less than 'to'"});
     expect_words(complaint(limits("to = 100\nstep = \"10ms\"\nresolution = \"5ms\"\n")),
-                 {"mine.toml:4:6: ", "160ms"});
+                 {"mine.toml:4:6: ", "write 100ms"});
     expect_words(complaint("kind = \"limits\"\ntasks = \"T1\"\nlimit = {}\n"), {"[limit.delay]"});
 }
 
@@ -255,6 +300,74 @@ TEST(ExperimentText, ANameThatIsNeitherAFileNorAnExperimentIsNamed)
     const auto missing = load_experiment("mine.toml", no_file, {});
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().message, "cannot open mine.toml");
+}
+
+TEST(ExperimentText, FindsFilesBesideTheExperimentFirst)
+{
+    const std::string text = "kind = \"trajectories\"\ntasks = [\"T1\"]\n"
+                             "algorithms = [\"base\"]\nreplay = [\"hand.csv\", \"\"]\n";
+    std::map<std::string, std::string> files{{"moved/mine.toml", text},
+                                             {"mine.toml", text},
+                                             {"moved/hand.csv", "time_s,x_m,y_m,z_m\n0,0.01,0,0\n"},
+                                             {"hand.csv", "time_s,x_m,y_m,z_m\n0,0.02,0,0\n"}};
+    const auto open = [&files](const std::string& name) -> base::Result<std::string> {
+        const auto found = files.find(name);
+        if (found == files.end()) return base::fail("cannot open " + name);
+        return found->second;
+    };
+    const auto x_of = [&open](const std::string& experiment) {
+        const auto loaded = load_experiment(experiment, open, {});
+        EXPECT_TRUE(loaded) << loaded.error().message;
+        return loaded ? loaded->replay.at(0).trace->front().hip.x() : -1.0;
+    };
+    EXPECT_EQ(x_of("moved/mine.toml"), 0.01);
+    EXPECT_EQ(x_of("mine.toml"), 0.02);
+    files.erase("moved/hand.csv");
+    EXPECT_EQ(x_of("moved/mine.toml"), 0.02) << "or else where the program runs";
+    files.erase("hand.csv");
+    EXPECT_FALSE(load_experiment("moved/mine.toml", open, {}));
+}
+
+TEST(ExperimentText, TakesASessionsLengthFromItsScript)
+{
+    const auto open = [](const std::string& name) -> base::Result<std::string> {
+        if (name == "long.csv") return "time_s,x_m,y_m,z_m\n0,0,0,0\n12.5,0.01,0,0\n";
+        return "time_s,x_m,y_m,z_m\n0,0,0,0\n1.2,0.01,0,0\n";
+    };
+    const auto duration = [&](std::string_view more) {
+        const auto read =
+            parse_experiment(with("duration = \"script\"\n" + std::string{more}), "it", {}, open);
+        return read ? base::to_text(read->duration) : read.error().message;
+    };
+    EXPECT_EQ(duration("script = [\"long.csv\", \"short.csv\"]\n"), "15500ms");
+    EXPECT_EQ(duration("replay = [\"short.csv\", \"\"]\n"), "2400ms") << "hands off for half";
+    EXPECT_EQ(duration(""), "it:3:12: there is no script or replay to take the duration from: name "
+                            "one, or write a time");
+}
+
+TEST(ExperimentText, RefusesACombinationThatCannotPlayBeforeTheFirstSession)
+{
+    const auto text = with("algorithms = [\"base\", \"rollback\"]\n");
+    EXPECT_EQ(complaint(text), "");
+    EXPECT_TRUE(complaint("kind = \"table1\"\ntasks = [\"T1\", \"T4\"]\n"
+                          "algorithms = [\"base\", \"rollback\"]\n")
+                    .starts_with("mine.toml:3:14: T4, 2 peers: "));
+    EXPECT_TRUE(complaint("kind = \"claims\"\ntasks = \"T1\"\nalgorithms = \"sep\"\n")
+                    .starts_with("mine.toml:3:14: T1, 3 peers: "));
+}
+
+TEST(ExperimentText, NamesThePlaceOfAnAxisWhetherItStandsAloneOrAmongSeveral)
+{
+    const auto why = [](std::string_view head) {
+        const auto text = with("[both]\ndelay = \"5ms\"\n" + std::string{head} +
+                               "\nkey = \"both.delay\"\nvalues = [\"1ms\", \"fast\"]\n");
+        const auto open = [&](const std::string&) -> base::Result<std::string> { return text; };
+        const auto points = load_axis_points("mine.toml", open, {});
+        return points ? "accepted" : points.error().message;
+    };
+    EXPECT_TRUE(why("[axis]").starts_with("mine.toml:6:7: axis both.delay=fast: "))
+        << why("[axis]");
+    EXPECT_TRUE(why("[[axis]]").starts_with("mine.toml:6:7: axis both.delay=fast: "));
 }
 
 } // namespace hapnet::lab::experiment

@@ -7,10 +7,12 @@
 #include "lab/live/control.hpp"
 #include "lab/virtual_time/play.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
 #include <string>
 #include <variant>
 
@@ -133,6 +135,94 @@ TEST(LiveSession, SavedAsAnExperimentPlaysTheSameToTheBit)
     EXPECT_NE(bits_of(*played), bits_of(*unchanged));
 }
 
+/// A person moves the hand to and fro, left of the cube, as a mouse does: a place every 16 ms.
+void push(Session& session, base::Duration until, bool grips = false)
+{
+    for (int i = 0; session.at() < until; ++i) {
+        const double way = (i / 40) % 2 == 0 ? 0.001 * (i % 40) : 0.001 * (40 - i % 40);
+        session.hand(device::HandWish{{{-0.05 + way, 0.002, -0.001}}, grips});
+        session.play_on(16ms);
+    }
+}
+
+class HandOfAPage : public testing::TestWithParam<const char*> {};
+
+TEST_P(HandOfAPage, IsSavedAsAReplayThatPlaysTheSameToTheBit)
+{
+    const auto experiment = experiment::parse_experiment(
+        fmt::format("kind = \"trajectories\"\nseeds = 1\nfirst_seed = 3\nduration = \"8s\"\n"
+                    "tasks = [\"T1\"]\nalgorithms = [\"base\", \"sep\"]\n[both]\ndelay = \"{}\"\n",
+                    GetParam()),
+        "test");
+    ASSERT_TRUE(experiment);
+    auto made = Session::make(*experiment, {}, Session::HandOfA::page);
+    ASSERT_TRUE(made) << made.error().message;
+    Session& session = **made;
+    push(session, 4s);
+    session.hand(std::nullopt); // the person lets go
+    session.play_to(5s);
+    push(session, 6s, /*grips*/ true); // and comes back, grips, and falls silent
+    session.play_to(20s);
+    ASSERT_TRUE(session.is_over());
+    const auto digest = session.digest();
+    session.seek(3s);
+    session.seek(20s);
+    EXPECT_EQ(session.digest(), digest) << "the hand is part of the session";
+
+    auto saved = session.as_experiment();
+    ASSERT_TRUE(saved);
+    ASSERT_EQ(saved->replay.size(), 2U);
+    double right = -1.0;
+    for (const device::HandMoment& moment : *saved->replay[0].trace)
+        right = std::max(right, moment.hip.x());
+    EXPECT_GT(right, -0.02) << "it pushes the cube";
+    saved->replay[0].name = "hand.csv";
+    const std::string way = device::print_hand_trace(*saved->replay[0].trace);
+    const auto read = experiment::parse_experiment(
+        experiment::to_text(*saved), "saved", {},
+        [&](const std::string&) -> base::Result<std::string> { return way; });
+    ASSERT_TRUE(read) << read.error().message;
+    const auto again = session_of(*read);
+    again->play_to(20s);
+    EXPECT_EQ(again->digest(), digest);
+    // hapnet-lab run plays the same session, and the push changes it.
+    const auto played = virtual_time::play(setting_of(*read));
+    const auto simulated = virtual_time::play(setting_of(*experiment));
+    ASSERT_TRUE(played && simulated);
+    EXPECT_NE(bits_of(*played), bits_of(*simulated));
+}
+
+INSTANTIATE_TEST_SUITE_P(At, HandOfAPage, testing::Values("0ms", "160ms"));
+
+TEST(LiveSession, ForgetsTheHandOfLaterWhenItIsSoughtBackAndMovedAgain)
+{
+    const auto experiment = of_text("algorithms = [\"base\"]");
+    auto made = Session::make(experiment, {}, Session::HandOfA::page);
+    ASSERT_TRUE(made);
+    Session& session = **made;
+    push(session, 6s);
+    session.seek(2s);
+    session.hand(device::HandWish{{{-0.1, 0.0, 0.0}}});
+    session.play_to(20s);
+    const auto saved = session.as_experiment();
+    ASSERT_TRUE(saved);
+    EXPECT_EQ(saved->replay[0].trace->back().hip, (base::Position{{-0.1, 0.0, 0.0}}));
+}
+
+TEST(LiveSession, TellsTheTimeOfTheSessionAfterASeekToo)
+{
+    const auto session = session_of(of_text());
+    const auto frames = session->watch_peer(0);
+    for (const base::Duration time : {5s, 8s, 4s, 6s}) { // there, on, back and on
+        session->seek(time);
+        std::string text;
+        frames(text, 0);
+        const auto frame = nlohmann::json::parse(text);
+        ASSERT_TRUE(frame["session"].is_object()) << base::to_seconds(time) << " s";
+        EXPECT_NEAR(frame["session"]["at_s"].get<double>(), base::to_seconds(time) - 1.3, 0.5);
+    }
+}
+
 TEST(LiveSession, PlaysAsPlayDoes)
 {
     const auto experiment = of_text();
@@ -193,8 +283,8 @@ TEST(LiveControl, PausesSeeksAndSaves)
     const auto session = session_of(of_text());
     Pace pace{1.0, true};
     std::string saved;
-    const auto save = [&](const std::string& text) {
-        saved = text;
+    const auto save = [&](const experiment::Experiment& one) {
+        saved = experiment::to_text(one);
         return base::Result<std::string>{"/there/experiment-1.toml"};
     };
     const Controlled<Session> controlled{*session, pace, save, [] { FAIL() << "nobody stops it"; }};

@@ -13,6 +13,8 @@ namespace hapnet::lab::metrics {
     Scores scores{.task = device::Task::t2, .scored_share = 1.0};
     scores.vibration_m = ByOrder{};
     scores.stiffness_ratio = {1.0, 1.0, 1.0};
+    scores.stiffness_error = 0.0;
+    scores.slow_stiffness_error = 0.0;
     scores.force_discrepancy = 0.04;
     scores.force_vibration_added_n = ByOrder{};
     scores.contact_lost = 0.0;
@@ -25,7 +27,7 @@ namespace hapnet::lab::metrics {
 {
     Criteria criteria;
     criteria.usable.vibration_max_m = {.first = 1.0e-3, .second = 0.9e-3, .fourth = 0.8e-3};
-    criteria.usable.stiffness_ratio_min = 0.11;
+    criteria.usable.slow_stiffness_error_max = 0.9;
     return criteria;
 }
 

@@ -3,6 +3,7 @@
 #include "lab/metrics/paired.hpp"
 
 #include <gtest/gtest.h>
+#include <span>
 #include <vector>
 
 namespace hapnet::lab::metrics {
@@ -14,6 +15,20 @@ TEST(SignTest, IsTheBinomialTest)
     EXPECT_DOUBLE_EQ(sign_test(1, 9), 22.0 / 1024.0);
     EXPECT_DOUBLE_EQ(sign_test(5, 5), 1.0);
     EXPECT_DOUBLE_EQ(sign_test(0, 0), 1.0);
+}
+
+TEST(IntervalOfMean, OfFewValuesIsTheirLeastAndTheirMost)
+{
+    const std::vector<double> five{1.0, 2.0, 3.0, 4.0, 15.0};
+    for (std::size_t count = 1; count <= five.size(); ++count) {
+        const auto few = interval_of_mean(std::span{five}.first(count));
+        EXPECT_EQ(few.low, 1.0) << count;
+        EXPECT_EQ(few.high, five[count - 1]) << count;
+    }
+    const std::vector<double> six{1.0, 2.0, 3.0, 4.0, 15.0, 16.0};
+    ASSERT_EQ(six.size(), interval_seeds_min);
+    EXPECT_GT(interval_of_mean(six).low, 1.0);
+    EXPECT_LT(interval_of_mean(six).high, 16.0);
 }
 
 TEST(PairedTest, SeesADifferenceThatTheSpreadOfTheSeedsHides)

@@ -113,6 +113,8 @@ TEST(Interval, OfFewSeedsIsWiderThanThePercentilesOfTheReplicates)
     EXPECT_EQ(interval_of(values, 40).high, 0.98);
     EXPECT_EQ(interval_of(values, 10).low, 0.009);
     EXPECT_EQ(interval_of(values, 4).low, 0.001);
+    EXPECT_EQ(interval_of(values, interval_seeds_min - 1).low, values.front()) << "not 95 %";
+    EXPECT_GT(interval_of(values, interval_seeds_min).low, values.front());
 }
 
 TEST(Threshold, NeverReachedIsOpenAndHasNoUpperEnd)

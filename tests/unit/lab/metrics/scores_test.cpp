@@ -32,11 +32,49 @@ TEST(Scores, TakeOffWhatThePerfectNetworkShows)
     EXPECT_EQ(scores.vibration_m->fourth, 0.0);
     EXPECT_EQ(scores.stiffness_ratio[judged_press], 0.2);
     EXPECT_FALSE(scores.stiffness_ratio[0]);
+    EXPECT_DOUBLE_EQ(*scores.stiffness_error, 0.8);
+    EXPECT_FALSE(scores.slow_stiffness_error);
     impaired.stiffness_n_per_m[judged_press][1].reset(); // it ended before R's turn
     EXPECT_EQ(*scores_of(impaired, perfect).stiffness_ratio[judged_press], 10.0 / 120.0);
     EXPECT_DOUBLE_EQ(*scores.contact_lost, 0.04);
     EXPECT_DOUBLE_EQ(*scores.response_added_s, 0.16);
     EXPECT_FALSE(scores.drag_n);
+}
+
+TEST(Scores, CallStiffnessWrongThatComesLateOrIsTooMuch)
+{
+    Metrics due{.task = Task::t2, .scored_s = 27.0};
+    for (std::size_t press = 0; press < press_hertz.size(); ++press) {
+        due.stiffness_n_per_m[press] = {200.0, 200.0};
+        due.loss_stiffness_n_per_m[press] = {0.0, 0.0};
+    }
+    Metrics felt = due;
+    EXPECT_EQ(*scores_of(felt, due).stiffness_error, 0.0);
+    felt.stiffness_n_per_m[2] = {0.0, 0.0}; // as large as is due, a quarter of a period off
+    felt.loss_stiffness_n_per_m[2] = {-200.0, -200.0};
+    const Scores late = scores_of(felt, due);
+    EXPECT_DOUBLE_EQ(*late.stiffness_ratio[2], 1.0);
+    EXPECT_DOUBLE_EQ(*late.stiffness_error, std::sqrt(2.0));
+    EXPECT_EQ(*late.slow_stiffness_error, 0.0);
+    felt.stiffness_n_per_m[0] = {1160.0, 1160.0}; // 5.8 times what is due
+    const Scores hard = scores_of(felt, due);
+    EXPECT_DOUBLE_EQ(*hard.stiffness_error, 4.8);
+    EXPECT_DOUBLE_EQ(*hard.slow_stiffness_error, 4.8);
+}
+
+TEST(Scores, HoldStiffnessAgainstOneSharedWorldAndNotAgainstASoftAlgorithmsOwn)
+{
+    Metrics own{.task = Task::t2, .scored_s = 27.0};
+    own.stiffness_n_per_m[judged_press] = {27.0, 27.0};
+    own.drag_n = {0.1, 0.2};
+    Metrics one_world{.task = Task::t2, .scored_s = 27.0};
+    one_world.stiffness_n_per_m[judged_press] = {200.0, 200.0};
+    Metrics felt = own;
+    felt.stiffness_n_per_m[judged_press] = {66.0, 66.0};
+    const Metrics reference = make_reference(own, one_world);
+    EXPECT_EQ(reference.drag_n, own.drag_n);
+    EXPECT_DOUBLE_EQ(*scores_of(felt, reference).stiffness_ratio[judged_press], 0.33);
+    EXPECT_DOUBLE_EQ(*scores_of(felt, reference).stiffness_error, 0.67);
 }
 
 TEST(Scores, KeepANumberThatIsNone)

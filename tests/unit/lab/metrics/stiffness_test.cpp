@@ -15,7 +15,7 @@ std::vector<double> scaled(std::vector<double> values, double by)
     return values;
 }
 
-TEST(Stiffness, OfASpringIsItsConstantAndOfADamperNothing)
+TEST(Stiffness, StoresOfASpringAndLosesInADamper)
 {
     const auto hip = scaled(sine(1.0, 4.0, 0.3), 0.004);
     const auto velocity = scaled(sine(1.0, 4.0, 0.3 + pi / 2), 0.004 * 2.0 * pi);
@@ -24,7 +24,9 @@ TEST(Stiffness, OfASpringIsItsConstantAndOfADamperNothing)
         force[i] = 0.7 - 120.0 * hip[i] - 5.0 * velocity[i];
     }
     // Only rounding and the turning pointer's drift: some 1e-16 a step.
-    EXPECT_NEAR(*stiffness_of(force, hip, 1.0, wave_tick_s), 120.0, 1e-8);
+    const auto felt = stiffness_of(force, hip, 1.0, wave_tick_s);
+    EXPECT_NEAR(felt->storage_n_per_m, 120.0, 1e-8);
+    EXPECT_NEAR(felt->loss_n_per_m, 5.0 * 2.0 * pi, 1e-8);
 }
 
 TEST(Stiffness, IsMeasuredOverWholePeriodsAndIgnoresOtherFrequencies)
@@ -36,7 +38,9 @@ TEST(Stiffness, IsMeasuredOverWholePeriodsAndIgnoresOtherFrequencies)
         force[i] = -80.0 * hip[i] + 300.0 * other[i];
         hip[i] += other[i];
     }
-    EXPECT_NEAR(*stiffness_of(force, hip, 2.0, wave_tick_s), 80.0, 1e-8);
+    const auto felt = stiffness_of(force, hip, 2.0, wave_tick_s);
+    EXPECT_NEAR(felt->storage_n_per_m, 80.0, 1e-8);
+    EXPECT_NEAR(felt->loss_n_per_m, 0.0, 1e-8);
 }
 
 TEST(Stiffness, NeedsAPeriodAndAHandThatMoves)

@@ -8,6 +8,7 @@
 #include "lab/results/shipped.hpp"
 #include "lab/results/table_text.hpp"
 #include "peer/core/sync/text.hpp"
+#include "scene/text/text.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ resolution = "1ms"
 
 experiment::Experiment experiment_of(std::string_view text)
 {
-    auto experiment = experiment::parse_experiment(text, "test.toml");
+    auto experiment = experiment::parse_experiment(text, "test.toml", {false, {"first_seed=1"}});
     EXPECT_TRUE(experiment) << experiment.error().message;
     return *std::move(experiment);
 }
@@ -71,7 +72,7 @@ TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
         });
     EXPECT_EQ(header_of(files.at("limits")),
               "algorithm,impairment,task,limit,bound,unit,paper_limit,status,class,p50,p10,ci_low,"
-              "ci_high,seeds");
+              "ci_high,seeds,decided_by");
     const auto rows = rows_of(files.at("limits"));
     ASSERT_EQ(rows.size(), 6U);
     // The seeds fail from 96, 95 and 94 ms on: two of three at 95, one at 94.
@@ -144,7 +145,7 @@ resolution = "1ms"
             played.metrics.body_vibration_m[0]->first = 1.0;
         return base::Result<experiment::PlayedSession>{played};
     });
-    EXPECT_TRUE(header_of(files.at("limits")).ends_with(",seeds,peers"));
+    EXPECT_TRUE(header_of(files.at("limits")).ends_with(",seeds,peers,decided_by"));
     const auto rows = rows_of(files.at("limits"));
     ASSERT_EQ(rows.size(), 4U);
     EXPECT_EQ(rows[0].text("bound"), ">");
@@ -255,7 +256,8 @@ both.delay = "80ms"
               "dead-reckoning,8.000,0.000,24.000,0.100,,,,,,\n")
         << "80 ms are not the paper's 160";
     const std::string tasks = csv_text(files.at("tasks"));
-    EXPECT_NE(tasks.find("\nbase,T1,2,8.000,0.100,24.000,0.807,,,,,,,,good,\n"), std::string::npos)
+    EXPECT_NE(tasks.find("\nbase,T1,2,8.000,0.100,24.000,0.807,,,,,,,,good,,8.000,8.000,2\n"),
+              std::string::npos)
         << tasks;
     EXPECT_EQ(tasks.find(",P1,"), std::string::npos);
     const std::string sessions = csv_text(files.at("sessions"));
@@ -313,6 +315,45 @@ TEST(ReplayTable, ThinsATraceToTheRowsThatAreWanted)
                     "0.000,0.000,0.0000\n");
     EXPECT_TRUE(replay_table(trace, 0).is_empty());
     EXPECT_EQ(kept_lines(from_kept_lines("replay/a-T1", rows)), rows);
+}
+
+TEST(ReplayTable, HasHowBodiesAreTurnedAndWhereFurtherOnesAreAndReadsThemBack)
+{
+    virtual_time::Trace trace;
+    for (auto& side : trace.sides) side.resize(2);
+    trace.further_bodies = 1;
+    trace.further.assign(2, std::vector<virtual_time::Pose>(2));
+    trace.sides[0][1].orientation = glm::dquat{0.6, 0.0, 0.8, 0.0};
+    trace.further[1][1] = {base::Position{{0.0, 0.07, 0.0}}, glm::dquat{0.0, 1.0, 0.0, 0.0}};
+    Table table = replay_table(trace, 1000);
+    EXPECT_EQ(csv_text(from_kept_lines("replay", kept_lines(table))), csv_text(table));
+    table.name = "replay/base-T9";
+    const auto replay = replay_of(table);
+    ASSERT_TRUE(replay) << replay.error().message;
+    ASSERT_EQ(replay->sides[1].bodies.size(), 2U);
+    EXPECT_EQ(replay->sides[0].name, "A");
+    EXPECT_EQ(replay->sides[0].bodies[0][1].orientation.y, 0.8);
+    EXPECT_EQ(replay->sides[1].bodies[1][1].orientation.x, 1.0);
+    EXPECT_DOUBLE_EQ(replay->sides[1].bodies[1][1].position.value.y, 0.07);
+}
+
+TEST(ReplayScenes, AreThoseOfTheSessionsWhereTheyAreNotThePapers)
+{
+    auto replay = replay_of(replay_table(
+        [] {
+            virtual_time::Trace trace;
+            for (auto& side : trace.sides) side.resize(2);
+            return trace;
+        }(),
+        1000));
+    ASSERT_TRUE(replay);
+    scene::Description scene = scene::paper_scene();
+    scene.name = "mine";
+    EXPECT_TRUE(set_scene(*replay, scene::to_text(scene)));
+    EXPECT_EQ(replay->scene.name, "mine");
+    EXPECT_FALSE(set_scene(*replay, "no scene"));
+    std::erase_if(scene.bodies, [](const auto& body) { return body.movable; });
+    EXPECT_FALSE(set_scene(*replay, scene::to_text(scene))) << "nothing in it is shared";
 }
 
 TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)

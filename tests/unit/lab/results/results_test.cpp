@@ -88,13 +88,13 @@ TEST(Results, KnowTheCriteriaOnlyWhenAllRunsAgreeOnThem)
 {
     const auto manifest = [](std::string path, std::string_view ratio) {
         return results::File{std::move(path),
-                             R"({"valid": true, "criteria": "[usable]\nstiffness_ratio_min = )" +
+                             R"({"valid": true, "criteria": "[usable]\nscored_share_min = )" +
                                  std::string{ratio} + R"("})"};
     };
     const auto one = read_results(std::vector{manifest("a/manifest.json", "0.2")});
     ASSERT_TRUE(one) << one.error().message;
     ASSERT_TRUE(one->criteria());
-    EXPECT_EQ(one->criteria()->usable.stiffness_ratio_min, 0.2);
+    EXPECT_EQ(one->criteria()->usable.scored_share_min, 0.2);
     const auto two = read_results(
         std::vector{manifest("a/manifest.json", "0.2"), manifest("b/manifest.json", "0.3")});
     ASSERT_TRUE(two);

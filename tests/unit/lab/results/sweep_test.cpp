@@ -14,11 +14,12 @@ namespace {
 /// Two seeds of one condition.
 experiment::Experiment two_seeds()
 {
-    return experiment::parse_experiment("title = \"a\"\nkind = \"plane\"\nseeds = 2\n"
-                                        "duration = \"5s\"\nalgorithms = [\"base\"]\n"
-                                        "tasks = [\"T1\"]\nplane.delay = \"5ms\"\n"
-                                        "plane.jitter = \"0ms\"\nplane.loss = \"0%\"\n",
-                                        "a")
+    return experiment::parse_experiment(
+               "title = \"a\"\nkind = \"plane\"\nseeds = 2\nfirst_seed = 1\n"
+               "duration = \"5s\"\nalgorithms = [\"base\"]\n"
+               "tasks = [\"T1\"]\nplane.delay = \"5ms\"\n"
+               "plane.jitter = \"0ms\"\nplane.loss = \"0%\"\n",
+               "a")
         .value();
 }
 
