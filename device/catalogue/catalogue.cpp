@@ -105,9 +105,10 @@ base::Result<DeviceName> parse_device_name(std::string_view text)
     for (const Backend& backend : backends()) {
         known += fmt::format(", {}[:SERIAL] ({})", backend.name, backend.what);
     }
-    return base::fail(fmt::format("unknown device '{}': use one of sim, sim:joints, replay:FILE{}; "
-                                  "hapnet-peer list-devices shows which are connected",
-                                  text, known));
+    return base::fail(
+        fmt::format("unknown device '{}': use one of sim, sim:joints, replay:FILE, page{}; "
+                    "hapnet-peer list-devices shows which are connected",
+                    text, known));
 }
 
 std::vector<Found> find_devices(const DeviceOptions& options)

@@ -44,6 +44,7 @@ struct Columns {
     std::size_t count = 0;
     std::size_t time = none;
     std::size_t gripping = none;
+    std::size_t docked = none;
     std::array<std::size_t, 3> axes{none, none, none};
     double m_per_unit = 1.0;
 };
@@ -68,6 +69,7 @@ std::optional<Columns> columns_of(std::string_view header)
     columns.count = names.size();
     columns.time = place_of(names, "time_s");
     columns.gripping = place_of(names, "gripping");
+    columns.docked = place_of(names, "docked");
     for (const Naming& naming : namings) {
         if (columns.time == Columns::none || place_of(names, naming.axes[0]) == Columns::none) {
             continue;
@@ -89,11 +91,13 @@ base::Result<HandMoment> moment_in(std::string_view line, const Columns& columns
         more = line.find(',') != std::string_view::npos;
         const auto cell = take_until(line, ',');
         const auto number = number_in(cell);
-        if (cells == columns.gripping) {
+        if (cells == columns.gripping || cells == columns.docked) {
+            const bool is_grip = cells == columns.gripping;
             if (cell != "0" && cell != "1") {
-                return base::fail(fmt::format("'{}' does not say 0 or 1 for gripping", cell));
+                return base::fail(fmt::format("'{}' does not say 0 or 1 for {}", cell,
+                                              is_grip ? "gripping" : "docked"));
             }
-            moment.gripping = cell == "1";
+            (is_grip ? moment.gripping : moment.docked) = cell == "1";
         }
         if (cells == columns.time) {
             if (!number) return base::fail(fmt::format("'{}' is not a time in seconds", cell));
@@ -147,16 +151,27 @@ base::Result<HandTrace> parse_hand_trace(std::string_view text, const std::strin
     return trace;
 }
 
+std::string print_hand_trace(const HandTrace& trace)
+{
+    std::string text = "time_s,x_m,y_m,z_m,gripping,docked\n";
+    for (const HandMoment& moment : trace) {
+        text += fmt::format("{},{},{},{},{:d},{:d}\n", moment.time_s, moment.hip.x(),
+                            moment.hip.y(), moment.hip.z(), moment.gripping, moment.docked);
+    }
+    return text;
+}
+
 HandMoment moment_at(const HandTrace& trace, double seconds)
 {
     const auto next =
         std::upper_bound(trace.begin(), trace.end(), seconds,
                          [](double t, const HandMoment& moment) { return t < moment.time_s; });
-    if (next == trace.begin()) return {seconds, next->hip, false};
+    if (next == trace.begin()) return {seconds, next->hip, false, next->docked};
     const HandMoment& from = *(next - 1);
-    if (next == trace.end()) return {seconds, from.hip, false};
+    if (next == trace.end()) return {seconds, from.hip, false, from.docked};
     const double share = (seconds - from.time_s) / (next->time_s - from.time_s);
-    return {seconds, {from.hip.value + share * (next->hip - from.hip).value}, from.gripping};
+    const base::Position hip{from.hip.value + share * (next->hip - from.hip).value};
+    return {seconds, hip, from.gripping, from.docked};
 }
 
 } // namespace hapnet::device

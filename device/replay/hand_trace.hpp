@@ -17,6 +17,7 @@ struct HandMoment {
     double time_s = 0.0;
     base::Position hip;
     bool gripping = false;
+    bool docked = false; // no hand holds the stylus
 
     friend bool operator==(const HandMoment&, const HandMoment&) = default;
 };
@@ -25,17 +26,20 @@ struct HandMoment {
 using HandTrace = std::vector<HandMoment>;
 
 /// Between two moments evenly from one to the next; before the first, and after the last, there
-/// without a grip.
+/// without a grip. A docked stylus stays docked.
 [[nodiscard]] HandMoment moment_at(const HandTrace& trace, double seconds);
 
 inline constexpr std::size_t hand_moments_max = 4'000'000;
 inline constexpr double hand_reach_max_m = 10.0;
 
 /// Reads CSV. The first line names the columns: time_s, and x_m, y_m and z_m, or hip_x_mm,
-/// hip_y_mm and hip_z_mm, as `hapnet-lab export` writes them; gripping (0 or 1) may be there;
-/// others are passed over. Times grow from line to line. The error is FILE:LINE and what was
+/// hip_y_mm and hip_z_mm, as `hapnet-lab export` writes them; gripping and docked (0 or 1) may be
+/// there; others are passed over. Times grow from line to line. The error is FILE:LINE and what was
 /// expected, the file being called `source`.
 [[nodiscard]] base::Result<HandTrace> parse_hand_trace(std::string_view text,
                                                        const std::string& source);
+
+/// The way as CSV that parse_hand_trace() reads back to the same bits.
+[[nodiscard]] std::string print_hand_trace(const HandTrace& trace);
 
 } // namespace hapnet::device

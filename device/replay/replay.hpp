@@ -3,10 +3,9 @@
 #pragma once
 
 #include "device/device.hpp"
+#include "device/replay/given_hand.hpp"
 #include "device/replay/hand_trace.hpp"
-#include "device/velocity_filter.hpp"
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -33,18 +32,15 @@ public:
     void halt() noexcept override {} // it has no motors
     void on_cue(const Cue& cue) override;
 
-    static constexpr double velocity_cutoff_hertz = 30.0;
-
 private:
     [[nodiscard]] HandMoment at(double seconds) const;
 
     HandTrace trace_;
     AfterTheEnd after_;
     Identity identity_;
-    Capabilities capabilities_;
-    std::uint64_t reads_ = 0;
+    Capabilities capabilities_ = GivenHand::capabilities();
     std::optional<base::TimePoint> start_;
-    VelocityFilter velocity_{velocity_cutoff_hertz};
+    GivenHand hand_;
 };
 
 } // namespace hapnet::device

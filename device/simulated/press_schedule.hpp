@@ -19,7 +19,7 @@ struct PressInterval {
     double hertz = 0.0;
 };
 
-/// The whole of T2: L presses at 0.5, 1 and 2 Hz, then R does. It needs 26.75 s with hands on.
+/// The whole of T2: A presses at 0.5, 1 and 2 Hz, then B does. It needs 26.75 s with hands on.
 inline constexpr std::array<PressInterval, 6> press_schedule{{{2.0, 8.0, true, 0.5},
                                                               {8.0, 12.0, true, 1.0},
                                                               {12.0, 14.0, true, 2.0},

@@ -49,7 +49,7 @@ constexpr double lift_holds_s = 5.0;
 
 // T5: the cube stands before the static one, and both hands press its left face, side by side.
 constexpr double wall_apart_m = 0.006; // along z, from the face's middle
-constexpr double wall_lets_go_s = 5.0; // R; then every 5 s one of them, by turns
+constexpr double wall_lets_go_s = 5.0; // B; then every 5 s one of them, by turns
 constexpr double wall_every_s = 5.0;
 constexpr int wall_rounds = 2;
 constexpr double wall_back_off_m = 0.020;
@@ -243,7 +243,7 @@ Intention Script::wall(double t) const
     const double squeeze = depth_m(squeeze_n());
     double depth = closing(squeeze, t);
     bool presses = t >= pressing_after_s;
-    // R lets go first.
+    // B lets go first.
     double go = wall_lets_go_s + (cue_.is_left ? wall_every_s : 0.0);
     for (int round = 0; round < wall_rounds; ++round, go += 2.0 * wall_every_s) {
         const double back = go + wall_away_s;

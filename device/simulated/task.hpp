@@ -15,17 +15,17 @@ namespace hapnet::device {
 
 /// The tasks of the two simulated hands; docs/design/tasks.md describes them.
 enum class Task : std::uint8_t {
-    p1,  // L holds the cube and carries it along a prescribed path; R watches (Table 1)
-    t1,  // by turns: L pushes the cube where the path rises, R where it falls
+    p1,  // A holds the cube and carries it along a prescribed path; B watches (Table 1)
+    t1,  // by turns: A pushes the cube where the path rises, B where it falls
     t2,  // against each other: one holds, the other presses at 0.5, 1 and 2 Hz; then swapped
     t3,  // both squeeze the cube between them and carry it along the path at half speed
     t4,  // both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down; twice
     t5,  // both press the cube against the static one, and one lets go suddenly; then the other
-    t6,  // L taps the cube at 3 Hz while R rests on its far side
+    t6,  // A taps the cube at 3 Hz while B rests on its far side
     t7,  // T3 with two to eight hands: by turns of their ids from the left and from the right
     t8,  // two to eight hands turn the cube between them to and fro, each pushing off its middle
-    t9,  // L puts the second cube on the first, then R the third on those; others watch
-    t10, // L lifts the screwdriver and hands it to R, who puts it down; others watch
+    t9,  // A puts the second cube on the first, then B the third on those; others watch
+    t10, // A lifts the screwdriver and hands it to B, who puts it down; others watch
 };
 
 constexpr auto names_of(base::Tag<Task> /*enum*/)

@@ -20,7 +20,7 @@ struct TaskOptions {
     double press_amplitude_m = 0.0035;   // T2: of the presser's aim
     std::optional<double> press_hertz{}; // T2: instead of 0.5, 1 and 2 Hz
     double pace = 0.5;                   // T3, T7: of the path; 1 is that of P1 and T1
-    base::Duration follower_lag{std::chrono::milliseconds{60}}; // T3, T7: of R behind L
+    base::Duration follower_lag{std::chrono::milliseconds{60}}; // T3, T7: of B behind A
 
     friend bool operator==(const TaskOptions&, const TaskOptions&) = default;
 };
@@ -44,7 +44,7 @@ constexpr auto fields_of(base::Tag<TaskOptions> /*struct*/)
                     "T3, T7: speed along the path; 1 is that of P1 and T1"),
         base::field("follower_lag", &TaskOptions::follower_lag,
                     base::Time{base::Duration{0}, std::chrono::seconds{1}},
-                    "T3, T7: of R behind L"));
+                    "T3, T7: of B behind A"));
 }
 
 } // namespace hapnet::device

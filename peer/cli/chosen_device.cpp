@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/cli/chosen_device.hpp"
 
+#include "device/page/page_hand.hpp"
 #include "device/replay/replay.hpp"
 #include "device/simulated/joints/joint_omni.hpp"
 #include "device/simulated/omni.hpp"
@@ -44,6 +45,7 @@ device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& 
             *choice.replay, choice.name,
             choice.replay_loops ? device::AfterTheEnd::begins_again : device::AfterTheEnd::stays);
     }
+    if (choice.page) return std::make_unique<device::PageHand>(choice.page);
     if (choice.has_joints()) {
         return std::make_unique<device::JointOmni>(
             device::JointOmniSettings{.role = {.task = task, .person = choice.person}});
@@ -107,8 +109,8 @@ std::string_view parts_in(device::Task task)
 {
     switch (task) {
     case device::Task::p1:
-        return "L holds the cube by the primary button and carries it to and fro, R watches";
-    case device::Task::t1: return "by turns L pushes the cube to the right and R pushes it back";
+        return "A holds the cube by the primary button and carries it to and fro, B watches";
+    case device::Task::t1: return "by turns A pushes the cube to the right and B pushes it back";
     case device::Task::t2: return "one holds the cube in place, the other presses against it";
     case device::Task::t3: return "both press the cube between them and carry it slowly to and fro";
     case device::Task::t7:
@@ -117,15 +119,15 @@ std::string_view parts_in(device::Task task)
     case device::Task::t4: return "both press the cube between them, lift it, hold it, lower it";
     case device::Task::t5:
         return "both press the cube to the right against the static one; by turns one lets go";
-    case device::Task::t6: return "L taps the cube, R rests a hand on its far side";
+    case device::Task::t6: return "A taps the cube, B rests a hand on its far side";
     case device::Task::t8:
         return "all turn the cube between them to and fro, each pushing beside its middle, "
                "from the left and from the right by turns of their ids";
     case device::Task::t9:
-        return "by the primary button L takes the left cube and puts it on the middle one, then R "
+        return "by the primary button A takes the left cube and puts it on the middle one, then B "
                "the right one on both; further hands watch";
     case device::Task::t10:
-        return "by the primary button L lifts the screwdriver and holds it out, R takes it and "
+        return "by the primary button A lifts the screwdriver and holds it out, B takes it and "
                "puts it down on the right; further hands watch";
     }
     return "";
@@ -139,7 +141,7 @@ std::string introduction(const device::Device& device, const device::Mount& moun
     };
     return fmt::format(
         "{}; mounted at {:.0f},{:.0f},{:.0f} mm, magnified {:.2f} times (--mount-offset, "
-        "--mount-scale). Task {} is yours to play, the lower --id is L: {}",
+        "--mount-scale). Task {} is yours to play, the lower --id is A: {}",
         device::description(device), millimetres(0), millimetres(1), millimetres(2), mount.scale,
         device::name_of(task), parts_in(task));
 }

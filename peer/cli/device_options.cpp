@@ -35,7 +35,8 @@ std::string device_help()
     std::string help =
         "sim (default): a simulated Omni in a simulated hand. sim:joints: the same with joints, "
         "encoders, motors and an inkwell. replay:FILE: a hand that moves as FILE says, CSV with "
-        "time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it. A real device, by its "
+        "time_s,x_m,y_m,z_m[,gripping][,docked] or as hapnet-lab export writes it. page: a "
+        "simulated hand that clients of the control socket move. A real device, by its "
         "serial or the first one that is usable";
     help += fmt::format(" ({}):", device::never_run);
     for (const device::Backend& backend : device::backends()) {
@@ -130,7 +131,8 @@ base::Result<void> take_device(const std::string& typed, DeviceChoice& choice)
     if (choice.name.starts_with(replay_prefix)) {
         return cli::into(choice.replay, hand_trace_in)(choice.name.substr(replay_prefix.size()));
     }
-    if (choice.is_simulated()) return {};
+    if (choice.name == "page") choice.page = std::make_shared<device::HandWishes>();
+    if (choice.is_simulated() || choice.page) return {};
     const auto name = device::parse_device_name(choice.name);
     return name ? base::Result<void>{} : tl::unexpected{name.error()};
 }

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "device/catalogue/catalogue.hpp"
+#include "device/page/page_hand.hpp"
 #include "device/replay/hand_trace.hpp"
 #include "device/simulated/operator.hpp"
 #include "proto/base/space.hpp"
 #include "proto/cli/command.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,15 +20,16 @@ struct DeviceChoice {
     std::string name = "sim";
     std::optional<device::HandTrace> replay; // where it is replay:FILE
     bool replay_loops = false;
-    device::Operator person;       // whose hand is simulated, where it is sim
-    device::DeviceOptions options; // where it is real
+    std::shared_ptr<device::HandWishes> page{}; // where it is page: what it is told
+    device::Operator person;                    // whose hand is simulated, where it is sim
+    device::DeviceOptions options;              // where it is real
     std::optional<base::Displacement> mount_offset;
     std::optional<double> mount_scale;
 
     [[nodiscard]] bool has_joints() const { return name == "sim:joints"; } // simulated ones
     [[nodiscard]] bool is_simulated() const { return name == "sim" || has_joints(); }
     /// A person holds it.
-    [[nodiscard]] bool is_real() const { return !is_simulated() && !replay; }
+    [[nodiscard]] bool is_real() const { return !is_simulated() && !replay && !page; }
 };
 
 /// Adds --device and what belongs to it, bound to `choice`. What is wrong with one of them, or with

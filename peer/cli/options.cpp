@@ -277,7 +277,7 @@ void add_peer_options(cli::Command& program, Options& options, Asked& asked)
 {
     constexpr std::uint64_t id_max = 65535;
     program.option("--id", "1..65535",
-                   "Number of this peer, different for all; the lower one of two is L. With a key, "
+                   "Number of this peer, different for all; the lower one of two is A. With a key, "
                    "or among more than two, 1 to 31 (default 1, or the one in the key file)",
                    cli::into(options.id, base::Count{1, id_max}));
     program.option("--listen", "ADDRESS",

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -72,6 +73,49 @@ std::string kept(Members& members, const PeerControl& peer, base::TimePoint now)
     return control::keep_reply(peer.keep(request->name, from), from, now);
 }
 
+/// A coordinate; no number where the member is none.
+double coordinate(Members& members, const char* key)
+{
+    const Json* value = members.find(key);
+    const bool is_there = value != nullptr && value->is_number();
+    return is_there ? value->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// True if the member is there and true; the member may be absent.
+bool is_true(Members& members, const char* key)
+{
+    const Json* value = members.find(key);
+    if (value != nullptr && !value->is_boolean())
+        members.fail(fmt::format("\"{}\" must be true or false", key));
+    return value != nullptr && *value == true;
+}
+
+/// What is asked of the hand; nullopt: to be let go.
+base::Result<std::optional<device::HandWish>> wish_in(Members& members)
+{
+    if (is_true(members, "let_go")) return std::optional<device::HandWish>{};
+    const double x = coordinate(members, "x");
+    const double y = coordinate(members, "y");
+    const double z = coordinate(members, "z");
+    const bool grips = is_true(members, "grip");
+    const auto place = device::parse_page_place(x, y, z);
+    if (!place) return tl::unexpected{place.error()};
+    return device::HandWish{*place, grips};
+}
+
+std::string moved(Members& members, const PeerControl& peer)
+{
+    if (!peer.hand) {
+        return control::refusal("'hand' moves the hand of --device page, and this peer has "
+                                "another device");
+    }
+    const auto whole = members.finish(wish_in(members));
+    if (!whole) return control::refusal(whole.error().message);
+    if (!*whole) return control::refusal(whole->error().message);
+    peer.hand(**whole);
+    return control::line_of(Json{{"ok", true}});
+}
+
 /// A request that takes time, or what is wrong with it.
 template <typename Request>
 control::Answer begun(Members& members, Request request)
@@ -103,14 +147,17 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer, base::
     if (command == "wait") return begun(members, control::wait_request(members));
     if (command == "watch") return begun(members, control::watch_request(members, frames_least));
     if (command == "keep") return kept(members, peer, now);
+    if (command == "hand") return moved(members, peer);
+    const char* const hand = peer.hand ? "hand, " : ""; // named where it can be used
     if (is_for_an_emulator(command)) {
         return control::refusal(fmt::format(
             "'{}' is for an emulator: a running peer cannot be changed; use show, scene, stats, "
-            "metrics, watch, wait, keep, stop or estop",
-            command));
+            "metrics, watch, wait, keep, {}stop or estop",
+            command, hand));
     }
-    return control::refusal("\"command\" must be one of show, scene, stats, metrics, watch, wait, "
-                            "keep, stop, estop");
+    return control::refusal(fmt::format("\"command\" must be one of show, scene, stats, metrics, "
+                                        "watch, wait, keep, {}stop, estop",
+                                        hand));
 }
 
 control::Subject subject_of(PeerControl peer)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/page/page_hand.hpp"
 #include "proto/base/field_table.hpp"
 #include "proto/control/core/conversation.hpp"
 
@@ -32,10 +33,12 @@ struct PeerControl {
     std::optional<base::Duration> held{};
     /// Orders a record of them since a time; gives its path.
     std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};
+    /// Tells the hand of a page what to do, or lets it go; null: this peer has another device.
+    std::function<void(const std::optional<device::HandWish>& wish)> hand{};
 };
 
 /// The answer to a request line; docs/formats/control.md describes the requests. A request that
-/// would change the peer is refused.
+/// would change the peer is refused, but for one that moves the hand of a page.
 [[nodiscard]] control::Answer answer_to(std::string_view line, const PeerControl& peer,
                                         base::TimePoint now);
 

@@ -68,8 +68,14 @@ void FrameTap::hear(std::uint16_t from, base::TimePoint at, std::span<const std:
 void FrameTap::begin_anew()
 {
     sessions_.clear();
+    skip();
+}
+
+void FrameTap::skip()
+{
     for_each_watch([&](telemetry::Decimator& decimator) {
         decimator = telemetry::Decimator{peer_id_, names};
+        for (const record::SessionRow& session : sessions_) decimator.take(session);
     });
 }
 

@@ -29,6 +29,8 @@ public:
 
     /// Frames go on from what follows, which may be earlier than what was before.
     void begin_anew();
+    /// Frames go on from what follows, in the same sessions: what was left out was not shown.
+    void skip();
 
 private:
     using Watch = std::weak_ptr<telemetry::Decimator>;

@@ -111,8 +111,8 @@ public:
     [[nodiscard]] const Algorithm& algorithm() const { return settings_.algorithm; }
     [[nodiscard]] const Counters& counters() const { return counters_; }
     [[nodiscard]] bool is_alone() const { return others_.are_gone(); }
-    /// Its place among all in the order of their ids, from 0: the 1st, 3rd, ... hand acts as L, the
-    /// others as R.
+    /// Its place among all in the order of their ids, from 0: the 1st, 3rd, ... hand acts as A, the
+    /// others as B.
     [[nodiscard]] std::size_t rank() const { return others_.rank(); }
     [[nodiscard]] bool is_left() const { return rank() % 2 == 0; }
     /// One of so many that act on its side.

@@ -57,12 +57,6 @@ base::Result<void> check_bodies(const scene::Description& scene)
                                       "the same place; set fixed = true",
                                       named(scene.bodies[i], i)));
     }
-    if (!scene.joints.empty()) {
-        const scene::JointDescription& joint = scene.joints.front();
-        return base::fail(fmt::format("{} hangs on the joint '{}', and a session has no joints: "
-                                      "leave out hinges, sliders, balls and springs",
-                                      named(scene.bodies[joint.body], joint.body), joint.name));
-    }
     return {};
 }
 

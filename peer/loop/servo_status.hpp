@@ -53,7 +53,7 @@ struct ServoStatus {
     LoopCounters loop;
     Counters messages;
     std::optional<Session> session;
-    bool is_left = false; // acts as L
+    bool is_left = false; // acts as A
     std::array<OtherStatus, peers_max - 1> others{};
     std::size_t others_count = 0;
     [[nodiscard]] bool is_pair() const { return others_count <= 1; }

@@ -25,6 +25,10 @@ control::Subject ControlSession::subject()
         return Run{parts_.options, *status_, parts_.device, parts_.monitor.is_record_whole(),
                    parts_.monitor.rows_lost()};
     };
+    decltype(PeerControl::hand) hand;
+    if (const auto& page = parts_.options.device.page) {
+        hand = [page](const auto& wish) { page->put(wish); };
+    }
     return subject_of(
         {.show = [this, run] { return show_json(run(), parts_.recovery); },
          .statistics = [this, run] { return statistics_json(run(), status_->elapsed); },
@@ -35,7 +39,8 @@ control::Subject ControlSession::subject()
          .frames = [this] { return parts_.monitor.watch_frames(); },
          .held = parts_.monitor.held(),
          .keep = [this](const std::string& name,
-                        base::TimePoint from) { return parts_.monitor.keep(name, from); }});
+                        base::TimePoint from) { return parts_.monitor.keep(name, from); },
+         .hand = std::move(hand)});
 }
 
 void ControlSession::serve(base::TimePoint now)

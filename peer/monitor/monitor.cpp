@@ -134,8 +134,9 @@ std::string_view describe(line::News news)
     case line::News::other_is_sealed:
         return "the other side plays with a key: use --key with this host's file of its circle";
     case line::News::other_circle:
-        return "handshakes come with keys that are not of this circle, and are refused: compare "
-               "the fingerprints of 'hapnet-peer key show FILE' on both hosts";
+        return "handshakes come with keys that are not of this circle, and are refused: give each "
+               "host its own file of one circle, never both the same, and compare the fingerprints "
+               "of 'hapnet-peer key show FILE' on both hosts";
     case line::News::moved: return "the other peer is heard from another address: sending there";
     case line::News::same_id:
         return "two programs seem to play with the other peer's key and push each other out: end "

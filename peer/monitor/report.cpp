@@ -139,6 +139,7 @@ Ordered show_json(const Run& run, const Recovery& recovery)
             {"seed", options.seed.value()},
             {"duration_s", base::to_seconds(options.duration)},
             {"device", run.device},
+            {"takes_hand", options.device.page != nullptr},
             {"force_limit_n", status.force_limit_n},
             {"tick_rate_hz", 1000},
             {"boot_id", net::boot_id()},

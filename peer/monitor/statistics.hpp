@@ -141,7 +141,7 @@ constexpr auto fields_of(base::Tag<SessionReport>)
         "session",
         base::member("number", &S::number, "The number of the session; null among more than two."),
         base::member("seed", &S::seed, "The seed that counts."),
-        base::member("role", &S::role, "`L` or `R`."),
+        base::member("role", &S::role, "`L` for A, `R` for B."),
         base::member("joined_late", &S::has_joined_late,
                      "Whether this peer came to a session that had begun."),
         base::member("clock_offset_ms", &S::clock_offset,

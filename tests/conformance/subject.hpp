@@ -20,6 +20,10 @@ struct Traits {
     bool exclusive = true; // a second opener is refused
 };
 
+/// A device without motors or hardware, such as a recorded hand.
+inline constexpr Traits only_software{
+    .has_motors = false, .stalls = false, .unplugs = false, .garbles = false, .exclusive = false};
+
 /// A motor command as the double of the device understood it.
 struct Command {
     bool zero = true; // no motor is asked for any torque

@@ -123,13 +123,20 @@ std::vector<Tick> ticks_of(const std::string& record)
     const auto phase = column("phase");
     const auto fresh = column("remote_fresh");
     const auto force = column("device_x_n");
+    const auto hip = column("hip_x_mm");
+    const auto docked = column("docked");
     std::vector<Tick> ticks;
     while (std::getline(lines, line)) {
         const auto cells = cells_of(line);
         if (cells.size() != header.size()) continue;
-        ticks.push_back({std::stod(cells[time]), cells[phase], cells[fresh] == "1",
-                         std::hypot(std::stod(cells[force]), std::stod(cells[force + 1]),
-                                    std::stod(cells[force + 2]))});
+        ticks.push_back(
+            {std::stod(cells[time]),
+             cells[phase],
+             cells[fresh] == "1",
+             std::hypot(std::stod(cells[force]), std::stod(cells[force + 1]),
+                        std::stod(cells[force + 2])),
+             {std::stod(cells[hip]), std::stod(cells[hip + 1]), std::stod(cells[hip + 2])},
+             cells[docked] == "1"});
     }
     return ticks;
 }

@@ -5,6 +5,7 @@
 #include "tests/e2e/process.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -102,6 +103,8 @@ struct Tick {
     std::string phase;
     bool remote_fresh = false;
     double force_n = 0.0; // that the device was told
+    std::array<double, 3> hip_mm{};
+    bool docked = false;
 };
 
 /// The ticks of a record, by `hapnet-lab export`.

@@ -18,6 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto trace = device::parse_hand_trace(text, "hand.csv");
     base::ensure(trace || !trace.error().message.empty());
     if (trace) {
+        const std::string printed = device::print_hand_trace(*trace);
+        base::ensure(device::parse_hand_trace(printed, "again.csv").value() == *trace);
         device::Replay hand{*trace, "hand.csv"};
         hand.on_cue({.start = {}, .hands_on = {}, .seed = base::Seed{0}});
         for (int i = 0; i < 100; ++i) {

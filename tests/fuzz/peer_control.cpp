@@ -4,6 +4,7 @@
 #include "tests/unit/peer/control/fake_peer_control.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -14,6 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace hapnet;
     const base::TimePoint start{};
     peer::FakePeerControl fake;
+    fake.subject = peer::subject_of(fake.controls(/*has_page*/ true));
     control::Conversation conversation;
     std::string text;
     for (const std::uint8_t byte : std::span{data, size}) text += static_cast<char>(byte);
@@ -33,5 +35,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         stops += reply.value("stopping", false) ? 1 : 0;
     }
     base::ensure(stops == fake.stops);
+    for (const auto& wish : fake.hand) {
+        const base::Position place = wish.value_or(device::HandWish{}).place;
+        for (const int axis : {0, 1, 2}) base::ensure(std::abs(place.value[axis]) <= 0.25);
+    }
     return 0;
 }

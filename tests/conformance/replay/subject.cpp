@@ -12,14 +12,7 @@ namespace {
 /// A recording needs no double: it is one.
 class ReplaySubject final : public Subject {
 public:
-    [[nodiscard]] Traits traits() const override
-    {
-        return {.has_motors = false,
-                .stalls = false,
-                .unplugs = false,
-                .garbles = false,
-                .exclusive = false};
-    }
+    [[nodiscard]] Traits traits() const override { return only_software; }
     [[nodiscard]] device::Opened<std::unique_ptr<device::Device>> open() override
     {
         device::HandTrace trace{{0.0, {}, false}, {1.0, {{0.01, 0.0, 0.0}}, true}};

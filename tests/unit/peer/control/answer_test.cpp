@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace hapnet::peer {
 namespace {
@@ -51,6 +52,51 @@ struct TalkWithAPeer : testing::Test {
     FakePeerControl fake;
     control::Conversation conversation{line_max};
 };
+
+TEST_F(TalkWithAPeer, MovesTheHandOfAPageAndOfNoOtherDevice)
+{
+    const json request{{"command", "hand"}, {"x", 0.01}, {"y", 0}, {"z", -0.25}};
+    EXPECT_EQ(refused(request), "'hand' moves the hand of --device page, and this peer has "
+                                "another device");
+    EXPECT_TRUE(fake.hand.empty());
+    EXPECT_EQ(refused({{"command", "shwo"}}).find("hand"), std::string::npos);
+    fake.subject = subject_of(fake.controls(true));
+    EXPECT_NE(refused({{"command", "shwo"}}).find("keep, hand, stop"), std::string::npos);
+    EXPECT_EQ(ask(request), (json{{"ok", true}}));
+    const device::HandWish wish{{{0.01, 0.0, -0.25}}};
+    EXPECT_EQ(fake.hand, (std::vector<std::optional<device::HandWish>>{wish}));
+}
+
+TEST_F(TalkWithAPeer, GripsAndLetsGoWithTheHandOfAPage)
+{
+    fake.subject = subject_of(fake.controls(true));
+    EXPECT_EQ(ask({{"command", "hand"}, {"x", 0}, {"y", 0}, {"z", 0}, {"grip", true}})["ok"], true);
+    EXPECT_EQ(ask({{"command", "hand"}, {"let_go", true}})["ok"], true);
+    const device::HandWish gripping{.place = {}, .grips = true};
+    EXPECT_EQ(fake.hand, (std::vector<std::optional<device::HandWish>>{gripping, std::nullopt}));
+    EXPECT_EQ(refused({{"command", "hand"}, {"let_go", 1}}), "\"let_go\" must be true or false");
+    EXPECT_EQ(refused({{"command", "hand"}, {"x", 0}, {"y", 0}, {"z", 0}, {"grip", "yes"}}),
+              "\"grip\" must be true or false");
+    EXPECT_NE(refused({{"command", "hand"}, {"let_go", true}, {"x", 0}}), "");
+    EXPECT_EQ(fake.hand.size(), 2U);
+}
+
+TEST_F(TalkWithAPeer, RefusesPlacesThatAreNoneAndGoesOn)
+{
+    fake.subject = subject_of(fake.controls(true));
+    for (const char* bad :
+         {R"("x":0,"y":0)", R"("x":0.26,"y":0,"z":0)", R"("x":0,"y":-1e300,"z":0)",
+          R"("x":0,"y":0,"z":"0")", R"("x":0,"y":0,"z":null)", R"("x":true,"y":0,"z":0)",
+          R"("x":[0],"y":0,"z":0)", R"("x":0,"y":0,"z":0,"w":0)", R"("x":1e999,"y":0,"z":0)",
+          R"("x":NaN,"y":0,"z":0)", R"("x":0,"x":0.1,"y":0,"z":0)"}) {
+        const auto line = said_to(std::string{R"({"command":"hand",)"} + bad + "}\n");
+        EXPECT_EQ(json::parse(line)["ok"], false) << bad;
+    }
+    EXPECT_TRUE(fake.hand.empty());
+    EXPECT_EQ(refused({{"command", "hand"}, {"x", 0}, {"y", 0.3}, {"z", 0}}),
+              "\"y\" must be a number of metres from -0.25 to 0.25");
+    EXPECT_EQ(ask({{"command", "hand"}, {"x", 0}, {"y", 0}, {"z", 0}})["ok"], true);
+}
 
 TEST_F(TalkWithAPeer, SavesWhatItHoldsUnderPlainNamesOnly)
 {

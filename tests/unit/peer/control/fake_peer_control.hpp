@@ -9,6 +9,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace hapnet::peer {
 
@@ -35,23 +36,33 @@ struct FakePeerControl {
     int frames = 0;   // that were made
     std::string kept; // what was to be saved last
     base::TimePoint kept_from{};
-    control::Subject subject =
-        subject_of({.show = [this] { return shown; },
-                    .statistics = [this] { return statistics; },
-                    .statistics_fields = base::field_table<FakeStatistics>(),
-                    .stop = [this] { ++stops; },
-                    .stop_in_emergency = [this] { ++emergency_stops; },
-                    .scene = [this] { return scene; },
-                    .frames = [this] { return frame_source(); },
-                    .held = std::chrono::seconds{20},
-                    .keep = [this](const std::string& name,
-                                   base::TimePoint from) -> base::Result<std::string> {
-                        kept = name;
-                        kept_from = from;
-                        if (name == "full") return base::fail("it is full");
-                        return "/there/" + name + ".rec";
-                    }});
+    std::vector<std::optional<device::HandWish>> hand; // what it was told
+    PeerControl controls(bool has_page)
+    {
+        PeerControl peer = own_controls();
+        if (has_page) peer.hand = [this](const auto& wish) { hand.push_back(wish); };
+        return peer;
+    }
+    control::Subject subject = subject_of(controls(false));
 
+    PeerControl own_controls()
+    {
+        return {.show = [this] { return shown; },
+                .statistics = [this] { return statistics; },
+                .statistics_fields = base::field_table<FakeStatistics>(),
+                .stop = [this] { ++stops; },
+                .stop_in_emergency = [this] { ++emergency_stops; },
+                .scene = [this] { return scene; },
+                .frames = [this] { return frame_source(); },
+                .held = std::chrono::seconds{20},
+                .keep = [this](const std::string& name,
+                               base::TimePoint from) -> base::Result<std::string> {
+                    kept = name;
+                    kept_from = from;
+                    if (name == "full") return base::fail("it is full");
+                    return "/there/" + name + ".rec";
+                }};
+    }
     control::FrameSource frame_source()
     {
         return [this](std::string& text, std::uint64_t left_out) {
