@@ -18,7 +18,7 @@ COLOURS = {"base": "#0072b2", "sep": "#009e73", "dead-reckoning": "#d98200"}
 WORST = "worst"  # the task of limits.csv that stands for the worst of all
 CRITERIA = {
     "vibration_mm": ("vibration above 20 Hz, mm", "log"),
-    "stiffness_ratio": ("stiffness at 1 Hz, of that at no delay", "linear"),
+    "stiffness_ratio": ("stiffness at 1 Hz, of that in one shared world", "linear"),
     "force_vibration_n": ("force vibration above 20 Hz, N", "log"),
 }
 

@@ -16,14 +16,13 @@ namespace {
 using namespace std::chrono_literals;
 using metrics::worse;
 
-// A run that exceeds these is not worth a number: one tick of lateness is a tick of error.
-constexpr base::Duration lateness_max = 1ms;
+// A run that exceeds these is not worth a number.
 constexpr double missed_share_max = 0.005;
 constexpr double overlap_min = 0.95;
 
 void judge(std::string_view name, const Loop& loop, std::vector<std::string>& objections)
 {
-    if (loop.late && loop.late->p99 > lateness_max) {
+    if (loop.late && loop.late->p99 > tick_lateness_max) {
         objections.push_back(fmt::format("{}: p99 tick lateness {:.3f} ms is above 1 ms", name,
                                          1e3 * base::to_seconds(loop.late->p99)));
     }
@@ -157,8 +156,8 @@ base::Result<Analysis> analyse(const record::Record& a, const record::Record& b)
     const auto session = common_session(a, b);
     if (!session) return tl::unexpected{session.error()};
     Analysis analysis{.agreement = agreement_of(*session),
-                      .a_to_b = path_a_to_b(*session),
-                      .b_to_a = path_b_to_a(*session),
+                      .a_to_b = path_of(*session, Way::a_to_b),
+                      .b_to_a = path_of(*session, Way::b_to_a),
                       .a = loop_of(session->a),
                       .b = loop_of(session->b),
                       .clock = session->clock,

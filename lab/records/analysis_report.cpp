@@ -119,6 +119,8 @@ TextTable network_table(const Path& up, const Path& down)
     };
     add("sent", count(&base::ArrivalCounts::sent));
     add("received", count(&base::ArrivalCounts::received));
+    add("lost", [](const Path& path) { return std::to_string(path.lost()); });
+    add("in flight at the end", [](const Path& path) { return std::to_string(path.in_flight); });
     add("duplicates", count(&base::ArrivalCounts::duplicates));
     add("reordered", count(&base::ArrivalCounts::reordered));
     add("loss, %", [](const Path& path) { return number_text(scaled(path.loss, 1e2), 3); });
@@ -128,6 +130,9 @@ TextTable network_table(const Path& up, const Path& down)
     add("delay max, ms", time(&Path::delay, &base::Quantiles::max));
     add("jitter p50, ms", time(&Path::jitter, &base::Quantiles::p50));
     add("jitter p99, ms", time(&Path::jitter, &base::Quantiles::p99));
+    table.remarks = {
+        "sent = received + lost + in flight at the end, which were sent after the last "
+        "that came"};
     return table;
 }
 

@@ -12,6 +12,8 @@ namespace hapnet::lab::records {
 
 namespace {
 
+constexpr double us_per_s = 1e6;
+
 bool takes_part(const record::TickRow& row)
 {
     return row.phase == record::Phase::running || row.phase == record::Phase::hands_off ||
@@ -43,13 +45,16 @@ SessionCurves curves_of(const Session& session)
         if (!takes_part(row)) continue;
         curves.cube_a_mm.push_back({seconds(row.at()), mm_per_m * row.cube.x()});
         curves.force_a_n.push_back({seconds(row.at()), norm(row.device)});
+        curves.late_a_us.push_back(us_per_s * base::to_seconds(row.late));
     }
     for (const record::TickRow& row : session.b.ticks) {
         if (!takes_part(row)) continue;
         const double time_s = seconds(session.clock.to_a(row.at()));
         curves.cube_b_mm.push_back({time_s, mm_per_m * row.cube.x()});
         curves.force_b_n.push_back({time_s, norm(row.device)});
+        curves.late_b_us.push_back(us_per_s * base::to_seconds(row.late));
     }
+    curves.paths = paths_over_time(session);
     const auto moments = moments_of(session);
     for_each_apart(session, session.bodies.front(), moments,
                    [&](double time_s, const Apart& apart) {

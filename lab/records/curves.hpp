@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/records/path_stretches.hpp"
 #include "lab/records/session.hpp"
 
 #include <string>
@@ -29,6 +30,9 @@ struct SessionCurves {
     std::vector<TimedValue> apart_mm;  // |x_A - x_B| of the first body at equal times
     std::vector<TimedValue> force_a_n; // the force that each device was told
     std::vector<TimedValue> force_b_n;
+    std::vector<double> late_a_us; // how late each of these ticks was
+    std::vector<double> late_b_us;
+    PathsOverTime paths;
     /// Of each, where there are several or one that can turn.
     std::vector<BodyCurves> bodies;
 };

@@ -3,6 +3,7 @@
 #include "lab/records/kept_play.hpp"
 
 #include "device/governor/limits_text.hpp"
+#include "emulator/core/profile/text.hpp"
 #include "lab/virtual_time/journal.hpp"
 #include "lab/virtual_time/world.hpp"
 #include "peer/core/sync/text.hpp"
@@ -50,6 +51,7 @@ nlohmann::json kept_config(const virtual_time::Setting& setting, std::size_t sea
             {"peer_id", seat + 1},
             {"nonce", 100 + seat},
             {"task", name_of(setting.task)},
+            {"network_toml", emulator::to_text(setting.profile)},
             {"scene_toml", scene::to_text(setting.scene)},
             {"scene_hash", fmt::format("{:016x}", scene::hash(setting.scene))},
             {"grip_damping_ns_per_m", usual.grip_damping_ns_per_m},

@@ -6,10 +6,14 @@
 #include "proto/base/describe.hpp"
 #include "proto/base/figures/quantiles.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 
 namespace hapnet::lab::records {
+
+/// What 99 % of the ticks of a valid session are to keep: a tick of lateness is a tick of error.
+inline constexpr base::Duration tick_lateness_max{std::chrono::milliseconds{1}};
 
 /// How well one peer's haptic loop kept its time, from T0 to its end.
 struct Loop {

@@ -36,53 +36,68 @@ Sent sent_by(const Side& sender)
     return sent;
 }
 
-/// `delay(received, sent)`: between two times on the two clocks.
-Path path_between(const Side& sender, const Side& receiver, const auto& delay)
+const Side& sender_of(const Session& session, Way way)
 {
-    base::ArrivalCounter arrivals{1};
+    return way == Way::a_to_b ? session.a : session.b;
+}
+
+const Side& receiver_of(const Session& session, Way way)
+{
+    return way == Way::a_to_b ? session.b : session.a;
+}
+
+} // namespace
+
+std::vector<ArrivedMessage> arrived_messages(const Session& session, Way way)
+{
+    const Side& receiver = receiver_of(session, way);
     std::unordered_set<std::uint32_t> seen;
-    std::optional<std::uint32_t> first; // that the record can have
-    base::DelayMeter<base::DurationSample> meter;
+    std::vector<ArrivedMessage> arrived;
     for (const record::MessageRow& row : receiver.messages) {
         const auto message = view_of(row);
         if (!message || message->session != receiver.terms.session) continue;
+        const bool is_from_a = way == Way::a_to_b;
+        const auto sent = is_from_a ? message->sent : session.clock.to_a(message->sent);
+        const auto received = is_from_a ? session.clock.to_a(row.received_at) : row.received_at;
         const bool is_duplicate = !seen.insert(message->sequence).second;
-        arrivals.add(message->sequence, is_duplicate);
-        if (is_duplicate) continue;
-        first = std::min(first.value_or(message->sequence), message->sequence);
-        meter.add(delay(row.received_at, message->sent));
+        arrived.push_back({message->sequence, sent, received - sent, is_duplicate});
     }
-    const Sent sent = sent_by(sender);
+    return arrived;
+}
+
+std::uint32_t first_sequence(const Session& session, Way way,
+                             std::span<const ArrivedMessage> messages)
+{
+    if (!receiver_of(session, way).begins_late || messages.empty()) return 1;
+    return std::ranges::min(messages, {}, &ArrivedMessage::sequence).sequence;
+}
+
+Path path_of(const Session& session, Way way)
+{
+    const auto messages = arrived_messages(session, way);
+    base::ArrivalCounter arrivals{1};
+    base::DelayMeter<base::DurationSample> meter;
+    for (const ArrivedMessage& message : messages) {
+        arrivals.add(message.sequence, message.is_duplicate);
+        if (!message.is_duplicate) meter.add(message.delay);
+    }
+    const Sent sent = sent_by(sender_of(session, way));
     Path path{.arrived = arrivals.counts(),
               .loss = {},
               .delay = meter.delays().quantiles(),
               .jitter = meter.variations().quantiles(),
-              .packets_per_s = sent.packets_per_s};
+              .packets_per_s = sent.packets_per_s,
+              .in_flight = 0};
     const std::uint64_t highest = path.arrived.sent;
-    const std::uint64_t before = receiver.begins_late && first ? *first - 1 : 0;
+    const std::uint64_t before = first_sequence(session, way, messages) - 1;
     // What came was sent, even if the sender was killed before it wrote that down.
     path.arrived.sent = std::max<std::uint64_t>(sent.highest, highest) - before;
+    path.in_flight = path.arrived.sent - (highest - std::min(highest, before));
     if (highest > 0) {
         path.loss = 1.0 - static_cast<double>(path.arrived.received) /
                               static_cast<double>(highest - before);
     }
     return path;
-}
-
-} // namespace
-
-Path path_a_to_b(const Session& session)
-{
-    return path_between(session.a, session.b, [&](base::TimePoint received, base::TimePoint sent) {
-        return session.clock.to_a(received) - sent;
-    });
-}
-
-Path path_b_to_a(const Session& session)
-{
-    return path_between(session.b, session.a, [&](base::TimePoint received, base::TimePoint sent) {
-        return received - session.clock.to_a(sent);
-    });
 }
 
 } // namespace hapnet::lab::records

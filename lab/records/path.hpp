@@ -7,7 +7,10 @@
 #include "proto/base/figures/arrivals.hpp"
 #include "proto/base/figures/quantiles.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -26,6 +29,11 @@ struct Path {
     std::optional<base::Quantiles> jitter;
     /// The rate at which the sender sent.
     std::optional<double> packets_per_s;
+    /// How many were sent after the highest that came: they were on their way at the end, or lost.
+    std::uint64_t in_flight = 0;
+
+    /// How many up to the highest that came never did.
+    [[nodiscard]] std::uint64_t lost() const { return arrived.sent - arrived.received - in_flight; }
 };
 
 constexpr auto fields_of(base::Tag<Path>)
@@ -46,7 +54,24 @@ constexpr auto fields_of(base::Tag<Path>)
             "|IPDV| in the order of arrival (RFC 3393)."));
 }
 
-[[nodiscard]] Path path_a_to_b(const Session& session);
-[[nodiscard]] Path path_b_to_a(const Session& session);
+/// The two directions of a session.
+enum class Way : std::uint8_t { a_to_b, b_to_a };
+
+[[nodiscard]] Path path_of(const Session& session, Way way);
+
+/// A state message of the session that has arrived.
+struct ArrivedMessage {
+    std::uint32_t sequence = 0;
+    base::TimePoint sent{}; // on A's clock
+    base::Duration delay{};
+    bool is_duplicate = false; // another copy has arrived before
+};
+
+/// In the order of arrival.
+[[nodiscard]] std::vector<ArrivedMessage> arrived_messages(const Session& session, Way way);
+
+/// The first sequence that the receiver's record can have.
+[[nodiscard]] std::uint32_t first_sequence(const Session& session, Way way,
+                                           std::span<const ArrivedMessage> messages);
 
 } // namespace hapnet::lab::records

@@ -163,6 +163,7 @@ std::optional<std::string> gap_in(const record::Record& record)
 {
     if (record.ticks.empty()) return "it has no ticks";
     std::uint64_t expected = 0;
+    std::optional<base::TimePoint> before;
     for (const record::TickRow& row : record.ticks) {
         if (row.tick < expected) {
             return fmt::format("tick {} follows where tick {} is expected: the file is damaged",
@@ -174,6 +175,11 @@ std::optional<std::string> gap_in(const record::Record& record)
                 "not write them in time; the ticks after them cannot be replayed",
                 expected, row.tick - 1);
         }
+        if (before && row.at() <= *before) {
+            return fmt::format("tick {} is not later than the tick before it: the file is damaged",
+                               row.tick);
+        }
+        before = row.at();
         ++expected;
     }
     return std::nullopt;

@@ -17,7 +17,8 @@ using page::Asset;
 [[nodiscard]] std::span<const Asset> lab_assets();
 
 /// The names of the modules that lay out a page, which it carries without a player, too.
-inline constexpr std::array<std::string_view, 4> layout_modules{
-    "report/sections.js", "report/claims.js", "report/runs.js", "report/words.js"};
+inline constexpr std::array<std::string_view, 6> layout_modules{
+    "report/sections.js", "report/claims.js", "report/runs.js",
+    "report/sessions.js", "report/words.js",  "words.js"};
 
 } // namespace hapnet::lab::report

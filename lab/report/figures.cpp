@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/figures.hpp"
 
+#include "lab/metrics/paired.hpp"
 #include "lab/report/patterns.hpp"
 
 #include <algorithm>
@@ -18,6 +19,14 @@ namespace {
 using Keys = std::vector<std::string_view>;
 
 constexpr page::Size third_of_width{360.0, 240.0};
+
+std::vector<double> numbers_of(const Rows& rows, std::string_view key)
+{
+    std::vector<double> values;
+    for (const TableRow& row : rows)
+        if (const auto value = row.number(key)) values.push_back(*value);
+    return values;
+}
 
 // --- Fig. 7
 
@@ -37,19 +46,20 @@ struct BothSides {
     std::string_view title; // after the algorithm's name
     std::string_view names; // of the curves, before the side's letter
     std::string_view keys;  // of the columns, likewise
-    std::string_view unit;
+    page::Axis y;
 };
-constexpr std::array drawn_of_both{BothSides{"fig7", "", "cube at ", "cube_", "mm"},
-                                   BothSides{"fig7-hands", ": hands", "hand ", "hand_", "mm"},
-                                   BothSides{"fig7-forces", ": forces", "on hand ", "force_", "N"}};
+const std::array drawn_of_both{
+    BothSides{"fig7", "", "cube at ", "cube_", {"x of the cube", "mm"}},
+    BothSides{"fig7-hands", ": hands", "hand ", "hand_", {"x of the hand", "mm"}},
+    BothSides{"fig7-forces", ": forces", "on hand ", "force_", {"force along x", "N"}}};
 
-page::Figure over_time(std::string id, std::string title, std::string_view unit,
+page::Figure over_time(std::string id, std::string title, page::Axis y,
                        std::vector<page::Curve> curves)
 {
     return {.id = page::plain_id(std::move(id)),
             .title = std::move(title),
             .x = {"time", "s"},
-            .y = {"x", std::string{unit}},
+            .y = std::move(y),
             .content = page::Curves{std::move(curves)},
             .size = {900.0, 230.0}};
 }
@@ -57,15 +67,15 @@ page::Figure over_time(std::string id, std::string title, std::string_view unit,
 page::Figure both_sides_figure(const Rows& rows, const BothSides& both)
 {
     const std::string algorithm = rows.front().text("algorithm");
-    const std::string_view unit = both.unit == "N" ? "_n" : "_mm";
+    const std::string_view unit = both.y.unit == "N" ? "_n" : "_mm";
     const auto curve = [&](char letter, char side, std::string_view colour) {
         return page::Curve{.name = fmt::format("{}{}", both.names, letter),
                            .colour = colour,
                            .points = points_of(rows, fmt::format("{}{}{}", both.keys, side, unit))};
     };
     auto figure = over_time(fmt::format("{}-{}", both.id, algorithm),
-                            fmt::format("{}{}", algorithm, both.title), both.unit,
-                            {curve('L', 'l', "left"), curve('R', 'r', "right")});
+                            fmt::format("{}{}", algorithm, both.title), both.y,
+                            {curve('A', 'l', "left"), curve('B', 'r', "right")});
     figure.caption = algorithm;
     return figure;
 }
@@ -74,8 +84,9 @@ page::Figure both_sides_figure(const Rows& rows, const BothSides& both)
 page::Figure difference_figure(const Rows& rows)
 {
     const std::string algorithm = rows.front().text("algorithm");
-    auto figure = over_time("fig7-difference-" + algorithm, algorithm + ": difference", "mm",
-                            {{.name = "x of the cube at L − at R",
+    auto figure = over_time("fig7-difference-" + algorithm, algorithm + ": difference",
+                            {"x at A − x at B", "mm"},
+                            {{.name = "x of the cube at A − at B",
                               .colour = colour_of(algorithm),
                               .points = points_of(rows, "apart_mm")}});
     figure.size.height = 170.0;
@@ -107,14 +118,6 @@ std::string apart_text(const Rows& rows)
     return fmt::format("{} A copy jumps by more than 5 mm from one row to the next {} times: it "
                        "moves vigorously, and does not follow the curve of the other.",
                        apart, steps);
-}
-
-page::Range range_of(const Rows& rows, const Keys& keys)
-{
-    page::Range range;
-    for (const TableRow& row : rows)
-        for (const std::string_view key : keys) range.include(row.number(key).value_or(NAN));
-    return range;
 }
 
 // --- The plane of conditions
@@ -158,6 +161,9 @@ page::HeatCell heat_cell(const Rows& rows)
                              row);
         if (row.number("turned_apart_deg"))
             cell.tip += in_words(", copies turned apart {turned_apart_deg:.2} deg", row);
+        // What keeps it from the next tier: each metric with its value and its limit.
+        if (const auto reason = row.text("limited_by"); !reason.empty())
+            cell.tip += fmt::format("; {}", reason);
     }
     return cell;
 }
@@ -246,14 +252,21 @@ double borne_percent(const Rows& rows)
 FigureGroups table1_figures(const results::Results& results)
 {
     FigureGroup group;
-    for (const std::string name : {"mean", "std", "max"}) {
+    const Rows all = results.rows("table1");
+    const bool has_paper = std::ranges::any_of(
+        all, [](const TableRow& row) { return row.number("paper_mean_mm").has_value(); });
+    for (const auto& [name, title] : {std::pair{"mean", "Mean distance of the two copies"},
+                                      {"std", "Its standard deviation"},
+                                      {"max", "Largest distance of the two copies"}}) {
+        const std::string ours = fmt::format("{}_mm", name), paper = "paper_" + ours;
+        const std::string lowest = fmt::format("{}_low_mm", name),
+                          highest = fmt::format("{}_high_mm", name);
         const Table table = with_column(
             results.table("table1"), "missed", [&](const TableRow& row) -> results::Cell {
-                const auto ours = row.number(name + "_mm");
-                const auto low = row.number(name + "_low_mm"), high = row.number(name + "_high_mm");
-                return ours && ((low && *ours < *low) || (high && *ours > *high));
+                const auto value = row.number(ours);
+                const auto low = row.number(lowest), high = row.number(highest);
+                return value && ((low && *value < *low) || (high && *value > *high));
             });
-        const std::string paper = fmt::format("paper_{}_mm", name), ours = name + "_mm";
         const auto cell = [](const std::string& key, int decimals) {
             return fmt::format("{{{}:.{}}}", key, decimals);
         };
@@ -263,13 +276,13 @@ FigureGroups table1_figures(const results::Results& results)
             BarPattern{"this run", ours, cell(ours, 1),
                        fmt::format("{{algorithm}}, this run: {} mm", cell(ours, 2))}};
         group.figures.push_back(
-            {.id = "table1-" + name,
-             .title = "Table 1: " + name,
-             .x = {"left: paper, right: this run"},
-             .y = {"|x_L − x_R|", "mm"},
+            {.id = fmt::format("table1-{}", name),
+             .title = title,
+             .x = {"algorithm"},
+             .y = {fmt::format("{} of |x_A − x_B|", name), "mm"},
              .content = bars_of(rows_of(table), "{algorithm}", bars),
              .size = third_of_width,
-             .caption = fmt::format("Dashed: the paper. Filled: this run, {}.", name)});
+             .caption = has_paper ? "Dashed: the paper. Filled: this run." : ""});
     }
     return {group};
 }
@@ -278,17 +291,93 @@ FigureGroups tasks_figures(const results::Results& results)
 {
     FigureGroup group;
     for (const std::string& task : distinct(results.rows("tasks"), "task")) {
-        auto curves =
-            curves_of(where(results.rows("sessions"), "task", task),
-                      {.x = "seed", .y = "mean_mm", .is_line = false, .shows_points = true});
-        if (curves.empty()) continue;
-        group.figures.push_back({.id = page::plain_id("seeds-" + task),
-                                 .title = task,
-                                 .x = {"seed"},
-                                 .y = {"mean discrepancy", "mm", page::Scale::linear, {0.0, 0.0}},
-                                 .content = page::Curves{std::move(curves)},
-                                 .size = {360.0, 220.0},
-                                 .caption = task + ", a point for each seed"});
+        page::Dots dots;
+        double seeds = 0.0; // the same of each algorithm
+        const Rows of_task = where(results.rows("sessions"), "task", task);
+        for (const std::string& algorithm : distinct(of_task, "algorithm")) {
+            auto values = numbers_of(where(of_task, "algorithm", algorithm), "mean_mm");
+            if (values.empty()) continue;
+            const double mean = mean_of(values);
+            page::DotRow dot{.name = algorithm,
+                             .colour = colour_of(algorithm),
+                             .value = mean,
+                             .tip =
+                                 fmt::format("{} in {}: {} mm", algorithm, task, shown(mean, 2))};
+            seeds = static_cast<double>(values.size());
+            if (seeds > 1.0) {
+                const auto [low, high] = metrics::interval_of_mean(values);
+                dot.interval = page::Range{low, high};
+                dot.tip += fmt::format(" ({} to {}: {})", shown(low, 2), shown(high, 2),
+                                       about_spread(seeds));
+            }
+            dot.single = std::move(values);
+            dots.push_back(std::move(dot));
+        }
+        if (dots.empty()) continue;
+        const double height = 90.0 + 40.0 * static_cast<double>(dots.size());
+        group.figures.push_back(
+            {.id = page::plain_id("seeds-" + task),
+             .title = "Task " + task,
+             .x = {"mean distance of the copies", "mm", page::Scale::linear, {0.0, 0.0}},
+             .y = {"algorithm"},
+             .content = std::move(dots),
+             .size = {360.0, height},
+             .caption = seeds < 2.0 ? std::string{"One seed: there is no interval."}
+                                    : fmt::format("Large: the mean of the seeds; the line is {}. "
+                                                  "Small: each seed.",
+                                                  about_spread(seeds))});
+    }
+    return {group};
+}
+
+FigureGroups claims_figures(const results::Results& results)
+{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> titles{
+        {{"% usable", "Sessions that are usable"},
+         {"mm", "How far copies are apart, or vibrate"},
+         {"N", "Force that the network adds"},
+         {"%", "Contact that the network costs"},
+         {"mJ", "Energy that the network adds"},
+         {"x of two", "Distance of three against that of two"}}};
+    const std::string words =
+        "Shaded: what the claim accepts. The line is the 95 % interval of a mean of six sessions "
+        "or "
+        "more; of fewer, and where each session is judged, it reaches from the least to the most. "
+        "Red: not kept.";
+    FigureGroup group;
+    for (const Rows& rows : split(results.rows("claims_numbers"), Keys{"unit"})) {
+        const std::string unit = rows.front().text("unit");
+        const auto* const title =
+            std::ranges::find(titles, unit, [](const auto& one) { return one.first; });
+        page::Dots dots;
+        for (const TableRow& row : rows) {
+            const auto low = row.number("low"), high = row.number("high");
+            page::DotRow dot{.name = row.text("claim"),
+                             .colour = "accent",
+                             .value = row.number("value"),
+                             .accepted = page::Range{row.number("accept_low").value_or(-INFINITY),
+                                                     row.number("accept_high").value_or(INFINITY)},
+                             .is_missed = row.text("kept") == "false"};
+            if (const auto part = row.text("number"); !part.empty()) dot.name += ": " + part;
+            const bool has_spread = low && high && row.number("sessions").value_or(0.0) > 1.0;
+            if (has_spread) dot.interval = page::Range{*low, *high};
+            dot.tip = fmt::format(
+                "{}: {}", dot.name,
+                in_words(has_spread ? "{value:g} ({low:g} to {high:g}) {unit}" : "{value:g} {unit}",
+                         row));
+            dots.push_back(std::move(dot));
+        }
+        const double height = 70.0 + 44.0 * static_cast<double>(dots.size());
+        const double whole = unit == "% usable" ? 100.0 : 0.0;
+        group.figures.push_back(
+            {.id = page::plain_id("claims-" + (unit.empty() ? "ratio" : unit)),
+             .title = std::string{title == titles.end() ? "Stiffness felt, against no delay"
+                                                        : title->second},
+             .x = {"measured", unit.empty() ? "ratio" : unit, page::Scale::linear, {0.0, whole}},
+             .y = {"claim"},
+             .content = std::move(dots),
+             .size = {440.0, height},
+             .caption = group.figures.empty() ? words : ""});
     }
     return {group};
 }
@@ -341,16 +430,12 @@ FigureGroups fig7_figures(const results::Results& results)
             return results::to_cell(row.number("cube_l_mm").value_or(NAN) -
                                     row.number("cube_r_mm").value_or(NAN));
         });
-    const page::Range cubes = range_of(rows_of(table), {"cube_l_mm", "cube_r_mm"});
-    const page::Range apart = range_of(rows_of(table), {"apart_mm"});
     FigureGroup group;
     for (const Rows& rows : split(rows_of(table), Keys{"algorithm"})) {
         auto& figures = group.figures;
         figures.push_back(both_sides_figure(rows, drawn_of_both[0]));
-        figures.back().y.range = cubes;
         figures.back().caption = apart_text(rows);
         figures.push_back(difference_figure(rows));
-        figures.back().y.range = apart;
         figures.push_back(both_sides_figure(rows, drawn_of_both[1]));
         figures.push_back(both_sides_figure(rows, drawn_of_both[2]));
     }
@@ -387,7 +472,7 @@ FigureGroups real_time_figures(const results::Results& results)
     return {{"",
              {{.id = "real-time",
                .title = "Mean discrepancy",
-               .x = {"left: virtual time, right: real time"},
+               .x = {"algorithm, and where"},
                .y = {"discrepancy", "mm"},
                .content = bars_of(rows, "{algorithm}, {where}", bars),
                .size = {900.0, 250.0},

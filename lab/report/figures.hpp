@@ -15,6 +15,7 @@ namespace hapnet::lab::report {
 struct FigureGroup {
     std::string title;
     std::vector<page::Figure> figures;
+    std::vector<std::string> origins{}; // files that they were made from, besides their numbers
 };
 using FigureGroups = std::vector<FigureGroup>;
 
@@ -30,7 +31,7 @@ using FigureGroups = std::vector<FigureGroup>;
 [[nodiscard]] FigureGroups curves_figures(const results::Results& results);
 /// Limits by filter and hands.
 [[nodiscard]] FigureGroups trust_figures(const results::Results& results);
-/// Limits by the values of a parameter.
+/// What came out against the values of a parameter: limits, and each measure in each task.
 [[nodiscard]] FigureGroups axis_figures(const results::Results& results);
 /// Errors against cost: a group for each parameter and algorithm.
 [[nodiscard]] FigureGroups precision_figures(const results::Results& results);
@@ -38,6 +39,8 @@ using FigureGroups = std::vector<FigureGroup>;
 [[nodiscard]] FigureGroups points_figures(const results::Results& results);
 [[nodiscard]] FigureGroups fig7_figures(const results::Results& results);
 [[nodiscard]] FigureGroups qos_figures(const results::Results& results);
+/// The numbers of each claim against what it accepts: a figure for each unit.
+[[nodiscard]] FigureGroups claims_figures(const results::Results& results);
 [[nodiscard]] FigureGroups real_time_figures(const results::Results& results);
 /// A group for each recorded session.
 [[nodiscard]] FigureGroups session_figures(const results::Results& results);

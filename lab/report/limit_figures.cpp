@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "lab/metrics/psychometric.hpp"
 #include "lab/report/figures.hpp"
 #include "lab/report/patterns.hpp"
 #include "lab/results/verdicts.hpp"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
@@ -23,7 +25,7 @@ Table with_words(const Table& limits)
         return std::string{row.text("bound") == ">" ? "> " : ""};
     });
     return with_column(std::move(table), "interval", [](const TableRow& row) -> results::Cell {
-        if (!row.number("ci_low")) return std::string{"–"};
+        if (!has_interval(row)) return std::string{"–"};
         return in_words(
             row.number("ci_high") ? "{ci_low:.1} … {ci_high:.1}" : "{ci_low:.1} … > {p50:.1}", row);
     });
@@ -34,7 +36,7 @@ page::Figure figure_of_limits(std::string id, std::string_view title, const Tabl
 {
     return {.id = page::plain_id(std::move(id)),
             .title = in_words(title, first),
-            .x = {""},
+            .x = {"algorithm"},
             .y = {"limit", in_words("{unit}", first)},
             .content = std::move(groups),
             .size = half_of_width};
@@ -56,12 +58,16 @@ page::Figure worst_figure(const Rows& rows)
     auto figure = figure_of_limits(
         "limit-" + rows.front().text("impairment"), "Limit of {impairment}, worst of the tasks",
         rows.front(), bars_of(where(rows, "task", results::worst_task), "{algorithm}", bars));
-    figure.x.label = "left: paper, right: this run";
-    figure.caption =
-        in_words("Dashed: the paper, where it states a number. Filled: this run, {seeds} seeds; "
-                 "the line is the 95 % interval. Red where it misses. An arrow: half never failed "
-                 "as far as was tried.",
-                 rows.front());
+    const bool has_paper = std::ranges::any_of(
+        rows, [](const TableRow& row) { return row.number("paper_limit").has_value(); });
+    const auto spread = about_spread(rows.front().number("seeds").value_or(0.0));
+    figure.caption = fmt::format("{}{}. An arrow: half never failed as far as was tried.",
+                                 in_words("{seeds} seeds", rows.front()),
+                                 spread.empty() ? "" : "; the line is " + spread);
+    if (has_paper)
+        figure.caption = "Dashed: the paper, where it states a number. Red where this run misses "
+                         "it. " +
+                         figure.caption.get<std::string>();
     return figure;
 }
 
@@ -78,6 +84,7 @@ page::Figure by_task_figure(const Rows& rows)
         fmt::format("limit-{}-by-task", rows.front().text("impairment")),
         "Limit of {impairment} by task", rows.front(),
         bars_of(single_tasks(rows), "{task}", std::array{measured("{algorithm}")}));
+    figure.x.label = "task";
     figure.caption = "What is hard for one task is easy for another.";
     return figure;
 }
@@ -93,31 +100,65 @@ Rows least_limits(const Rows& rows, const Keys& keys)
     return least;
 }
 
+/// The share of the sessions that fail at each level, the curve that is fitted to them, and where
+/// it crosses one half, with the interval of that. `limit` is that of one task.
+page::Curve failing_curve(const TableRow& limit, const Rows& sessions)
+{
+    std::map<double, metrics::FailCount> counts;
+    for (const TableRow& row : sessions) {
+        const auto level = row.number("level");
+        if (!level) continue;
+        auto& count = counts.try_emplace(*level, metrics::FailCount{*level}).first->second;
+        count.of += 1.0;
+        if (row.text("tier") == "unusable") count.failed += 1.0;
+    }
+    const std::string algorithm = limit.text("algorithm");
+    page::Curve curve{.name = fmt::format("{} in {}", algorithm, limit.text("task")),
+                      .colour = colour_of(algorithm),
+                      .width = 1.8};
+    std::vector<metrics::FailCount> fails;
+    for (const auto& [level, count] : counts) {
+        fails.push_back(count);
+        curve.scatter.push_back({level, 100.0 * count.failed / count.of});
+    }
+    if (fails.size() < 2) return curve;
+    constexpr int steps = 120;
+    const auto fit = metrics::fitted(fails);
+    const double first = fails.front().level, last = fails.back().level;
+    for (int i = 0; i <= steps; ++i) {
+        const double level = first + (last - first) * i / steps;
+        curve.points.push_back({level, 100.0 * fit.share_at(level)});
+    }
+    if (const auto low = limit.number("ci_low"); has_interval(limit) && limit.text("bound") == "=")
+        curve.crossing = page::Crossing{50.0, {*low, limit.number("ci_high").value_or(last)}};
+    return curve;
+}
+
 /// At each level the share of the seeds that fail, in the task that bears least.
 std::optional<page::Figure> failing_figure(const Rows& limits, const Rows& curves)
 {
-    Rows sessions;
-    const std::string impairment = limits.front().text("impairment");
+    std::vector<page::Curve> drawn;
     for (const TableRow& least : least_limits(single_tasks(limits), {"algorithm"})) {
-        for (const TableRow& row : curves) {
-            const auto is_same = [&](std::string_view key) {
-                return row.text(key) == least.text(key);
-            };
-            if (is_same("algorithm") && is_same("impairment") && is_same("task"))
-                sessions.push_back(row);
-        }
+        Rows sessions = curves;
+        for (const std::string_view key : {"algorithm", "impairment", "task"})
+            sessions = where(sessions, key, least.text(key));
+        auto curve = failing_curve(least, sessions);
+        if (!curve.scatter.empty()) drawn.push_back(std::move(curve));
     }
-    auto drawn = curves_of(
-        sessions, {.x = "level", .y = "failed", .together = Together::mean, .shows_points = true});
     if (drawn.empty()) return std::nullopt;
+    const auto spread = about_spread(limits.front().number("seeds").value_or(0.0));
     return page::Figure{
-        .id = page::plain_id("failing-" + impairment),
-        .title = "Seeds that fail, in the task that bears least",
+        .id = page::plain_id("failing-" + limits.front().text("impairment")),
+        .title = in_words("Sessions that fail as {impairment} grows", limits.front()),
         .x = {in_words("{impairment}", limits.front()), in_words("{unit}", limits.front())},
-        .y = {"seeds that fail", "%", page::Scale::linear, {0.0, 100.0}},
-        .content = page::Curves{std::move(drawn), {{50.0, "limit"}}},
-        .size = half_of_width,
-        .caption = "A point: all seeds at one level."};
+        .y = {"sessions that fail", "%", page::Scale::linear, {0.0, 100.0}},
+        .content = page::Curves{std::move(drawn), {{50.0, "half fail"}}},
+        .size = {900.0, 300.0},
+        .caption = fmt::format(
+            "Each algorithm in the task that bears least. A point: all seeds at one level. The "
+            "curve is fitted to the points; the limit is where it crosses one half{}. No bar: half "
+            "never failed as far as was tried.",
+            spread.empty() ? "" : ", and the bar there is " + spread)};
 }
 
 FigureGroups limits_figures(const results::Results& results, const Keys& impairments)
@@ -126,21 +167,18 @@ FigureGroups limits_figures(const results::Results& results, const Keys& impairm
                                      [](const TableRow& row) -> results::Cell {
                                          return row.text("status").ends_with("missed");
                                      });
-    const Table curves =
-        with_column(results.table("curves"), "failed", [](const TableRow& row) -> results::Cell {
-            return row.text("tier") == "unusable" ? 100.0 : 0.0;
-        });
-    const Rows sessions = where(rows_of(curves), "counts", "true");
+    const Rows sessions = where(results.rows("curves"), "counts", "true");
     FigureGroups groups;
     for (const std::string_view impairment : impairments) {
         const Rows rows = where(rows_of(limits), "impairment", impairment);
         if (rows.empty()) continue;
         auto& group = groups.emplace_back(FigureGroup{in_words("{impairment}", rows.front()), {}});
-        group.figures = {worst_figure(rows), by_task_figure(rows)};
         if (auto failing = failing_figure(rows, sessions)) {
             failing->sources = results.files_of("curves");
             group.figures.push_back(*std::move(failing));
         }
+        group.figures.push_back(worst_figure(rows));
+        group.figures.push_back(by_task_figure(rows));
     }
     return groups;
 }
@@ -161,9 +199,9 @@ constexpr std::array criteria_drawn{
               [](const metrics::Criteria& c) {
                   return 1e3 * at_order(c.usable.vibration_max_m, c.filter_order);
               }},
-    Criterion{"stiffness", "Stiffness felt at 1 Hz", "of that at no delay", "stiffness_ratio",
-              page::Scale::linear,
-              [](const metrics::Criteria& c) { return c.usable.stiffness_ratio_min; }},
+    Criterion{"stiffness", "Error of the stiffness felt at 0.5 Hz, against one shared world",
+              "ratio", "slow_stiffness_error", page::Scale::linear,
+              [](const metrics::Criteria& c) { return c.usable.slow_stiffness_error_max; }},
     Criterion{"force-vibration", "Vibration of the force above 20 Hz", "N", "force_vibration_n",
               page::Scale::logarithmic,
               [](const metrics::Criteria& c) { return c.usable.force_vibration_max_n; }}};
@@ -232,24 +270,6 @@ FigureGroups trust_figures(const results::Results& results)
         figure.caption = fmt::format("Least of the tasks. From left to right: {}. An arrow: not "
                                      "reached within the range.",
                                      methods);
-    }
-    return {group};
-}
-
-FigureGroups axis_figures(const results::Results& results)
-{
-    const std::array bars{
-        BarPattern{"{algorithm}", "limit", "{above}{limit:limit}", "{algorithm}, {value}"}};
-    const Table limits = with_words(results.table("limits_by_axis"));
-    FigureGroup group;
-    for (const Rows& rows : split(rows_of(limits), Keys{"parameter", "impairment"})) {
-        const TableRow& first = rows.front();
-        const Rows worst = where(rows, "task", results::worst_task);
-        auto& figure = group.figures.emplace_back(figure_of_limits(
-            fmt::format("axis-{}-{}", first.text("parameter"), first.text("impairment")),
-            "Limit of {impairment}", first, bars_of(worst, "{value}", bars)));
-        figure.x.label = in_words("{parameter}", first);
-        figure.caption = in_words("Limit of {impairment} by the {parameter}, {seeds} seeds", first);
     }
     return {group};
 }

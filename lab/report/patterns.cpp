@@ -17,7 +17,7 @@ namespace hapnet::lab::report {
 namespace {
 
 /// What programs call so, and people otherwise.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> people_say{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> names_for_people{
     {{"percent", "%"},
      {"of_100", "of 100"},
      {"random-loss", "random loss"},
@@ -36,10 +36,7 @@ std::string cell_in_words(const TableRow& row, std::string_view key, std::string
         return shown(number, number.value_or(0.0) < coarse ? 1 : 0);
     }
     if (!format.empty()) return shown(number, format.back() - '0');
-    const std::string text = row.text(key);
-    const auto* const found =
-        std::ranges::find(people_say, text, [](const auto& one) { return one.first; });
-    return found == people_say.end() ? text : std::string{found->second};
+    return people_say(row.text(key));
 }
 
 page::Bar bar_of(const BarPattern& pattern, const TableRow& row)
@@ -54,17 +51,12 @@ page::Bar bar_of(const BarPattern& pattern, const TableRow& row)
     bar.is_open = row.text("bound") == ">";
     bar.is_missed = row.text("missed") == "true";
     const auto low = row.number("ci_low"), high = row.number("ci_high");
-    if (low && high) bar.interval = page::Range{*low, *high};
+    if (has_interval(row) && high) bar.interval = page::Range{*low, *high};
     return bar;
 }
 
 /// Sep often lies under base, and is to be seen there.
 double curve_width(std::string_view algorithm) { return algorithm == "sep" ? 4.0 : 1.2; }
-
-double mean_of(const std::vector<double>& values)
-{
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 page::Curve curve_of(const Rows& rows, const CurvePattern& pattern)
 {
@@ -86,11 +78,19 @@ page::Curve curve_of(const Rows& rows, const CurvePattern& pattern)
         curve.points.push_back({x, is_median ? metrics::median_of(all) : mean_of(all)});
         for (std::size_t i = 0; is_median && i < all.size(); ++i)
             curve.scatter.push_back({x, all[i]});
+        if (is_median || all.size() < 2) continue;
+        const auto [low, high] = metrics::interval_of_mean(all);
+        curve.band.push_back({x, {low, high}});
     }
     return curve;
 }
 
 } // namespace
+
+double mean_of(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 std::vector<std::string> distinct(const Rows& rows, std::string_view key)
 {
@@ -146,6 +146,25 @@ std::string shown(std::optional<double> value, int decimals)
     return fmt::format("{:.{}f}", is_nothing ? 0.0 : *value, decimals);
 }
 
+bool has_interval(const TableRow& row)
+{
+    return row.number("ci_low") && row.number("seeds").value_or(2.0) > 1.0;
+}
+
+std::string about_spread(double seeds)
+{
+    if (seeds < 2.0) return "";
+    if (seeds >= metrics::interval_seeds_min) return "its 95 % interval";
+    return fmt::format("from the least to the most of the {:g} seeds", seeds);
+}
+
+std::string people_say(std::string_view name)
+{
+    const auto* const found =
+        std::ranges::find(names_for_people, name, [](const auto& one) { return one.first; });
+    return std::string{found == names_for_people.end() ? name : found->second};
+}
+
 std::string in_words(std::string_view pattern, const TableRow& row)
 {
     std::string words;
@@ -164,9 +183,18 @@ std::string in_words(std::string_view pattern, const TableRow& row)
 
 std::string_view colour_of(std::string_view algorithm)
 {
-    constexpr std::array<std::string_view, 3> known{"base", "sep", "dead-reckoning"};
-    const auto* const found = std::ranges::find(known, algorithm);
-    return found == known.end() ? std::string_view{"other"} : *found;
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> known{
+        {{"base", "base"},
+         {"sep", "sep"},
+         {"dead-reckoning", "dead-reckoning"},
+         {"base-tdpa", "calibrated"},
+         {"wave", "met"},
+         {"couple", "static-cube"},
+         {"lag", "muted"},
+         {"rollback", "accent"}}};
+    const auto* const found =
+        std::ranges::find(known, algorithm, [](const auto& one) { return one.first; });
+    return found == known.end() ? std::string_view{"other"} : found->second;
 }
 
 page::Bars bars_of(const Rows& rows, std::string_view group, std::span<const BarPattern> bars)

@@ -21,6 +21,8 @@ using results::Rows;
 using results::Table;
 using results::TableRow;
 
+/// The mean of the values; at least one.
+[[nodiscard]] double mean_of(const std::vector<double>& values);
 /// The texts in a column, each once, in the order in which they come.
 [[nodiscard]] std::vector<std::string> distinct(const Rows& rows, std::string_view key);
 /// The rows with this text in the column.
@@ -34,13 +36,21 @@ using results::TableRow;
 /// With so many decimals; "–" for none.
 [[nodiscard]] std::string shown(std::optional<double> value, int decimals);
 
+/// Whether a value has an interval in the columns ci_low and ci_high: of one seed there is none.
+[[nodiscard]] bool has_interval(const TableRow& row);
+/// What a line about the result of so many seeds is: "its 95 % interval"; "from the least to the
+/// most of the 3 seeds" of fewer than can give one; "" of one seed, which has no line.
+[[nodiscard]] std::string about_spread(double seeds);
+
+/// What programs call otherwise than people, in people's words: "burst loss", "%".
+[[nodiscard]] std::string people_say(std::string_view name);
+
 /// A text in which {key} stands for a cell: {key:.2} for a number with two decimals, {key:g} for
 /// one with as many digits as it takes, {key:limit} for one with as many digits as a limit is
 /// worth. What programs call otherwise than people is in people's words: "burst loss", "%".
 [[nodiscard]] std::string in_words(std::string_view pattern, const TableRow& row);
 
-/// The colour of an algorithm, the same all over the page; of what a person need not tell apart
-/// the same.
+/// The colour of an algorithm, the same on every page; all that are not built in share one.
 [[nodiscard]] std::string_view colour_of(std::string_view algorithm);
 
 /// One bar of each row: its value stands in a column, the rest are patterns. The columns bound,
@@ -57,7 +67,7 @@ struct BarPattern {
                                  std::span<const BarPattern> bars);
 
 /// What of several values at one x belongs to a curve: each; the median, beside which all are dots;
-/// or the mean.
+/// or the mean, with its interval as a band where there are several.
 enum class Together : std::uint8_t { each, median, mean };
 
 /// A curve of each algorithm through what stands in two columns.

@@ -5,12 +5,16 @@
 #include "lab/records/analysis_report.hpp"
 #include "lab/report/assets.hpp"
 #include "lab/report/figures.hpp"
+#include "lab/report/patterns.hpp"
+#include "lab/report/played.hpp"
 #include "lab/report/replays.hpp"
+#include "lab/report/session_words.hpp"
 #include "lab/results/table_text.hpp"
 #include "lab/results/verdicts.hpp"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -22,6 +26,12 @@ using page::Json;
 using Results = results::Results;
 
 bool never(const Results&) { return false; }
+
+/// Recorded sessions alone, and no experiment.
+bool is_of_sessions(const Results& results)
+{
+    return !results.sessions.empty() && results.runs.empty() && !results.demo;
+}
 
 /// Whether anything stands against the paper.
 bool has_verdicts(const Results& results)
@@ -36,16 +46,51 @@ bool has_verdicts(const Results& results)
            });
 }
 
+bool has_axis(const Results& results)
+{
+    return !results.table("limits_by_axis").is_empty() ||
+           !results.table("table1_by_axis").is_empty();
+}
+
+/// "How much delay and jitter is borne", of the impairments that were searched.
+template <typename... Impairments>
+std::string limits_title(const Results& results, Impairments... impairments)
+{
+    std::string searched;
+    for (const std::string_view one : {impairments...}) {
+        if (where(results.rows("limits"), "impairment", one).empty()) continue;
+        searched += (searched.empty() ? "" : " and ") + people_say(one);
+    }
+    return fmt::format("How much {} is borne", searched);
+}
+
+/// "Results by delay of the path"
+std::string axis_title(const Results& results)
+{
+    for (const char* name : {"limits_by_axis", "table1_by_axis"}) {
+        const auto parameters = distinct(results.rows(name), "parameter");
+        if (!parameters.empty()) return "Results by " + people_say(parameters.front());
+    }
+    return "";
+}
+
+std::string table1_title(const Results& results)
+{
+    const bool has_paper =
+        std::ranges::any_of(results.rows("table1"), [](const results::TableRow& row) {
+            return row.number("paper_mean_mm").has_value();
+        });
+    return std::string{"How far the two copies are apart"} +
+           (has_paper ? ", beside the paper’s Table 1" : "");
+}
+
 /// A section of a page. It is there where its table has rows.
 struct SectionKind {
     std::string_view id;
-    std::string_view title;
+    std::string_view title{}; // empty: `title_of` says it
     std::string_view table{}; // empty: `is_there` says it
     FigureGroups (*figures)(const Results&) = nullptr;
-    /// The command that makes what is missing, up to the folder; empty: it comes with others.
-    std::string_view what{};
-    std::string_view command{};
-    std::string_view subfolder{};
+    std::string (*title_of)(const Results&) = nullptr;
     bool (*is_there)(const Results&) = never;
 };
 
@@ -53,44 +98,36 @@ constexpr std::array section_kinds{
     SectionKind{.id = "demo",
                 .title = "The demo beside the paper’s Table 1",
                 .is_there = [](const Results& r) { return r.demo.has_value(); }},
+    SectionKind{.id = "sessions",
+                .figures = session_figures,
+                .title_of = [](const Results& r) -> std::string {
+                    return r.sessions.size() == 1 ? "The session" : "The sessions";
+                },
+                .is_there = [](const Results& r) { return !r.sessions.empty(); }},
+    SectionKind{"beyond", "Claims and results", "claims", claims_figures},
+    SectionKind{
+        .id = "axis", .title = "What came out", .figures = axis_figures, .is_there = has_axis},
+    SectionKind{"table1", "", "table1", table1_figures, table1_title},
+    SectionKind{"fig6a", "", "limits", fig6a_figures,
+                [](const Results& r) { return limits_title(r, "delay", "jitter"); }},
+    SectionKind{"fig6b", "", "limits", fig6b_figures,
+                [](const Results& r) { return limits_title(r, "random-loss", "burst-loss"); }},
+    SectionKind{"qos", "Which networks each algorithm bears", "qos", qos_figures},
+    SectionKind{"points", "Conditions varied together", "qos_by_point", points_figures},
+    SectionKind{"precision", "What accuracy costs", "precision", precision_figures},
+    SectionKind{"fig7", "Where each side has the cube, over time", "trajectories", fig7_figures},
+    SectionKind{"tasks", "Tasks in which both hands act on what they feel", "tasks", tasks_figures},
     SectionKind{.id = "replay",
                 .title = "Look at it",
-                .what = "the replay",
-                .command = "scripts/table1.sh --out",
-                .subfolder = "table1",
                 .is_there = [](const Results& r) { return !r.replays.empty(); }},
-    SectionKind{.id = "sessions",
-                .title = "The sessions",
-                .figures = session_figures,
-                .is_there = [](const Results& r) { return !r.sessions.empty(); }},
-    SectionKind{"table1", "Table 1: how far the two copies are apart", "table1", table1_figures,
-                "Table 1", "scripts/table1.sh --out", "table1"},
-    SectionKind{"fig6a", "Fig. 6a: tolerated delay and jitter", "limits", fig6a_figures, "Fig. 6a",
-                "scripts/fig6a.sh --out", "fig6a"},
-    SectionKind{"fig6b", "Fig. 6b: tolerated loss", "limits", fig6b_figures, "Fig. 6b",
-                "scripts/fig6b.sh --out", "fig6b"},
-    SectionKind{"curves", "The curves behind the limits", "curves", curves_figures, "the curves",
-                "scripts/fig6a.sh --out", "fig6a"},
-    SectionKind{"trust", "How far a limit can be trusted", "limits_by_convention", trust_figures,
-                "how far a limit can be trusted", "scripts/fig6a.sh --out", "fig6a"},
-    SectionKind{"precision", "What accuracy costs", "precision", precision_figures},
-    SectionKind{"axis", "What was not chosen, and what the paper leaves open", "limits_by_axis",
-                axis_figures},
-    SectionKind{"points", "Conditions varied together", "qos_by_point", points_figures},
+    SectionKind{"curves", "The sessions behind the limits", "curves", curves_figures},
+    SectionKind{"trust", "How far a limit can be trusted", "limits_by_convention", trust_figures},
     SectionKind{"paired", "Algorithms seed by seed", "paired"},
-    SectionKind{"fig7", "Fig. 7: where each side has the cube", "trajectories", fig7_figures,
-                "Fig. 7", "scripts/fig7.sh --out", "fig7"},
-    SectionKind{"qos", "What a network must offer", "qos", qos_figures, "what a network must offer",
-                "scripts/qos.sh --out", "qos"},
-    SectionKind{"tasks", "The closed-loop tasks beside it", "tasks", tasks_figures,
-                "the closed-loop tasks", "scripts/table1.sh --out", "table1"},
-    SectionKind{"real-time", "Real time beside virtual time", "real_time", real_time_figures,
-                "real time", "scripts/table1.sh --real-time --out", "table1"},
+    SectionKind{"real-time", "Real time beside virtual time", "real_time", real_time_figures},
     SectionKind{.id = "claims",
                 .title = "What stands against the paper, and how it came about",
                 .is_there = has_verdicts},
-    SectionKind{"beyond", "What is claimed beyond the paper", "claims", nullptr,
-                "what is claimed beyond the paper", "scripts/beat.sh --out", "beat"},
+    SectionKind{.id = "repeat", .title = "How to repeat it", .is_there = is_of_sessions},
     SectionKind{.id = "runs", .title = "How to repeat it", .is_there = [](const Results& r) {
                     return !r.runs.empty();
                 }}};
@@ -99,6 +136,7 @@ constexpr std::array section_kinds{
 std::string_view source_of(const SectionKind& kind)
 {
     if (kind.id == "points") return "";
+    if (kind.id == "beyond") return "claims_numbers";
     return kind.id == "tasks" ? "sessions" : kind.table;
 }
 
@@ -106,11 +144,13 @@ std::string_view source_of(const SectionKind& kind)
 std::string subject_of(const Results& results)
 {
     if (results.demo) return "demo";
-    return !results.sessions.empty() && results.runs.empty() ? "session" : "experiments";
+    return is_of_sessions(results) ? "session" : "experiments";
 }
 
 std::string title_of(const Results& results)
 {
+    // An axis makes another experiment of the one whose title it has.
+    if (results.runs.size() == 1 && has_axis(results)) return axis_title(results);
     if (results.runs.size() == 1) {
         const auto title = results.runs.front().manifest.value("title", Json{});
         if (title.is_string()) return title.get<std::string>();
@@ -137,16 +177,60 @@ Json json_of(const std::vector<records::TextTable>& tables)
     return list;
 }
 
+/// The limits of the criteria that always judge.
+Json json_of(const metrics::Criteria& criteria)
+{
+    const auto& [order, usable, good] = criteria;
+    return {{"usable",
+             {{"vibration_max_mm", 1e3 * at_order(usable.vibration_max_m, order)},
+              {"discrepancy_max_mm", 1e3 * usable.discrepancy_max_m},
+              {"slow_stiffness_error_max", usable.slow_stiffness_error_max},
+              {"force_vibration_max_n", usable.force_vibration_max_n},
+              {"scored_share_min", usable.scored_share_min}}},
+            {"good",
+             {{"discrepancy_max_mm", 1e3 * good.discrepancy_max_m},
+              {"stiffness_error_max", good.stiffness_error_max},
+              {"force_discrepancy_max", good.force_discrepancy_max},
+              {"contact_lost_max", good.contact_lost_max},
+              {"drag_max_n", good.drag_max_n}}}};
+}
+
+Json json_of(const std::vector<Repeat>& repeats)
+{
+    Json list = Json::array();
+    for (const Repeat& one : repeats)
+        list.push_back({{"what", one.what}, {"commands", one.commands}});
+    return list;
+}
+
 Json sessions_of(const Results& results)
 {
     Json list = Json::array();
     for (const results::RecordedSession& session : results.sessions) {
-        list.push_back({{"peers", {session.peer_a, session.peer_b}},
+        list.push_back({{"peers", {session.a.id, session.b.id}},
                         {"algorithm", session.algorithm},
+                        {"played", sentence_of(session)},
                         {"valid", session.analysis.valid()},
                         {"invalid_because", session.analysis.invalid_because},
                         {"tables", json_of(tables_of(session.analysis))},
-                        {"clock", clock_text(session.analysis.clock)}});
+                        {"network", about_network(session)},
+                        {"clock", about_clocks(session)},
+                        {"settings", json_of({settings_table(session)})},
+                        {"repeats", json_of(repeats_of(session))}});
+    }
+    return list;
+}
+
+/// A sentence for each run; a run of which nothing is known has its title.
+Json played_of(const Results& results)
+{
+    Json list = Json::array();
+    for (const results::Run& run : results.runs) {
+        auto sentence = sentence_of(run);
+        const auto title = run.manifest.find("title");
+        if (sentence.empty() && title != run.manifest.end() && title->is_string())
+            sentence = title->get<std::string>() + ".";
+        if (!sentence.empty()) list.push_back(std::move(sentence));
     }
     return list;
 }
@@ -155,16 +239,19 @@ Json runs_of(const Results& results)
 {
     Json list = Json::array();
     for (const results::Run& run : results.runs)
-        list.push_back({{"folder", run.folder}, {"manifest", run.manifest}});
+        list.push_back(
+            {{"folder", run.folder}, {"manifest", run.manifest}, {"amounts", amounts_of(run)}});
     return list;
 }
 
 /// The tables that a page shows, and not only draws.
 Json tables_of(const Results& results)
 {
-    constexpr std::array<std::string_view, 10> are_shown{
-        "table1", "tasks",     "limits",           "limits_by_convention", "paired",
-        "claims", "precision", "claims_quantiles", "claim_sessions",       "real_time"};
+    constexpr std::array<std::string_view, 13> are_shown{
+        "table1",           "tasks",          "limits",        "limits_by_convention",
+        "paired",           "claims",         "precision",     "claims_numbers",
+        "claims_quantiles", "claim_sessions", "tasks_by_axis", "limits_by_axis",
+        "real_time"};
     std::vector<results::Table> tables;
     for (const std::string_view name : are_shown)
         if (!results.table(name).is_empty()) tables.push_back(results.table(name));
@@ -174,25 +261,17 @@ Json tables_of(const Results& results)
 /// A page on its way: its data, and its figures' own files.
 class PageData {
 public:
-    PageData(const Results& results, std::string_view folder) : results_{results}
+    explicit PageData(const Results& results) : results_{results}
     {
-        Json sections = Json::array(), missing = Json::array();
-        for (const SectionKind& kind : section_kinds) {
-            if (auto section = section_of(kind); !section.is_null()) {
+        Json sections = Json::array();
+        for (const SectionKind& kind : section_kinds)
+            if (auto section = section_of(kind); !section.is_null())
                 sections.push_back(std::move(section));
-            } else if (!kind.command.empty()) {
-                missing.push_back(
-                    {{"what", kind.what},
-                     {"command", fmt::format("{} {}/{}", kind.command, folder, kind.subfolder)}});
-            }
-        }
-        data_ = {{"subject", subject_of(results)},
-                 {"title", title_of(results)},
-                 {"sections", std::move(sections)},
-                 {"missing", subject_of(results) == "experiments" ? missing : Json::array()},
-                 {"runs", runs_of(results)},
-                 {"tables", tables_of(results)},
+        data_ = {{"subject", subject_of(results)},  {"title", title_of(results)},
+                 {"sections", std::move(sections)}, {"played", played_of(results)},
+                 {"runs", runs_of(results)},        {"tables", tables_of(results)},
                  {"sessions", sessions_of(results)}};
+        if (const auto criteria = results.criteria()) data_["criteria"] = json_of(*criteria);
         if (results.demo) data_["demo"] = json_of(demo_tables(*results.demo));
         data_["figures"] = std::move(figures_);
         if (!results.replays.empty()) data_["replays"] = replays_of(results);
@@ -223,22 +302,25 @@ private:
             Json names = Json::array();
             for (const page::Figure& figure : group.figures) {
                 names.push_back(figure.id);
-                add(figure, results_.files_of(source_of(kind)));
+                add(figure, results_.files_of(source_of(kind)), group);
             }
             list.push_back({{"title", group.title}, {"figures", std::move(names)}});
         }
-        const bool is_one = kind.id == "sessions" && results_.sessions.size() == 1;
-        return {{"id", kind.id}, {"title", is_one ? "The session" : kind.title}, {"groups", list}};
+        return {
+            {"id", kind.id},
+            {"title", kind.title_of == nullptr ? std::string{kind.title} : kind.title_of(results_)},
+            {"groups", list}};
     }
 
     /// A figure whose numbers no result file has gets a file of its own.
-    void add(page::Figure figure, std::vector<std::string> sources)
+    void add(page::Figure figure, std::vector<std::string> sources, const FigureGroup& group)
     {
         if (figure.sources.empty()) figure.sources = std::move(sources);
         if (figure.sources.empty() && !std::holds_alternative<page::HeatMap>(figure.content)) {
             figure.sources = {fmt::format("figures/{}.csv", figure.id)};
             files_.push_back({figure.sources.front(), page::csv_of(page::json_of(figure))});
         }
+        std::ranges::copy(group.origins, std::back_inserter(figure.sources));
         figures_.push_back(page::json_of(figure));
     }
 
@@ -259,9 +341,9 @@ std::string_view page_subject(std::string_view page)
     return page.substr(0, page.find('"'));
 }
 
-std::vector<results::File> report_of(const results::Results& results, std::string_view folder)
+std::vector<results::File> report_of(const results::Results& results)
 {
-    return PageData{results, folder}.files();
+    return PageData{results}.files();
 }
 
 } // namespace hapnet::lab::report

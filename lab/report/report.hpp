@@ -11,10 +11,8 @@
 namespace hapnet::lab::report {
 
 /// The report of a result folder: report.html, and figures/*.csv where no result file has the
-/// numbers of a figure. Equal results give equal bytes. `folder` is its name, for the
-/// commands that the page shows.
-[[nodiscard]] std::vector<results::File> report_of(const results::Results& results,
-                                                   std::string_view folder);
+/// numbers of a figure. Equal results give equal bytes.
+[[nodiscard]] std::vector<results::File> report_of(const results::Results& results);
 
 /// What a report.html is about: "experiments", "demo" or "session"; empty when it does not say.
 [[nodiscard]] std::string_view page_subject(std::string_view page);

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/bodies.hpp"
 #include "lab/report/figures.hpp"
+#include "lab/report/path_figures.hpp"
 #include "lab/report/patterns.hpp"
+#include "lab/report/session_words.hpp"
+#include "proto/page/distribution.hpp"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numbers>
 #include <spdlog/fmt/fmt.h>
 
@@ -16,7 +20,6 @@ namespace {
 using Values = std::vector<records::TimedValue>;
 
 constexpr std::size_t curve_points_max = 4000; // a curve: finer than pixels, and no peak is lost
-constexpr page::Size plot_size{900.0, 230.0};
 /// Of the bodies of a session, in their order; there are eight at most.
 constexpr std::array<std::string_view, 8> body_colours{"left",   "right", "sep",        "other",
                                                        "missed", "met",   "calibrated", "muted"};
@@ -28,6 +31,15 @@ page::Curve curve_of(std::string_view name, std::string_view colour, const Value
     return {.name = std::string{name},
             .colour = colour,
             .points = page::thinned(points, curve_points_max)};
+}
+
+/// A quantity of both sides; where they are equal, B's dashes lie on the line of A.
+std::vector<page::Curve> of_both(std::string_view of, const Values& a, const Values& b)
+{
+    std::vector<page::Curve> both{curve_of(fmt::format("{} A", of), "left", a),
+                                  curve_of(fmt::format("{} B", of), "right", b)};
+    both.back().is_dashed = true;
+    return both;
 }
 
 /// The first and the last time of what is drawn: all plots of a session span the same.
@@ -80,21 +92,19 @@ std::vector<page::Curve> curves_of_bodies(const std::vector<records::BodyCurves>
     return drawn;
 }
 
-std::vector<page::Figure> figures_of(const results::RecordedSession& session,
-                                     const std::string& prefix)
+std::vector<page::Figure> figures_of_bodies(const results::RecordedSession& session)
 {
     std::vector<page::Figure> figures;
     const auto add = [&](std::string_view id, std::string title, page::Axis y,
                          std::vector<page::Curve> drawn, std::string caption) {
         if (drawn.empty()) return;
-        figures.push_back(
-            {.id = page::plain_id(fmt::format("{}-{}", prefix, id)),
-             .title = std::move(title),
-             .x = {.label = "time from the start", .unit = "s", .range = span_of(session.curves)},
-             .y = std::move(y),
-             .content = page::Curves{std::move(drawn)},
-             .size = plot_size,
-             .caption = std::move(caption)});
+        figures.push_back({.id = std::string{id},
+                           .title = std::move(title),
+                           .x = {.label = "time from the start", .unit = "s"},
+                           .y = std::move(y),
+                           .content = page::Curves{std::move(drawn)},
+                           .size = plot_size,
+                           .caption = std::move(caption)});
     };
     const records::SessionCurves& curves = session.curves;
     const auto& bodies = session.analysis.agreement.bodies;
@@ -102,11 +112,10 @@ std::vector<page::Figure> figures_of(const results::RecordedSession& session,
     add("apart", "Distance of the two copies of " + body, {"|x_A − x_B|", "mm"},
         {curve_of("|x_A − x_B|", "ink", curves.apart_mm)}, apart_caption(session.analysis));
     add("cubes", fmt::format("Where each side has {}", body), {"x", "mm"},
-        {curve_of("at A", "left", curves.cube_a_mm), curve_of("at B", "right", curves.cube_b_mm)},
+        of_both("at", curves.cube_a_mm, curves.cube_b_mm),
         fmt::format("x of both copies of {}.", body));
     add("forces", "Force on each hand", {"force", "N"},
-        {curve_of("on hand A", "left", curves.force_a_n),
-         curve_of("on hand B", "right", curves.force_b_n)},
+        of_both("on hand", curves.force_a_n, curves.force_b_n),
         "Magnitude of the force that each device was told to apply, after its governor.");
     // Where |x_A - x_B| does not say it all.
     add("bodies", "Distance of the two copies of each body", {"distance", "mm"},
@@ -122,6 +131,49 @@ std::vector<page::Figure> figures_of(const results::RecordedSession& session,
     return figures;
 }
 
+/// How late the ticks of both loops were; none in virtual time, where no tick is late.
+std::vector<page::Figure> lateness_figures(const records::SessionCurves& curves)
+{
+    std::vector<page::Curve> drawn;
+    const auto add = [&](std::string_view name, std::string_view colour, bool is_dashed,
+                         const std::vector<double>& late_us) {
+        const bool is_late = std::ranges::any_of(late_us, [](double us) { return us > 0.0; });
+        if (!is_late) return;
+        drawn.push_back({.name = std::string{name},
+                         .colour = colour,
+                         .points = page::shares_at_most(late_us, share_points_max),
+                         .width = 2.0,
+                         .is_dashed = is_dashed});
+    };
+    add("A", "left", false, curves.late_a_us);
+    add("B", "right", true, curves.late_b_us);
+    if (drawn.empty()) return {};
+    page::Figure figure = page::lateness_figure("lateness", "ticks", std::move(drawn),
+                                                1e6 * base::to_seconds(records::tick_lateness_max));
+    figure.title = "Lateness of the ticks";
+    figure.caption = "How long after it was due each tick of a haptic loop began. The session is "
+                     "valid only if both curves have reached 99 % at the budget.";
+    return {std::move(figure)};
+}
+
+/// All figures of a session: over time from the same moment to the same moment, and those of
+/// shares.
+std::vector<page::Figure> figures_of(const results::RecordedSession& session,
+                                     const std::string& prefix)
+{
+    const records::SessionCurves& curves = session.curves;
+    std::vector<page::Figure> figures = figures_of_bodies(session);
+    const std::string_view arrival = is_virtual(session) ? "its arrival, both in virtual time"
+                                                         : "the stamp of the receiver’s kernel";
+    std::ranges::move(path_figures(curves.paths, arrival), std::back_inserter(figures));
+    for (page::Figure& figure : figures) figure.x.range = span_of(curves);
+    std::ranges::move(delay_distribution(curves.paths), std::back_inserter(figures));
+    std::ranges::move(lateness_figures(curves), std::back_inserter(figures));
+    for (page::Figure& figure : figures)
+        figure.id = page::plain_id(fmt::format("{}-{}", prefix, figure.id));
+    return figures;
+}
+
 } // namespace
 
 FigureGroups session_figures(const results::Results& results)
@@ -131,10 +183,15 @@ FigureGroups session_figures(const results::Results& results)
         const bool is_one_of_many =
             std::ranges::count(results.sessions, session.name, &results::RecordedSession::name) > 1;
         const auto prefix = is_one_of_many ? fmt::format("session-{}-{}-{}", session.name,
-                                                         session.peer_a, session.peer_b)
+                                                         session.a.id, session.b.id)
                                            : "session-" + session.name;
-        const auto title = session.task.empty() ? session.name : "Task " + session.task;
-        groups.push_back({title, figures_of(session, prefix)});
+        std::string title = session.task.empty() ? session.name : "Task " + session.task;
+        if (is_one_of_many)
+            title += fmt::format(": peers {} (A) and {} (B)", session.a.id, session.b.id);
+        FigureGroup& group =
+            groups.emplace_back(FigureGroup{std::move(title), figures_of(session, prefix), {}});
+        for (const results::RecordedPeer* peer : {&session.a, &session.b})
+            if (!peer->file.empty()) group.origins.push_back(peer->file);
     }
     return groups;
 }

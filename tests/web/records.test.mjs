@@ -74,8 +74,7 @@ const seek = async (thousandth) => {
 test("says that it shows records, and offers no change", { skip }, async () => {
   assert.equal(await page.textContent("#mode"), "from records");
   await page.waitForSelector("#read-only:not([hidden])");
-  assert.equal(await page.evaluate(() => document.getElementById("network-controls").inert), true);
-  for (const id of ["save", "wire", "stage"]) {
+  for (const id of ["save", "wire", "stage", "network-controls"]) {
     assert.equal(await page.locator(`#${id}`).isVisible(), false, id);
   }
   assert.deepEqual(page.complaints, []);
@@ -92,9 +91,11 @@ test("goes to a moment twice, and shows the same", { skip }, async () => {
 test("plays to its end, with the delays that the peers measured", { skip }, async () => {
   await page.selectOption("#factor", "max");
   await page.click("#play");
-  await page.waitForFunction(() =>
-    globalThis.hapnet.model.state.pace.state === "ended", undefined, patience);
-  const delay = await page.evaluate(() =>
-    globalThis.hapnet.model.fine.summary("heard_delay_ms:1", 3)?.mean);
+  const last = await page.waitForFunction(() => {
+    const { state, fine } = globalThis.hapnet.model;
+    // The last frames may come after the news that it has ended.
+    return state.pace.state === "ended" && fine.summary("heard_delay_ms:1", 3);
+  }, undefined, patience);
+  const { mean: delay } = await last.jsonValue();
   assert.ok(Math.abs(delay - 40) < 1, `${delay} ms`);
 });

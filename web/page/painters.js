@@ -27,9 +27,13 @@ export const graphics = () => {
 export const flatContext = (canvas) =>
   canvas.getContext("2d", graphics().software ? { willReadFrequently: true } : {});
 
-/** The painter of worlds in space, or a still picture where three.js or WebGL is missing. */
-export const painterFor = async (container) => {
+/**
+ * The painter of worlds in space, or a still picture where three.js or WebGL is missing.
+ * `hasThree`: it is worth asking for three.js, whose absence the browser would log.
+ */
+export const painterFor = async (container, hasThree = true) => {
   try {
+    if (!hasThree) throw new Error("no three.js");
     return (await import("./scene3d.js")).makePainter(container);
   } catch {
     container.querySelector("canvas.space")?.remove();

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 // Groups of bars from zero, with intervals and open ends, drawn as SVG.
 
-import { scaleOf } from "./scales.js";
+import { roundSpan, scaleOf } from "./scales.js";
 import { SvgSurface } from "./surface.js";
-import { boxOf, drawing, element, paintGrid, paintNames, paintOf, text } from "./svg.js";
+import {
+  boxOf, drawing, element, leftOf, paintGrid, paintNames, paintOf, text, widthOf, wrapped,
+} from "./svg.js";
 
 const widestBar = 48; // pixels
 const headRoom = 1.12; // for the text above the highest bar
@@ -25,7 +27,7 @@ const paintInterval = (group, bar, middle, y) => {
   return high;
 };
 
-const paintBar = (svg, bar, place, y) => {
+const paintBar = (svg, bar, place, { y, hasTexts }) => {
   const words = bar.tip || bar.text;
   const group = element(svg, "g", { class: "part", "data-tip": words });
   element(group, "title", {}, words);
@@ -36,9 +38,8 @@ const paintBar = (svg, bar, place, y) => {
   });
   const middle = place.left + place.width / 2;
   const end = bar.high === undefined ? place.top : paintInterval(group, bar, middle, y);
-  const fitting = (1.1 * place.width) / (0.62 * Math.max(bar.text.length, 1));
-  const style = { "font-size": Math.min(12, Math.max(8, fitting)) };
-  if (bar.missed) Object.assign(style, { fill: paintOf("missed"), "font-weight": "bold" });
+  if (!hasTexts) return;
+  const style = bar.missed ? { fill: paintOf("missed"), "font-weight": "bold" } : {};
   text(group, [middle, Math.min(place.top, end) - 4], "middle", bar.text, style);
 };
 
@@ -54,25 +55,35 @@ export const groupsOf = (figure, hidden = new Set()) => figure.x.categories.map(
 export const drawnBars = (figure, size, { hidden, top } = {}) => {
   const svg = drawing(size, figure.title);
   const surface = new SvgSurface(svg);
-  const box = boxOf(size, { top });
   const groups = groupsOf(figure, hidden);
   const ends = groups.flatMap(({ bars }) =>
     bars.map((bar) => headRoom * Math.max(bar.value, bar.high ?? 0)));
-  const scale = scaleOf([0, Math.max(0, ...ends) || 1], [box.bottom, box.top]);
+  const most = Math.max(0, ...ends, headRoom * (figure.y.range?.[1] ?? 0));
+  const span = roundSpan([0, most || 1]);
+  const left = leftOf(scaleOf(span, [size.height, 0]), size.height);
+  const room = (boxOf(size).right - left) / Math.max(groups.length, 1);
+  const names = groups.map(({ name }) => wrapped(name, room - 4));
+  const further = Math.max(...names.map((lines) => lines.length), 1) - 1; // lines of names
+  const box = boxOf(size, { top, further, left });
+  const scale = scaleOf(span, [box.bottom, box.top]);
   paintGrid(surface, box, scale);
-  paintNames(surface, box, figure);
-  const room = (box.right - box.left) / Math.max(groups.length, 1);
+  paintNames(surface, box, figure, further);
+  const stepOf = ({ bars }) => Math.min((0.85 * room) / Math.max(bars.length, 1), widestBar);
+  // The axis, the words of a bar and the table say the same: numbers that overlap say nothing.
+  const hasTexts = groups.every((group) =>
+    group.bars.every((bar) => widthOf(bar.text) + 4 <= stepOf(group)));
   groups.forEach((group, index) => {
-    const step = Math.min((0.85 * room) / Math.max(group.bars.length, 1), widestBar);
+    const step = stepOf(group);
     let at = box.left + index * room + (room - step * group.bars.length) / 2;
     for (const bar of group.bars) {
       const place = {
         left: at + 0.05 * step, width: 0.9 * step, top: scale.pixel(bar.value), bottom: box.bottom,
       };
-      paintBar(svg, bar, place, scale.pixel);
+      paintBar(svg, bar, place, { y: scale.pixel, hasTexts });
       at += step;
     }
-    text(svg, [box.left + (index + 0.5) * room, box.bottom + 16], "middle", group.name);
+    names[index].forEach((line, i) =>
+      text(svg, [box.left + (index + 0.5) * room, box.bottom + 16 + 14 * i], "middle", line));
   });
   return svg;
 };

@@ -55,7 +55,7 @@ class Pixels {
     }
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.context.clearRect(0, 0, size.width, size.height);
-    return paint(new CanvasSurface(this.context, this.colours, "11px system-ui, sans-serif"));
+    return paint(new CanvasSurface(this.context, this.colours, "12px system-ui, sans-serif"));
   }
 }
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // Curves with bands, dots and levels: of reports, of a run, and of the live page.
 
-import { nearest, scaleOf, spanOf } from "./scales.js";
+import { nearest, roundSpan, scaleOf, spanOf } from "./scales.js";
 import { drawLine, SvgSurface } from "./surface.js";
-import { boxOf, drawing, paintGrid, paintNames, paintOf } from "./svg.js";
+import { boxOf, drawing, leftOf, paintGrid, paintNames, paintOf } from "./svg.js";
 
 const columnsOf = (points, { x, y }) => {
   const canShow = ([across, up]) =>
@@ -29,7 +29,9 @@ export const curvesOf = (figure) => figure.series.map((series) => {
   return curve;
 });
 
-/** What both axes of a figure span: {x, y}; a linear y axis with a little room. */
+const dotRoom = 0.03; // of the x axis, beside dots at its ends
+
+/** What both axes of a figure span: {x, y}; a linear y axis from one round value to another. */
 export const spansOf = (figure) => {
   const all = figure.series.flatMap(({ points, scatter = [] }) => [...points, ...scatter]);
   const bands = figure.series.flatMap(({ band = [] }) =>
@@ -37,10 +39,14 @@ export const spansOf = (figure) => {
   const levels = (figure.levels ?? []).map((level) => level.y);
   const [logX, logY] = [figure.x.scale === "log", figure.y.scale === "log"];
   const x = spanOf(all.map((point) => point[0]).concat(figure.x.range ?? []), logX);
-  const [low, high] = spanOf(
-    all.map((point) => point[1]).concat(bands, figure.y.range ?? [], levels), logY);
-  const room = logY ? 0 : 0.04 * (high - low);
-  return { x, y: [low === 0 ? 0 : low - room, high + room] };
+  const hasDots = figure.series.some(({ dots, scatter }) => dots || scatter);
+  if (hasDots && !logX) {
+    const beside = dotRoom * (x[1] - x[0]);
+    x[0] -= beside;
+    x[1] += beside;
+  }
+  const y = spanOf(all.map((point) => point[1]).concat(bands, figure.y.range ?? [], levels), logY);
+  return { x, y: logY ? y : roundSpan(y) };
 };
 
 /** The part of a list that is seen, with a point more at each end. */
@@ -110,6 +116,19 @@ const dot = (path, { x: times, y: values }, { x, y }) => {
   return path;
 };
 
+/** Where a curve crosses a height: a line across, with its ends. */
+const paintCrossing = (surface, { y: height, low, high }, { x, y }, stroke) => {
+  const path = surface.begin();
+  const [from, to, down] = [x.pixel(low), x.pixel(high), y.pixel(height)];
+  path.moveTo(from, down);
+  path.lineTo(to, down);
+  for (const end of [from, to]) {
+    path.moveTo(end, down - 6);
+    path.lineTo(end, down + 6);
+  }
+  surface.draw(path, { stroke, "stroke-width": 3 });
+};
+
 const paintCurve = (surface, curve, scales, range) => {
   const stroke = paintOf(curve.colour);
   const dots = (points) => surface.draw(dot(surface.begin(), points, scales),
@@ -126,6 +145,7 @@ const paintCurve = (surface, curve, scales, range) => {
   }
   if (curve.dots) dots(curve);
   if (curve.scatter) dots(curve.scatter);
+  if (curve.crossing) paintCrossing(surface, curve.crossing, scales, stroke);
 };
 
 const paintLevels = (surface, box, levels, y) => {
@@ -138,15 +158,32 @@ const paintLevels = (surface, box, levels, y) => {
   }
 };
 
+const paintMoments = (surface, box, moments, x) => {
+  for (const moment of moments) {
+    const across = x.pixel(moment);
+    drawLine(surface, [across, box.top], [across, box.bottom],
+      { stroke: "currentColor", "stroke-opacity": 0.5, "stroke-dasharray": "2 3" });
+  }
+};
+
 const hasPoints = ({ x, scatter }) => x.length > 0 || scatter?.x.length > 0;
 
+/** The order in which curves are drawn: a dashed one lies on the others, which show between. */
+const fromBelow = (curves) => {
+  const reversed = [...curves].reverse();
+  return [...reversed.filter(({ dash }) => !dash), ...reversed.filter(({ dash }) => dash)];
+};
+
 /**
- * Draws curves, the first of which lies on top, on a surface, and returns {box, x, y}: where, and
- * its scales. `view` has the ranges `x` and `y`; where wanted `logX`, `logY`, `levels`, a `moment`
- * of x that is marked, `says` for the marks of x, and the `names` of the axes.
+ * Draws curves on a surface, the first of them on top of those after it and dashed ones on top of
+ * all, and returns {box, x, y}: where, and its scales. `view` has the ranges `x` and `y`; where
+ * wanted `logX`, `logY`, `levels`, `moments` of x with a line each, a `moment` that is marked,
+ * `says` for the marks of x, and the `names` of the axes.
  */
 export const paintCurves = (surface, size, curves, view) => {
-  const box = boxOf(size, { names: Boolean(view.names), top: view.top });
+  const left = view.names
+    ? leftOf(scaleOf(view.y, [size.height, 0], view.logY), size.height) : undefined;
+  const box = boxOf(size, { names: Boolean(view.names), top: view.top, left });
   const x = scaleOf(view.x, [box.left, box.right], view.logX);
   const y = scaleOf(view.y, [box.bottom, box.top], view.logY);
   paintGrid(surface, box, y);
@@ -155,9 +192,14 @@ export const paintCurves = (surface, size, curves, view) => {
     surface.text([x.pixel(mark), box.bottom + 15], "middle", says(mark));
   }
   if (view.names) paintNames(surface, box, view.names);
-  surface.clipped(box, (inside) => {
+  const edge = 4; // pixels: half a dot that lies on the edge
+  const clip = {
+    left: box.left - edge, right: box.right + edge, top: box.top - edge, bottom: box.bottom + edge,
+  };
+  surface.clipped(clip, (inside) => {
     paintLevels(inside, box, view.levels ?? [], y);
-    for (const curve of [...curves].reverse()) {
+    paintMoments(inside, box, view.moments ?? [], x);
+    for (const curve of fromBelow(curves)) {
       if (!curve.hidden && hasPoints(curve)) paintCurve(inside, curve, { x, y }, view.x);
     }
     if (Number.isFinite(view.moment)) {
@@ -176,7 +218,7 @@ export const drawnCurves = (figure, size, { hidden = new Set(), top, range } = {
   const curves = curvesOf(figure).map((curve) => ({ ...curve, hidden: hidden.has(curve.name) }));
   paintCurves(new SvgSurface(svg), size, curves, {
     x: range ?? spans.x, y: spans.y, logX: figure.x.scale === "log", logY: figure.y.scale === "log",
-    levels: figure.levels, names: figure, top,
+    levels: figure.levels, moments: figure.moments, names: figure, top,
   });
   return svg;
 };

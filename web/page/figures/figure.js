@@ -6,14 +6,20 @@
 import { make, say } from "../dom.js";
 import { toggleOf } from "../legend.js";
 import { Chart } from "./chart.js";
-import { curvesOf, spansOf, valueNear } from "./curves.js";
-import { drawn, namedIn, saveButton } from "./still.js";
+import { drawnBars } from "./bars.js";
+import { curvesOf, drawnCurves, spansOf, valueNear } from "./curves.js";
+import { drawnDots, heightOfDots } from "./dots.js";
+import { drawnHeatMap } from "./heat_map.js";
+import { heightOf, markOf, namedIn, saveButton } from "./still.js";
 import { paintOf } from "./svg.js";
 import { foldedTable } from "./table.js";
 
+const kinds = {
+  curves: { draw: drawnCurves }, bars: { draw: drawnBars }, "heat-map": { draw: drawnHeatMap },
+  dots: { draw: drawnDots, heightAt: heightOfDots },
+};
 const leastDrag = 5; // pixels
 const leastWidth = 80; // pixels
-const head = 26; // of the height that a figure asks for: its title, which stands outside
 
 const spoken = (value) => (value === null ? "–" : String(Number(value.toPrecision(4))));
 
@@ -25,14 +31,17 @@ class Figure {
     this.values = this.named.map(() => make("span", { class: "figure" }));
     this.pointedAt = make("output", { class: "figure pointed" });
     this.area = make("div", { class: "plot" });
-    this.area.style.height = `${Math.max(70, data.height - head)}px`;
+    this.area.style.height = `${heightOf(data, data.width)}px`;
     const toggle = (name) => () => {
       if (!this.hidden.delete(name)) this.hidden.add(name);
       this.draw();
       return !this.hidden.has(name);
     };
     const buttons = this.named.map((series, i) => toggleOf(
-      { label: series.name, colour: paintOf(series.colour), dash: series.dash }, true,
+      {
+        label: series.name, colour: paintOf(series.colour), dash: series.dash,
+        mark: markOf(data, series),
+      }, true,
       toggle(series.name), " ", this.values[i]));
     this.root = make("div", { class: "chart" },
       make("p", { class: "head" }, make("b", {}, data.title)), this.area,
@@ -54,9 +63,12 @@ class Still extends Figure {
   }
 
   draw() {
-    const { clientWidth: width, clientHeight: height } = this.area;
+    const { clientWidth: width } = this.area;
     if (width < leastWidth) return;
-    this.area.replaceChildren(drawn(this.data, { width, height }, { hidden: this.hidden }));
+    const height = heightOf(this.data, width);
+    this.area.style.height = `${height}px`;
+    const { data, hidden } = this;
+    this.area.replaceChildren(data.draw(data, { width, height }, { hidden }));
   }
 }
 
@@ -122,9 +134,9 @@ class Curves extends Figure {
     say(this.pointedAt, x === null ? "" : `at ${spoken(x)}`);
     const [from, to] = this.zoom.range;
     this.named.forEach((series, i) => {
-      const curve = this.curves.find((one) => one.name === series.name);
-      say(this.values[i],
-        x === null ? "" : spoken(valueNear(curve, x, 0.02 * (to - from))));
+      const found = this.curves.filter((one) => one.name === series.name)
+        .map((part) => valueNear(part, x, 0.02 * (to - from))).filter((value) => value !== null);
+      say(this.values[i], x === null ? "" : spoken(found[0] ?? null));
     });
   }
 
@@ -132,10 +144,13 @@ class Curves extends Figure {
     const curves = this.curves.map((curve) => ({ ...curve, hidden: this.hidden.has(curve.name) }));
     this.chart.update(curves, {
       x: this.zoom.range, y: this.spans.y, logX: this.data.x.scale === "log",
-      logY: this.data.y.scale === "log", levels: this.data.levels, names: this.data,
+      logY: this.data.y.scale === "log", levels: this.data.levels,
+      moments: this.data.moments, names: this.data,
     });
   }
 }
 
-export const makeFigure = (data, options) =>
-  (data.kind === "curves" ? new Curves(data, options) : new Still(data));
+export const makeFigure = (data, options) => {
+  const figure = { ...data, ...kinds[data.kind] };
+  return data.kind === "curves" ? new Curves(figure, options) : new Still(figure);
+};

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: MIT
 // Axes: from values to pixels and back, with round values to mark.
 
-/** About `count` round values from low to high: 1, 2 or 5 times a power of ten apart. */
-export const roundMarks = (low, high, count) => {
+/** 1, 2 or 5 times a power of ten: about so many of these from low to high. */
+const stepOf = (low, high, count) => {
   const span = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(span));
-  const step = [1, 2, 5, 10].map((factor) => factor * power).find((one) => one >= span * 0.999);
+  return [1, 2, 5, 10].map((factor) => factor * power).find((one) => one >= span * 0.999);
+};
+
+/** About `count` round values from low to high. */
+export const roundMarks = (low, high, count) => {
+  const step = stepOf(low, high, count);
   const marks = [];
   for (let mark = Math.ceil(low / step) * step; mark <= high + 1e-9 * step; mark += step) {
     marks.push(Number(mark.toPrecision(10)));
@@ -27,6 +32,13 @@ const logMarks = (low, high, count) => {
   return within.length > 1 ? within : roundMarks(low, high, count);
 };
 
+/** From a round value at or below low to one at or above high: no value lies beyond the marks. */
+export const roundSpan = ([low, high]) => {
+  const step = stepOf(low, high, 5);
+  return [Math.floor, Math.ceil].map((round, i) =>
+    Number((round([low / step + 1e-9, high / step - 1e-9][i]) * step).toPrecision(10)));
+};
+
 /** A mark as text: "0.25", beyond thousands "1e4" on a logarithmic axis. */
 const textOf = (mark, isLog) => (isLog && (mark > 1e3 || mark < 1e-3)
   ? mark.toExponential().replace("e+", "e") : String(Number(mark.toPrecision(6))));
@@ -43,7 +55,10 @@ export const scaleOf = ([low, high], [from, to], isLog = false) => {
   };
 };
 
-/** The least and the most of the finite numbers; whole decades if `isLog`; never a single value. */
+/**
+ * The least and the most of the finite numbers; whole decades if `isLog`; never a single value:
+ * that stands at the end of an axis from zero.
+ */
 export const spanOf = (numbers, isLog) => {
   let [least, most] = [Infinity, -Infinity];
   for (const value of numbers) {
@@ -56,7 +71,8 @@ export const spanOf = (numbers, isLog) => {
     const low = Math.floor(Math.log10(least));
     return [10 ** low, 10 ** Math.max(Math.ceil(Math.log10(most)), low + 1)];
   }
-  return least < most ? [least, most] : [least - 1, most + 1];
+  if (least < most) return [least, most];
+  return least === 0 ? [0, 1] : [Math.min(least, 0), Math.max(most, 0)];
 };
 
 /** The index of the value that is nearest to x in an ascending list. */

@@ -1,24 +1,36 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // A figure as a file of its own: with its title and legend, in the light colours of the palette.
+// A figure brings what draws its kind, so that a page loads no other: `draw(figure, size,
+// options)`, and `heightAt(figure, width)` where the height follows from the data.
 
 import { make } from "../dom.js";
-import { drawnBars } from "./bars.js";
-import { drawnCurves } from "./curves.js";
-import { drawnHeatMap } from "./heat_map.js";
 import { element, paintOf, text } from "./svg.js";
 
-const kinds = { curves: drawnCurves, bars: drawnBars, "heat-map": drawnHeatMap };
 const ink = "#1b1f24";
 const besideTitle = 600; // pixels: a narrower figure has its legend below its title
 
-/** The figure without title and legend, as a drawing of that size. */
-export const drawn = (figure, size, options = {}) => kinds[figure.kind](figure, size, options);
+const head = 26; // of the height that a figure asks for: its title, which stands outside
 
-/** The series that a legend names: {name, colour, dash}. None where one has several colours. */
-export const namedIn = (figure) => {
-  const isTold = figure.series.every((series) => series.colour !== undefined);
-  return isTold ? figure.series.filter((series) => series.name !== "") : [];
+/** How high the drawing of a figure is, without its title, at that width. */
+export const heightOf = (figure, width) =>
+  figure.heightAt?.(figure, width) ?? Math.max(70, figure.height - head);
+
+/** The mark that the series is drawn with, for its legend: a line, dots, both, or a box. */
+export const markOf = (figure, { width, dots, scatter, outlined }) => {
+  if (figure.kind === "bars") return outlined ? "box dash" : "box";
+  if (width === 0) return "dot";
+  return dots || scatter ? "line dotted" : "line";
+};
+
+/**
+ * The series that a legend names: {name, colour, dash}; of several with one name, the parts of a
+ * curve with gaps, the first. None where one has several colours.
+ */
+export const namedIn = ({ series: all }) => {
+  const isTold = all.every((series) => series.colour !== undefined);
+  const isFirst = ({ name }, i) => all.findIndex((other) => other.name === name) === i;
+  return isTold ? all.filter((series, i) => series.name !== "" && isFirst(series, i)) : [];
 };
 
 const paintLegend = (svg, figure, hidden, isBeside) => {
@@ -36,7 +48,10 @@ const paintLegend = (svg, figure, hidden, isBeside) => {
 export const stillOf = (figure, { hidden = new Set(), range } = {}) => {
   const isBeside = figure.width >= besideTitle;
   const hasLegend = namedIn(figure).length > 0;
-  const svg = drawn(figure, figure, { hidden, range, top: hasLegend && !isBeside ? 48 : 30 });
+  const top = hasLegend && !isBeside ? 48 : 30;
+  const size = { width: figure.width,
+    height: figure.heightAt ? top + heightOf(figure, figure.width) : figure.height };
+  const svg = figure.draw(figure, size, { hidden, range, top });
   text(svg, [60, 16], "start", figure.title, { "font-weight": "bold" });
   paintLegend(svg, figure, hidden, isBeside);
   for (const words of svg.querySelectorAll("text:not([fill])")) words.setAttribute("fill", ink);
@@ -63,14 +78,20 @@ export const fileOf = (figure, options) =>
   new XMLSerializer().serializeToString(stillOf(figure, options))
     .replace(/var\((--[a-z-]+)\)/g, (_, name) => lightColour(name));
 
-/** A button that saves the figure which `current()` returns as {figure, hidden, range}. */
-export const saveButton = (current) => make("button", {
+/** A button that saves the file which `current()` returns as {name, text}. */
+export const fileButton = (label, type, current) => make("button", {
   type: "button", class: "save",
   onclick: () => {
-    const { figure, ...options } = current();
-    const file = new Blob([fileOf(figure, options)], { type: "image/svg+xml" });
-    const link = make("a", { href: URL.createObjectURL(file), download: `${figure.id}.svg` });
+    const { name, text: words } = current();
+    const file = new Blob([words], { type });
+    const link = make("a", { href: URL.createObjectURL(file), download: name });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   },
-}, "Save as SVG");
+}, label);
+
+/** A button that saves the figure which `current()` returns as {figure, hidden, range}. */
+export const saveButton = (current) => fileButton("Save as SVG", "image/svg+xml", () => {
+  const { figure, ...options } = current();
+  return { name: `${figure.id}.svg`, text: fileOf(figure, options) };
+});

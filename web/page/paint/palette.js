@@ -39,6 +39,11 @@ const sides = ["left", "right", "sep", "other", "dead-reckoning", "met", "static
 /** The name of the colour of the peer that stands at this place, counted from 0. */
 export const colourOfPeer = (place) => sides[place % sides.length];
 
+const algorithms = ["base", "sep", "dead-reckoning"];
+
+/** The name of the colour of an algorithm. */
+export const colourOfAlgorithm = (name) => (algorithms.includes(name) ? name : "other");
+
 const darkness = matchMedia("(prefers-color-scheme: dark)");
 
 /** Calls back when the colours may have changed. */

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // One picture of one peer's world: what the painters draw. Lengths are in mm, forces in N.
-// It holds solids {shape, half, at, turn, look}, hands {at, radius, place, force, look}, planes
-// and fields as the scene has them.
+// It holds solids {shape, half, at, turn, look, tint}, hands {at, radius, place, force, look},
+// names {at, name, tint} of what has to be told apart, planes and fields as the scene has them. A
+// tint is the name of a colour.
 
 import { add, length, product, subtract, turned } from "./vector.js";
 
@@ -11,13 +12,14 @@ const ghostFrom = 0.3; // mm: nearer copies hide each other
 const ghostFromAngle = 0.01; // rad, in the square root of 1 - cos: about half a degree
 const ghostsMax = 3;
 
-const solidsOf = (body, pose, look) =>
+const solidsOf = (body, pose, look, tint) =>
   body.parts.map((part) => ({
     shape: part.shape,
     half: part.half,
     at: add(pose.at, turned(pose.turn, part.at)),
     turn: product(pose.turn, part.turn),
     look,
+    tint,
     body: body.id,
   }));
 
@@ -52,11 +54,13 @@ export const pictureOf = (scene, sides, id) => {
   const own = sides.get(id);
   const solids = [];
   const hands = [];
+  const names = [];
   for (const body of scene.bodies) {
     const look = body.movable ? "cube" : "static-cube";
     solids.push(...solidsOf(body, poseOf(body, own), look));
   }
-  if (own === undefined) return { solids, hands, planes: scene.planes, fields: scene.fields };
+  const picture = { solids, hands, names, planes: scene.planes, fields: scene.fields };
+  if (own === undefined) return picture;
   for (const other of othersOf(scene, sides, own)) {
     for (const body of scene.bodies.filter((one) => one.movable)) {
       const pose = ghostOf(scene, body, own, other);
@@ -67,16 +71,19 @@ export const pictureOf = (scene, sides, id) => {
     }
   }
   const shared = scene.bodies.find((body) => body.id === scene.shared);
-  for (const at of shared ? own.beside ?? [] : []) {
+  for (const { algorithm, tint, at } of shared ? own.beside ?? [] : []) {
     const pose = { at, turn: poseOf(shared, own).turn };
-    if (differ(pose, poseOf(shared, own))) solids.push(...solidsOf(shared, pose, "ghost"));
+    if (!differ(pose, poseOf(shared, own))) continue;
+    solids.push(...solidsOf(shared, pose, "ghost", tint));
+    const high = Math.max(...shared.parts.map((part) => part.at[1] + part.half[1]));
+    names.push({ name: algorithm, tint, at: add(at, [0, high, 0]) });
   }
   if (own.hip) {
     hands.push({
       at: own.hip, radius: scene.hipRadius, place: own.place, look: "hand", force: own.force,
     });
   }
-  return { solids, hands, planes: scene.planes, fields: scene.fields };
+  return picture;
 };
 
 /** The box around all that a scene holds at its beginning, with room for hands to move in. */
@@ -94,6 +101,13 @@ export const extentOf = (scene) => {
     }
   }
   return { low, high };
+};
+
+/** Half of what a view of that aspect shows of the height at the scene's middle, mm. */
+export const halfHeightOf = (scene, aspect) => {
+  const { low, high } = extentOf(scene);
+  const across = Math.hypot(high[0] - low[0], high[2] - low[2]) / 2 / aspect;
+  return Math.max(across, 0.62 * (high[1] - low[1]) + 22) * 1.12;
 };
 
 /** The platform's height: that of the highest level plane, else the lowest point of the scene. */

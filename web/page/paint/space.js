@@ -3,7 +3,7 @@
 // Paints a picture in space with three.js: one set of objects, posed anew for each picture.
 
 import * as three from "../three.module.min.js";
-import { extentOf, floorOf, mmPerNewton } from "./picture.js";
+import { extentOf, floorOf, halfHeightOf, mmPerNewton } from "./picture.js";
 import { colourOfPeer } from "./palette.js";
 import { solidEdges, solidGeometry } from "./solids.js";
 import { length } from "./vector.js";
@@ -65,16 +65,18 @@ export class Space {
     return store.get(key);
   }
 
-  #material(look) {
-    return this.#kept(this.#materials, look, () => {
+  /** `tint` is the colour of what has another one than usual. */
+  #material(look, tint) {
+    return this.#kept(this.#materials, `${look}:${tint}`, () => {
       if (look === "edge") {
         return new three.LineDashedMaterial({
-          color: this.colours.ink, dashSize: 3.5, gapSize: 2.5, transparent: true, opacity: 0.8,
+          color: this.colours[tint ?? "ink"], dashSize: 3.5, gapSize: 2.5, transparent: true,
+          opacity: 0.8,
         });
       }
       if (look === "ghost") {
         return new three.MeshBasicMaterial({
-          color: this.colours.cube, transparent: true, opacity: 0.16, depthWrite: false,
+          color: this.colours[tint ?? "cube"], transparent: true, opacity: 0.16, depthWrite: false,
         });
       }
       if (look === "grid") return new three.LineBasicMaterial({ color: this.colours.line });
@@ -96,21 +98,21 @@ export class Space {
     return object;
   }
 
-  #mesh(shape, half, look) {
+  #mesh(shape, half, look, tint) {
     const key = `${shape}:${half.map((edge) => edge.toFixed(3))}`;
-    return this.#lend(`${key}:${look}`, () => {
+    return this.#lend(`${key}:${look}:${tint}`, () => {
       const geometry = this.#kept(this.#geometries, key, () => solidGeometry(three, shape, half));
-      const mesh = new three.Mesh(geometry, this.#material(look));
+      const mesh = new three.Mesh(geometry, this.#material(look, tint));
       mesh.castShadow = mesh.receiveShadow = look !== "ghost";
       return mesh;
     });
   }
 
-  #edges(shape, half) {
+  #edges(shape, half, tint) {
     const key = `edges:${shape}:${half.map((edge) => edge.toFixed(3))}`;
-    return this.#lend(key, () => {
+    return this.#lend(`${key}:${tint}`, () => {
       const geometry = this.#kept(this.#geometries, key, () => solidEdges(three, shape, half));
-      const lines = new three.LineSegments(geometry, this.#material("edge"));
+      const lines = new three.LineSegments(geometry, this.#material("edge", tint));
       lines.computeLineDistances();
       return lines;
     });
@@ -122,8 +124,9 @@ export class Space {
   }
 
   #paintSolid(solid) {
-    this.#pose(this.#mesh(solid.shape, solid.half, solid.look), solid);
-    if (solid.look === "ghost") this.#pose(this.#edges(solid.shape, solid.half), solid);
+    const { shape, half, look, tint } = solid;
+    this.#pose(this.#mesh(shape, half, look, tint), solid);
+    if (look === "ghost") this.#pose(this.#edges(shape, half, tint), solid);
   }
 
   #arrow(from, force, look) {
@@ -193,8 +196,7 @@ export class Space {
   #aim(scene, orbit, aspect) {
     const { low, high } = extentOf(scene);
     const centre = low.map((value, axis) => (value + high[axis]) / 2);
-    const half = Math.max(Math.hypot(high[0] - low[0], high[2] - low[2]) / 2 / aspect,
-      0.62 * (high[1] - low[1]) + 22) * 1.12;
+    const half = halfHeightOf(scene, aspect);
     const distance = half / Math.tan((fieldOfView * Math.PI) / 360) / orbit.zoom;
     const level = Math.cos(orbit.pitch) * distance;
     this.#camera.aspect = aspect;
@@ -211,7 +213,10 @@ export class Space {
     this.renderer.clear();
   }
 
-  /** Paints the picture into a part of the canvas: {left, bottom, width, height}, in CSS pixels. */
+  /**
+   * Paints the picture into a part of the canvas: {left, bottom, width, height}, in CSS pixels.
+   * Gives where its names belong in that part, from its top left: [{left, top}].
+   */
   paint({ left, bottom, width, height }, scene, picture, orbit) {
     this.#lent.forEach((object) => { object.visible = false; });
     this.#lent = [];
@@ -223,5 +228,9 @@ export class Space {
     this.renderer.setViewport(left, bottom, width, height);
     this.renderer.setScissor(left, bottom, width, height);
     this.renderer.render(this.#world, this.#camera);
+    return picture.names.map(({ at }) => {
+      const { x, y } = new three.Vector3(...at).project(this.#camera);
+      return { left: ((x + 1) / 2) * width, top: ((1 - y) / 2) * height };
+    });
   }
 }

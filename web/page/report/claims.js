@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 // What of the results stands against the paper, and what is claimed beyond it.
 
+import { firstLookOf } from "./runs.js";
 import {
-  badge, bold, claimOf, distinct, exactLimit, inWords, median, ours, paragraph, rowsOf, shown,
-  styled, table, wordBadge,
+  badge, banner, bold, claimOf, distinct, exactLimit, figures, general, hasInterval,
+  intervalSeedsMin, inWords, median, name, ours, panels, paragraph, rowsOf, shown, spreadName,
+  table, tierMark, wordBadge, words,
 } from "./words.js";
 
 const table1Line = (row) => ["Table 1, ", bold(row.algorithm),
@@ -14,8 +16,8 @@ const table1Line = (row) => ["Table 1, ", bold(row.algorithm),
 
 const limitLine = (row) => {
   const paper = row.paper_limit === null ? "–" : exactLimit(row, row.paper_limit);
-  const interval = row.ci_low === null || row.ci_high === null ? ""
-    : `, 95 %: ${shown(row.ci_low, 1)} … ${shown(row.ci_high, 1)}`;
+  const interval = !hasInterval(row) || row.ci_high === null ? ""
+    : `, ${spreadName(row.seeds)}: ${shown(row.ci_low, 1)} … ${shown(row.ci_high, 1)}`;
   return [`Limit of ${inWords(row.impairment)}, `, bold(row.algorithm),
     `, worst of the tasks: ${exactLimit(row)} (paper: ${paper})${interval}, ${row.class}`];
 };
@@ -37,21 +39,28 @@ const mainClaims = ({ tables }) => {
   return lines;
 };
 
-/** The number of results for each verdict against the paper. */
-export const tiles = (data) => {
+const kindWords = {
+  met: "predicted and met", missed: "missed", undecided: "undecided", calibrated: "calibrated",
+  selected: "selected", "by-construction": "the same by construction",
+};
+
+/** One sentence: how many results there are for each verdict against the paper. */
+export const besideThePaper = (data) => {
   const lines = mainClaims(data);
-  if (kinds.every((kind) => lines[kind].length === 0)) return [];
-  const tile = (text, style, ...of) =>
-    ({ count: of.reduce((sum, kind) => sum + lines[kind].length, 0), text, style });
-  return [{ tiles: [tile("calibrated", "calibrated", "calibrated"),
-    tile("selected, or by construction", "seen", "selected", "by-construction"),
-    tile("predicted and met", "met", "met"), tile("undecided", "seen", "undecided"),
-    tile("missed", "missed", "missed")] }];
+  const look = firstLookOf(data, "limits");
+  const counts = Object.entries(kindWords).filter(([kind]) => lines[kind].length > 0)
+    .map(([kind, said]) => `${lines[kind].length} ${said}`);
+  if (counts.length === 0) return [];
+  return [paragraph([...(look ? [bold(look.words), " "] : []),
+    `Beside the paper’s numbers: ${counts.join(", ")}. `,
+    { a: "What these words mean", href: "#claims" }])];
 };
 
 export const claims = (section, data) => {
   const lines = mainClaims(data);
+  const look = firstLookOf(data, "limits");
   return [
+    ...(look ? [banner("", [bold(look.words), " Of the limits nothing is settled yet."])] : []),
     paragraph([bold("Calibrated"), ": fitted to the paper’s number, so agreeing shows nothing. ",
       bold("Selected"), ": it follows from a reading of the paper that was chosen among several "
       + "with a look at this very number. ", bold("By construction"), ": sep is base there. ",
@@ -78,8 +87,8 @@ const slowForces = (rows) => {
     return values.length === 0 ? "" : `${shown(median(values), 3)} (${largest})`;
   };
   const lines = distinct(rows, ({ condition }) => condition).map((condition) =>
-    [condition, ...names.map((task) => cellOf(condition, task))]);
-  if (lines.every(([, ...cells]) => cells.every((cell) => cell === ""))) return [];
+    [condition, ...names.map((task) => ours(cellOf(condition, task)))]);
+  if (lines.every(([, ...cells]) => cells.every(({ text }) => text === ""))) return [];
   return [
     paragraph("No claim is about this number, and “usable” does not see it: two copies that pull "
       + "at each other a few times a second."),
@@ -88,22 +97,84 @@ const slowForces = (rows) => {
   ];
 };
 
-export const beyond = (section, { tables }) => {
+const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);
+
+/** To three digits; what is next to nothing is said to be less than that. */
+const few = (value) => (value > 0 && value < 1e-3 ? "< 0.001" : general(value, 3));
+
+/** " (95 %: 0.9 to 1.1)": how far what was measured spreads; nothing where it does not. */
+const spread = ({ low, high, judged_by: by, sessions }) => {
+  if (low === null || high === null || low === high || sessions < 2) return "";
+  const isInterval = by === "mean" && sessions >= intervalSeedsMin;
+  return ` (${isInterval ? "95 %: " : ""}${few(low)} to ${few(high)})`;
+};
+
+/** "100 ms: 0.98 (...)": what was measured of a claim, a line for each of its numbers. */
+const measured = (numbers, look) => numbers.map((one) => {
+  const outside = one.kept === false ? `, ${look ? "outside" : "not kept"}` : "";
+  const said = one.value === null
+    ? `not measured: ${look?.endsEarly || "no session of its conditions exercises it"}`
+    : `${withUnit(few(one.value), one.unit)}${spread(one)}${outside}`;
+  return one.number ? `${one.number}: ${said}` : said;
+}).join("\n");
+
+/** Of a first look, how what was measured so far stands to what the claim accepts. */
+const soFar = (numbers) => {
+  if (numbers.length === 0 || numbers.some(({ value }) => value === null)) return "not measured";
+  return numbers.every(({ kept }) => kept !== false) ? "inside" : "outside";
+};
+
+const accepted = (numbers) => numbers.map(({ accept_low: low, accept_high: high, unit }) => {
+  if (low !== null && high !== null) return withUnit(`${general(low)} to ${general(high)}`, unit);
+  return withUnit(low === null ? `≤ ${general(high)}` : `≥ ${general(low)}`, unit);
+}).join("\n");
+
+const verdictCell = (row, numbers, look) => {
+  if (look) return name(`first look: ${soFar(numbers)}`);
+  return name(row.verdict === "undecided" ? badge(row.verdict, "seen") : wordBadge(row.verdict));
+};
+
+export const beyond = ({ groups }, data) => {
+  const { tables } = data;
+  const look = firstLookOf(data, "claims");
   const rows = rowsOf(tables.claims);
+  const numbers = rowsOf(tables.claims_numbers);
   const quantiles = rowsOf(tables.claims_quantiles);
-  const missed = rows.filter(({ verdict }) => verdict === "missed").length;
+  const count = (verdict) => rows.filter((row) => row.verdict === verdict).length;
+  const open = count("undecided") > 0 ? `, ${count("undecided")} undecided` : "";
   return [
-    paragraph(`${rows.length} claims, made before the first run; ${missed} missed. A claim is met `
-      + "when the worst of the seeds that judge keeps all its numbers, or their mean where it is "
-      + "of a mean. Hands are simulated."),
-    table("Each claim, with its numbers in the seeds that judge and in all", ["claim", "accepted",
-      "worst of the seeds\nthat judge", "nine of ten\nkeep", "seeds", "verdict"],
-    rows.map((row) => {
-      const all = quantiles.find(({ claim }) => claim === row.claim);
-      return [row.claim, styled("band")(row.accept), ours(row.value, row.verdict === "missed"),
-        ours(all ? all.quantile : ""), all ? String(all.seeds) : "",
-        row.verdict === "undecided" ? badge(row.verdict, "seen") : wordBadge(row.verdict)];
-    })),
+    look ? paragraph([bold(look.words)])
+      : paragraph(`Of ${rows.length} claims: ${count("met")} met, ${count("missed")} missed`
+        + `${open}.`),
+    panels("", figures(groups.flatMap((group) => group.figures)).toSpliced(1, 0, tierMark)),
+    paragraph("A claim is met when the worst of the sessions that judge keeps each of its numbers, "
+      + "or their mean where the claim is of a mean. In brackets: the 95 % interval of a mean of "
+      + `${intervalSeedsMin} sessions or more where it says so, otherwise the least and the most `
+      + "of the sessions. The claims were made before the first run."),
+    table("Each claim: what was measured, what it accepts, and what nine of ten of all seeds keep",
+      ["claim", "measured", "accepted", "verdict", "nine of ten", "seeds"],
+      rows.map((row) => {
+        const of = numbers.filter(({ claim }) => claim === row.claim);
+        const all = quantiles.find(({ claim }) => claim === row.claim);
+        return [row.claim,
+          words(of.length > 0 ? measured(of, look) : String(row.value)),
+          name(of.length > 0 ? accepted(of) : String(row.accept)), verdictCell(row, of, look),
+          words(all ? all.quantile.replaceAll("; ", "\n") : ""), all ? String(all.seeds) : ""];
+      })),
     ...slowForces(rowsOf(tables.claim_sessions)),
   ];
+};
+
+/** The figures of a page, in which nothing of a first look at claims is red. */
+export const withoutVerdicts = (data) => {
+  if (!firstLookOf(data, "claims")) return data.figures;
+  const ids = data.sections.filter(({ id }) => id === "beyond")
+    .flatMap(({ groups }) => groups.flatMap((group) => group.figures));
+  return data.figures.map((figure) => (!ids.includes(figure.id) ? figure : {
+    ...figure,
+    caption: figure.caption.replace("Red: not kept.", "Nothing is judged."),
+    series: figure.series.map((series) => ({
+      ...series, dots: series.dots.map(({ missed, ...dot }) => dot),
+    })),
+  }));
 };

@@ -8,38 +8,56 @@ import { spansOf } from "../figures/curves.js";
 import { makeFigure } from "../figures/figure.js";
 import { Zoom } from "../figures/zoom.js";
 
+/** Microseconds as people write them, where programs have "12 us" or "late, us". */
+const spoken = (text) => String(text).replace(/(\d |, |\()us\b/g, "$1µs");
+
 const pieceOf = (piece) => {
-  if (typeof piece === "string") return piece;
-  if ("b" in piece) return make("b", {}, piece.b);
+  if (typeof piece === "string") return spoken(piece);
+  if ("b" in piece) return make("b", {}, spoken(piece.b));
   if ("code" in piece) return make("code", {}, piece.code);
   if ("a" in piece) return make("a", { href: piece.href }, piece.a);
   return make("span", { class: `badge ${piece.style}` }, piece.badge);
 };
 const textOf = (text) => [text].flat().map(pieceOf);
 
-const cellOf = (cell, i) => {
+/** Roles are told: a table that is stacked would lose them. */
+const cellOf = (heads) => (cell, i) => {
   const { text, style } = typeof cell === "object" && "text" in cell ? cell : { text: cell };
-  return i === 0 ? make("th", { scope: "row", class: style }, ...textOf(text))
-    : make("td", { class: style }, ...textOf(text));
+  if (i === 0)
+    return make("th", { scope: "row", role: "rowheader", class: style }, ...textOf(text));
+  const said = [heads[i] ?? ""].flat().map((piece) => (typeof piece === "string" ? piece : piece.b))
+    .join("").replaceAll("\n", " ");
+  return make("td", { role: "cell", class: style, "data-head": said },
+    make("span", {}, ...textOf(text)));
 };
 
-const tableOf = ({ caption, heads, rows }) =>
-  make("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": caption },
-    make("table", {}, make("caption", {}, caption),
-      make("thead", {}, make("tr", {}, ...heads.map((head) =>
-        make("th", { scope: "col" }, ...textOf(head))))),
-      make("tbody", {}, ...rows.map((row) => make("tr", {}, ...row.map(cellOf))))));
+/** A head stands as the cells below it do. */
+const styleOfColumn = (rows, i) => rows[0]?.[i]?.style;
+
+/** A table that is wider than its place has its cells below each other: nothing of it is cut. */
+const stackWhereTooWide = (place, table) => {
+  new ResizeObserver(() => {
+    table.classList.remove("stacked");
+    table.classList.toggle("stacked", table.offsetWidth > place.clientWidth);
+  }).observe(place);
+  return place;
+};
+
+const tableOf = ({ caption, heads, rows }) => {
+  const table = make("table", { role: "table" }, make("caption", {}, caption),
+    make("thead", { role: "rowgroup" }, make("tr", { role: "row" }, ...heads.map((head, i) =>
+      make("th", { scope: "col", role: "columnheader", class: styleOfColumn(rows, i) },
+        ...textOf(head))))),
+    make("tbody", { role: "rowgroup" }, ...rows.map((row) =>
+      make("tr", { role: "row" }, ...row.map(cellOf(heads))))));
+  return stackWhereTooWide(make("div", { class: "table" }, table), table);
+};
 
 const listOf = (lines) => make("ul", {}, ...lines.map((line) => make("li", {}, ...textOf(line))));
 
 const bannerOf = ({ banner, style, list }) => make("div", {
   class: `banner ${style}`, role: style === "missed" ? "alert" : undefined,
 }, make("p", {}, ...textOf(banner)), list?.length > 0 ? listOf(list) : null);
-
-const tilesOf = (tiles) => make("p", {
-  class: "tiles", "aria-label": "results that stand against the paper",
-}, ...tiles.map(({ count, text, style }) =>
-  make("a", { class: `tile ${style}`, href: "#claims" }, make("b", {}, String(count)), " ", text)));
 
 const claimsOf = (lists) => make("div", { class: "three" }, ...lists.map(({ title, style, list }) =>
   make("div", { class: `claims ${style}` }, make("h3", {}, `${title} (${list.length})`),
@@ -103,7 +121,6 @@ export class Document {
     if ("banner" in block) return bannerOf(block);
     if ("list" in block) return listOf(block.list);
     if ("pre" in block) return make("pre", {}, block.pre);
-    if ("tiles" in block) return tilesOf(block.tiles);
     if ("claims" in block) return claimsOf(block.claims);
     if ("zoomed" in block) return this.#zoomed(block.blocks);
     if ("panels" in block) {
@@ -126,7 +143,9 @@ export class Document {
       make("li", {}, make("a", { href: `#${id}` }, name)));
     main.append(make("header", {}, make("h1", {}, title), make("p", { class: "lead" }, lead),
       ...this.blocks(head),
-      make("nav", { "aria-label": "contents" }, make("ul", {}, ...contents))));
+      contents.length < 2 ? null : make("details", { class: "contents" },
+        make("summary", {}, "Contents"),
+        make("nav", { "aria-label": "contents" }, make("ul", {}, ...contents)))));
     for (const { id, title: name, blocks } of sections) {
       main.append(make("section", { id, "aria-labelledby": `${id}-title` },
         make("h2", { id: `${id}-title` }, name), ...this.blocks(blocks)));

@@ -18,7 +18,7 @@ import { Replay } from "./replay.js";
 const stripPoints = 1500; // of a curve: finer than pixels
 const thrown = 400; // mm: what flew off is cut
 
-/** "L" of "L", "3" of "peer 3". */
+/** "A" of "A", "3" of "peer 3". */
 const letterOf = (name) => name.split(" ").at(-1).slice(0, 2);
 
 const speeds = [["0.1", "⅒"], ["0.25", "¼"], ["1", "1"], ["2", "2"], ["5", "5"]];
@@ -225,7 +225,8 @@ export class Player {
     const seconds = this.replay.timeAt(row);
     time.value = String(row);
     time.setAttribute("aria-valuetext", `${seconds.toFixed(1)} s`);
-    say(clock, `t = ${seconds.toFixed(2)} s`);
+    const isOver = row >= this.replay.count - 1;
+    say(clock, `t = ${seconds.toFixed(2)} s${isOver ? ": the hands let go, the replay ends" : ""}`);
     const { millimetres, degrees } = this.replay.apartAt(row);
     const turned = this.replay.turns ? `, ${degrees.toFixed(1)}°` : "";
     say(apart, `copies apart: ${millimetres.toFixed(1)} mm${turned}`);

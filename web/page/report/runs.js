@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 // How results came about, and whether they count: what their manifests say.
 
-import { banner, bold, folded, general, name, notValid, paragraph, table, words } from "./words.js";
+import { banner, folded, general, name, notValid, paragraph, table, words } from "./words.js";
 
 const isValid = ({ manifest }) => manifest.valid === true;
+
+/** The last part of a folder's path: where the page lies says the rest. */
+const nameOf = ({ folder }) => folder.split("/").filter((part) => part !== "").at(-1) ?? ".";
 
 /** "1 to 40" of whole numbers that follow one another; nothing for what is none. */
 const rangeOf = (list) => {
@@ -30,12 +33,13 @@ const isNested = (value) => isObject(value) && Object.values(value).some(isObjec
 const titleOf = (key) => key.replace(/_s$/, ", s").replaceAll("_", " ");
 
 /** All that a manifest says; what has lines of its own, as the configuration, below the rest. */
-const detailsOf = ({ folder, manifest }) => {
+const detailsOf = (run) => {
+  const { manifest } = run;
   const entries = Object.entries(manifest).map(([key, value]) =>
     [titleOf(key), isNested(value) ? JSON.stringify(value, null, 2) : wordsOf(value)]);
   const isLong = ([, text]) => text.includes("\n");
-  return folded([`${folder}: `, { code: wordsOf(manifest.command) }], [
-    table(folder, ["", "value"],
+  return folded([`${nameOf(run)}: `, { code: wordsOf(manifest.command) }], [
+    table(nameOf(run), ["key", "value"],
       entries.filter((entry) => !isLong(entry)).map(([title, text]) => [title, words(text)])),
     ...entries.filter(isLong).flatMap(([title, text]) => [paragraph(`${title}:`), { pre: text }]),
   ]);
@@ -46,10 +50,11 @@ export const runs = (section, data) => [
     "times faster\nthan real time", "sessions", "seeds", "valid"],
   data.runs.map((run) => {
     const says = (key) => wordsOf(run.manifest[key]);
-    return [run.folder, words(says("title")), says("wall_time_s"), says("simulated_s"),
+    return [nameOf(run), words(says("title")), says("wall_time_s"), says("simulated_s"),
       says("speed_ratio"), name(says("sessions")), name(says("seeds")),
       isValid(run) ? name("valid") : { text: "not valid", style: "name missed" }];
   })),
+  ...(data.runs.length > 1 ? [{ list: data.played }] : []),
   ...data.runs.map(detailsOf),
 ];
 
@@ -59,19 +64,45 @@ const reasonsOf = (run) => {
   const said = Array.isArray(reasons) && reasons.length > 0
     ? reasons.map((reason) => (typeof reason === "string" ? reason : JSON.stringify(reason)))
     : [kind === "real-time" ? "not every session over real UDP kept its timing"
-      : "does not say why"];
-  return said.map((reason) => `${run.folder}: ${reason}`);
+      : "the manifest does not say why"];
+  return said.map((reason) => ({ reason, name: nameOf(run) }));
 };
 
-/** The banner that says whether results are valid, and why not; recorded sessions say it alone. */
+/** Each reason once, with the runs that have it where there are several. */
+const joined = (reasons, isOne) => [...new Set(reasons.map(({ reason }) => reason))]
+  .map((reason) => {
+    const names = reasons.filter((one) => one.reason === reason).map(({ name: of }) => of);
+    return isOne ? reason : `${[...new Set(names)].join(", ")}: ${reason}`;
+  });
+
+/** "3 of 40 seeds and 6 of 30 s": by what a run falls short of the built-in one; "" by nothing. */
+const shortfallOf = ({ amounts }) => {
+  if (!amounts?.meant) return "";
+  const { played, meant } = amounts;
+  return [["seeds", "seeds"], ["duration_s", "s"]].filter(([key]) => played[key] < meant[key])
+    .map(([key, unit]) => `${general(played[key], 4)} of ${general(meant[key], 4)} ${unit}`)
+    .join(" and ");
+};
+
+/**
+ * Of the runs of a kind the first that falls short of what its results are stated for: {words,
+ * endsEarly}; null: all were played in full.
+ */
+export const firstLookOf = ({ runs: all }, kind) => {
+  const run = all.find((one) => one.manifest.kind === kind && shortfallOf(one) !== "");
+  if (!run) return null;
+  const { played, meant } = run.amounts;
+  const [lasts, whole] = [played, meant].map(({ duration_s: length }) => general(length, 4));
+  const endsEarly = played.duration_s < meant.duration_s
+    ? `the sessions last ${lasts} of ${whole} s` : "";
+  return { words: `Played with ${shortfallOf(run)}: a first look, not a verdict.`, endsEarly };
+};
+
+/** Says why results do not count; that they do stands where it is told what was played. */
 export const validity = ({ runs: all, subject }) => {
   const reasons = all.flatMap(reasonsOf);
-  if (reasons.length > 0)
-    return [notValid(reasons)];
-  if (all.length > 0)
-    return [banner("met", [bold("Valid."), " All runs completed and passed their own validity "
-      + "checks."])];
-  if (subject === "session") return [];
+  if (reasons.length > 0) return [notValid(joined(reasons, all.length === 1))];
+  if (all.length > 0 || subject === "session") return [];
   return [banner("", "There is no manifest.json: it is not known how these numbers came about and "
     + "whether they are valid.")];
 };

@@ -3,70 +3,107 @@
 // The sections of a page of results: words, tables and figures, as blocks of document.js, from the
 // tables that the page carries.
 
-import { beyond, claims, tiles } from "./claims.js";
-import { runs, validity } from "./runs.js";
+import { algorithms, tasks as taskWords } from "../words.js";
+import { beyond, besideThePaper, claims, withoutVerdicts } from "./claims.js";
+import { firstLookOf, runs, validity } from "./runs.js";
+import { leadOfSessions, repeat, sessions } from "./sessions.js";
 import {
-  badge, banner, classBadge, claimOf, distinct, exactLimit, figures, folded, general, heading,
-  inWords, limitText, name, notValid, ours, panels, paragraph, rowsOf, shown, statusBadge, styled,
-  table, textTable, tierBadge, wordBadge, words, zoomed, bold,
+  badge, banner, classBadge, claimOf, distinct, exactLimit, figures, folded, general, hasInterval,
+  heading, inWords, limitText, name, ours, panels, paragraph, rowsOf, shown, spreadName,
+  statusBadge, styled, table, textTable, tierBadge, tierMark, wordBadge, words, zoomed, bold,
 } from "./words.js";
 
 const allFigures = ({ groups }) => groups.flatMap((group) => figures(group.figures));
+
+const hasPaper = (rows) => rows.some(({ paper_mean_mm: mm }) => typeof mm === "number");
+
+/** Of one's own experiment there is nothing that the paper says: nothing stands against it. */
+const ownRows = (rows) => rows.map((row) => [row.algorithm,
+  ...["mean", "std", "max", "min"].map((part) => ours(shown(row[`${part}_mm`], 2)))]);
 
 const table1Rows = (rows) => rows.map((row) => {
   const cells = ["mean", "std", "max"].flatMap((part) => {
     const [value, low, high] = ["", "_low", "_high"].map((end) => row[`${part}${end}_mm`]);
     const isOutside = low !== null && low !== undefined && (value < low || value > high);
     const hasBand = high !== null && high !== undefined;
-    const band = hasBand ? `${shown(low, 2)} to ${shown(high, 2)}` : "–";
-    return [ours(shown(value, 2), isOutside), styled("paper")(shown(row[`paper_${part}_mm`], 2)),
-      styled("band")(band)];
+    const band = hasBand ? `\n${shown(low, 2)} to ${shown(high, 2)}` : "";
+    return [ours(shown(value, 2), isOutside),
+      styled("paper")(`${shown(row[`paper_${part}_mm`], 2)}${band}`)];
   });
   const isGreen = row.verdict !== "met" || row.class === "predicted";
   return [row.algorithm, ...cells, ours(shown(row.min_mm, 2)),
-    isGreen ? wordBadge(row.verdict) : badge("met", "seen"), classBadge(row.class),
-    classBadge(row.max_class)];
+    name(isGreen ? wordBadge(row.verdict) : badge("met", "seen")), name(row.max_class === row.class
+      ? classBadge(row.class)
+      : [classBadge(row.class), "\nmax: ", classBadge(row.max_class)])];
 });
 
 const table1Heads = ["algorithm",
-  ...["mean", "std", "max"].flatMap((part) => [part, "paper", "band"]), "min", "verdict", "class",
-  "class\nof max"];
+  ...["mean", "std", "max"].flatMap((part) => [part, "paper"]), "min", "verdict", "class"];
 
-const table1 = (section, data) => [
-  paragraph("One hand carries the cube; the other side sees it late. The distance between the two "
-    + "copies is what the network costs. Sep stands where the paper has TiDeC. The hand follows a "
-    + "prescribed path and the delay is constant: nothing is drawn by lot, so there is one session "
-    + "of each algorithm, whatever the seed, and no interval."),
-  table("|x at L − x at R| of the cube in task P1, mm: this run, the paper, and from where to "
-    + "where it agrees", table1Heads, table1Rows(rowsOf(data.tables.table1))),
-  panels("small", allFigures(section)),
-];
+const table1 = (section, data) => {
+  const rows = rowsOf(data.tables.table1);
+  const caption = "|x at A − x at B| of the cube in task P1, mm";
+  return [
+    panels("small", allFigures(section)),
+    paragraph("One hand moves the cube as prescribed; the other side sees it late. The "
+      + "distance between the two copies is what the network costs. Where nothing on the network "
+      + "is drawn by lot, every seed plays the same session, and there is no interval."
+      + (hasPaper(rows) ? " Sep stands where the paper has TiDeC." : "")),
+    hasPaper(rows)
+      ? table(`${caption}: this run, and the paper; below the paper’s number what agrees with it`,
+        table1Heads, table1Rows(rows))
+      : table(caption, ["algorithm", "mean", "std", "max", "min"], ownRows(rows)),
+  ];
+};
 
 const worst = "worst";
-const intervalOf = (row) => (row.ci_low === null ? "–"
+const intervalOf = (row) => (!hasInterval(row) ? "–"
   : `${shown(row.ci_low, 1)} … ${row.ci_high === null ? `> ${shown(row.p50, 1)}`
     : shown(row.ci_high, 1)}`);
 
-const limitsTable = (impairment, rows) => table(`Limits of ${impairment}: the level at which half `
-  + "of the seeds fail, its 95 % interval, and the level at which a tenth fails",
-["algorithm", "task", "limit", "95 %", "a tenth", "seeds", "paper", "band", "status", "class"],
-rows.map((row) => [row.algorithm, name(row.task),
-  ours(`${limitText(row)} ${inWords(row.unit)}`, claimOf(row.status) === "missed"), intervalOf(row),
-  shown(row.p10, 1), String(row.seeds),
+const paperCells = (row, look) => [
   styled("paper")(row.paper_limit === null ? "–" : exactLimit(row, row.paper_limit)),
-  styled("band")(row.band ?? ""), statusBadge(row.status), classBadge(row.class)]));
+  styled("band")(row.band ?? ""), name(statusBadge(row.status, look !== null)),
+  name(classBadge(row.class))];
 
-const limits = (text) => ({ groups }, data) => [paragraph(text), ...groups.flatMap((group) => {
+/** What reaches from low to high of rows with seeds, for the head of a column. */
+const spreadHead = (rows) => spreadName(Math.min(...rows.map(({ seeds }) => seeds)));
+
+/** The paper stands there only where it says something of one of the rows. */
+const limitsTable = (impairment, rows, look) => {
+  const isBeside = rows.some((row) => row.paper_limit !== null || row.status);
+  return table(`Limits of ${impairment}: the level at which half of the seeds fail, how sure that `
+    + "is, and the level at which a tenth fails",
+  ["algorithm", "task", "limit", spreadHead(rows), "a tenth", "seeds",
+    ...(isBeside ? ["paper", "band", "status", "class"] : [])],
+  rows.map((row) => [row.algorithm, name(row.task),
+    ours(`${limitText(row)} ${inWords(row.unit)}`, !look && claimOf(row.status) === "missed"),
+    intervalOf(row), shown(row.p10, 1), String(row.seeds),
+    ...(isBeside ? paperCells(row, look) : [])]));
+};
+
+const limits = (text) => ({ groups }, data) => groups.flatMap((group, i) => {
   const rows = rowsOf(data.tables.limits).filter((row) => inWords(row.impairment) === group.title);
-  return [heading(group.title), panels("", figures(group.figures)),
-    limitsTable(group.title, rows.filter(({ task }) => task === worst)),
+  const isFirst = (id) => id.startsWith("failing-");
+  const look = firstLookOf(data, "limits");
+  return [...(groups.length > 1 ? [heading(group.title)] : []),
+    ...figures(group.figures.filter(isFirst)), ...(i === 0 ? [tierMark, paragraph(text)] : []),
+    panels("", figures(group.figures.filter((id) => !isFirst(id)))),
+    limitsTable(group.title, rows.filter(({ task }) => task === worst), look),
     folded("Each task on its own",
-      [limitsTable(group.title, rows.filter(({ task }) => task !== worst))])];
-})];
+      [limitsTable(group.title, rows.filter(({ task }) => task !== worst), look)])];
+});
+
+/** What a task has to have its hands do for a criterion to be measured. */
+const measuredWhere = {
+  vibration: "the body has to move while a hand is on it",
+  stiffness: "it is taken from presses at 1 Hz, which T2 alone has",
+  "force-vibration": "the hands have to touch the body",
+};
 
 const curves = ({ groups }, data) => [
   paragraph("Every point is a session: all seeds at each level that counts. The line joins their "
-    + "medians."),
+    + "medians."), tierMark,
   ...(data.figures.some(({ id, levels }) => groups[0].figures.includes(id) && levels)
     ? [paragraph("The dashed line is where usable ends.")] : []),
   ...groups.flatMap((group) => {
@@ -76,7 +113,8 @@ const curves = ({ groups }, data) => [
       .filter((criterion) => !drawn.includes(criterion));
     return [heading(group.title), panels("small", figures(group.figures)),
       ...(unmeasured.length === 0 ? [] : [banner("", "Not measured in any of these sessions, so no "
-        + `session can have failed by it: ${unmeasured.join(", ")}.`)])];
+        + "session can have failed by it:",
+      unmeasured.map((criterion) => `${criterion}: ${measuredWhere[criterion]}`))])];
   }),
 ];
 
@@ -136,7 +174,8 @@ const precisionTable = (rows) => {
       ...found.map((row) => (row ? differenceOf(row) : "–")), shown(alike[0].order, 1), errorBy(1),
       errorBy(10), here.length === 0 ? "–" : errorBy(here.at(-1).seeds)];
   });
-  return table("Differences from the reference, with their 95 % intervals; the order in which they "
+  const most = Math.max(...rows.map(({ seeds }) => seeds));
+  return table(`Differences from the reference (${spreadName(most)}); the order in which they `
     + "fall, by the differences that chance does not explain; and how far the result of 1, of 10 "
     + "and of all seeds is off at the reference",
   ["algorithm", "task", "figure", "at the\nreference",
@@ -164,25 +203,51 @@ const precision = ({ groups }, data) => {
   ];
 };
 
-const axis = (section) => [
-  paragraph("The limits again, for other readings of the paper and other conditions that it does "
-    + "not state. The worst of the tasks; lines are 95 % intervals."),
-  panels("", allFigures(section)),
-];
+/** What the axes are called in the head of a column: "both.delay" or "value". */
+const axisHead = (rows) => distinct(rows, ({ parameter }) => parameter).join(", ");
+
+const tasksByAxis = (rows) => table("Each task at each value: how usable the worst of the seeds "
+  + "was, and what kept it from the next better word, with its limit",
+[axisHead(rows), "algorithm", "task", "worst", "limited by", "vibration\nmm", "stiffness\nratio",
+  "force\nvibration, N", "seeds"],
+rows.map((row) => [row.value, name(row.algorithm), name(row.task), name(tierBadge(row.tier)),
+  words(row.limited_by ?? ""), shown(row.vibration_mm, 3), shown(row.stiffness_ratio, 3),
+  shown(row.force_vibration_n, 3), String(row.seeds)]));
+
+const limitsByAxis = (rows) => table("The limits at each value: the level at which half of the "
+  + "seeds fail, and how sure that is",
+[axisHead(rows), "algorithm", "of", "task", "limit", spreadHead(rows), "seeds"],
+rows.map((row) => [row.value, name(row.algorithm), name(inWords(row.impairment)), name(row.task),
+  ours(`${limitText(row)} ${inWords(row.unit)}`), intervalOf(row), String(row.seeds)]));
+
+const axis = ({ groups }, { tables }) => {
+  const [byTask, byLimit] = [tables.tasks_by_axis, tables.limits_by_axis].map(rowsOf);
+  return [
+    ...groups.flatMap((group) => [
+      ...(group.title ? [heading(group.title)] : []),
+      panels(group.title ? "small" : "", figures(group.figures)),
+    ]),
+    ...(byLimit.length > 0 ? [limitsByAxis(byLimit)] : []),
+    ...(byTask.length > 0 ? [heading("How usable each task was"), tierMark, tasksByAxis(byTask),
+      paragraph("Vibration and force vibration of this table are all that there is in the worst "
+        + "of the seeds; the figures of the force have what the network adds to a perfect one."),
+    ] : []),
+  ];
+};
 
 const points = (section) => [
   paragraph("An algorithm bears a point when it is at least usable there."),
-  panels("", allFigures(section)),
+  panels("", allFigures(section)), tierMark,
 ];
 
-const paired = (section, data) => [
+const paired = (section, data, rows = rowsOf(data.tables.paired)) => [
   paragraph("The p of a row is for that row alone: of a hundred rows without any difference five "
     + "have p below 0.05."),
   folded("The table", [table("Algorithms that met the same hands and the same network, seed by "
-    + "seed: their difference, its 95 % interval by resampling the seeds, and the sign test",
-  ["algorithm", "minus", "task", "of", "seeds", "difference", "95 %", "p"],
-  rowsOf(data.tables.paired).map((row) => {
-    const isKnown = row.ci_low !== null || row.ci_high !== null;
+    + "seed: their difference, how sure it is by resampling the seeds, and the sign test",
+  ["algorithm", "minus", "task", "of", "seeds", "difference", spreadHead(rows), "p"],
+  rows.map((row) => {
+    const isKnown = row.seeds !== 1 && (row.ci_low !== null || row.ci_high !== null);
     return [row.algorithm, name(row.reference), name(row.task), words(row.measure),
       String(row.seeds), shown(row.difference, 3),
       isKnown ? `${shown(row.ci_low, 3)} … ${shown(row.ci_high, 3)}` : "–",
@@ -198,44 +263,57 @@ const fig7 = (section) => {
 };
 
 const qos = ({ groups }) => [
-  paragraph("The whole plane of delay and jitter, once for each loss."),
   paragraph([...["good", "usable", "unusable"].flatMap((tier) => [tierBadge(tier), " "]),
-    "worst of the tasks; point at a field for its numbers"]),
-  ...groups.flatMap((group) => [heading(group.title), panels("tiny", figures(group.figures))]),
+    "in the worst of the tasks, over delay and jitter, once for each loss. Rest the pointer on a "
+      + "field for its numbers, and for what keeps it from the next better word."]),
+  ...groups.flatMap((group) => [heading(group.title), panels("tiny", figures(group.figures)),
+    tierMark]),
 ];
 
 const percent = (share) => shown(share === null ? null : 100 * share, 1);
-const taskColumns = [
+const taskNames = [
   ["task", ({ task }) => task], ["algorithm", ({ algorithm }) => name(algorithm)],
+];
+const taskColumns = [
   ["tier", ({ tier }) => name(tierBadge(tier))], ["seeds", ({ seeds }) => String(seeds)],
   ["mean\nmm", ({ mean_mm: mm }) => shown(mm, 2)], ["std\nmm", ({ std_mm: mm }) => shown(mm, 2)],
   ["max\nmm", ({ max_mm: mm }) => shown(mm, 2)],
   ["vibration\nmm", ({ vibration_mm: mm }) => shown(mm, 3)],
   ["stiffness\nratio", ({ stiffness_ratio: ratio }) => shown(ratio, 3)],
   ["force\nvibration, N", ({ force_vibration_n: force }) => shown(force, 3)],
+  ["limited by", ({ limited_by: reason }) => words(reason)],
+];
+const furtherColumns = [
   ["force above\n2 Hz, N", ({ force_above_2hz_n: force }) => shown(force, 3)],
   ["forces\napart, %", ({ force_discrepancy: share }) => percent(share)],
   ["contact\nlost, %", ({ contact_lost: share }) => percent(share)],
   ["force\nstep, N", ({ force_step_n: force }) => shown(force, 3)],
   ["drag\nN", ({ drag_n: force }) => shown(force, 3)],
   ["energy\nmJ", ({ energy_mj: energy }) => shown(energy, 2)],
-  ["limited by", ({ limited_by: reason }) => words(reason)],
 ];
 const turnedColumn = ["turned\napart, max deg", ({ turned_apart_deg: deg }) => shown(deg, 2)];
 
 const tasks = (section, data) => {
   const rows = rowsOf(data.tables.tasks);
   const turn = rows.some(({ turned_apart_deg: deg }) => deg !== null && deg !== undefined);
-  const columns = [...taskColumns, ...(turn ? [turnedColumn] : [])];
+  const further = [...furtherColumns, ...(turn ? [turnedColumn] : [])];
   const ordered = distinct(rows, ({ task }) => task).flatMap((task) =>
     rows.filter((row) => row.task === task));
+  const tableOf = (caption, more) => {
+    const columns = [...taskNames, ...more];
+    return table(caption, columns.map(([head]) => head),
+      ordered.map((row) => columns.map(([, cell]) => cell(row))));
+  };
   return [
-    paragraph("In P1 the cube follows a path whatever is felt. In these tasks both hands act on "
-      + "what they feel, so the numbers are not Table 1’s: they say what the same network does to "
-      + "people who work together."),
-    table("Closed-loop tasks: worst of the seeds; discrepancy mean and std: mean over the seeds",
-      columns.map(([head]) => head), ordered.map((row) => columns.map(([, cell]) => cell(row)))),
     panels("small", allFigures(section)),
+    tierMark,
+    paragraph("In P1 the cube moves as prescribed whatever is felt. In these tasks both hands act "
+      + "on what they feel: the numbers say what the same network does to people who work "
+      + "together."),
+    tableOf("Each task: worst of the seeds; mean and std of the distance: mean over the seeds; –: "
+      + "the task does not exercise it",
+      taskColumns),
+    folded("Further measures", [tableOf("Worst of the seeds", further)]),
   ];
 };
 
@@ -264,7 +342,7 @@ const realTime = (section, data) => [
 ];
 
 const demo = (section, data) => [...data.demo.flatMap(textTable),
-  paragraph("While the left hand moves the cube in P1, the right copy is where the left one was "
+  paragraph("While the hand of A moves the cube in P1, the copy of B is where that of A was "
     + "160 ms ago. Where x stays flat at its highest, the cube stands at the static cube. At the "
     + "end both hands are off, and the copies agree again.")];
 
@@ -272,29 +350,14 @@ const replay = () => [
   paragraph("Each computer holds a copy of what is blue. Each picture shows one of them, with the "
     + "hand that is there; dashed outlines are what the others have at the same moment: the "
     + "bodies, and their hands. Arrows are forces on the hands. In 3-D, drag a picture to turn "
-    + "them all."),
+    + "them all. It ends when the hands let go: the last 3 s of a session, or its second half "
+    + "where it is shorter than 6 s, are not in it."),
   { player: true },
-];
-
-const isValid = [bold("Valid."), " Both loops kept their time, and both sides were in session "
-  + "together."];
-const sessions = ({ groups }, data) => [
-  paragraph("Times count from the start of the session on A’s clock. Each session ends with hands "
-    + "off: then the two copies of each body should agree again."),
-  ...groups.flatMap((group, i) => {
-    const { peers: [a, b], algorithm, valid, invalid_because: reasons, tables, clock }
-      = data.sessions[i];
-    return [heading(group.title),
-      paragraph(`A is peer ${a}, B is peer ${b}${algorithm ? `; algorithm ${algorithm}` : ""}.`),
-      valid ? banner("met", isValid, reasons) : notValid(reasons),
-      zoomed(figures(group.figures)), panels("", tables.flatMap(textTable)),
-      ...(clock ? [paragraph(`${clock}.`)] : [])];
-  }),
 ];
 
 const layouts = {
   demo, replay, sessions, table1, curves, trust, precision, axis, points, paired, fig7, qos, tasks,
-  "real-time": realTime, claims, beyond, runs,
+  "real-time": realTime, claims, beyond, runs, repeat,
   fig6a: limits("A limit is the level at which half of the sessions fail in the task that bears "
     + "least: all seeds are played at eight levels, and a psychometric curve is fitted to how many "
     + "fail."),
@@ -303,33 +366,108 @@ const layouts = {
 };
 
 const leads = {
-  experiments: "Two simulated hands push one cube over a bad network; each computer has its own "
-    + "copy of the cube, and this page shows how far the copies drift apart and when the push "
-    + "stops feeling right, beside the paper’s numbers.",
   demo: "Two simulated hands push one cube through the emulator, over real UDP, under the paper’s "
     + "160 ms. This page shows how far the two copies of the cube drift apart, beside the paper’s "
     + "numbers.",
-  session: "Two hands push one cube over a network; each computer has its own copy of the cube. "
-    + "This page shows what the two records say: how far the copies drift apart, what the network "
-    + "did, and whether the run counts.",
 };
 
-const missing = (list) => (list.length === 0 ? [] : [{
-  id: "missing", title: "Not in this folder",
-  blocks: [
-    paragraph("These commands make the rest; report the folder again afterwards."),
-    { list: list.map(({ what, command }) => [`${what}: `, { code: command }]) },
-  ],
-}]);
+/** The tasks and algorithms that are named: what each is, in a sentence. */
+const meanings = ({ played, sessions: recorded, sections }) => {
+  const said = [...played, ...recorded.map(({ algorithm }) => algorithm ?? ""),
+    ...sections.flatMap(({ groups }) => groups.map(({ title }) => title))]
+    .join(" ").match(/[A-Za-z][A-Za-z0-9-]*/g) ?? [];
+  const lines = Object.entries({ ...taskWords, ...algorithms })
+    .filter(([word]) => said.includes(word)).map(([word, text]) => [bold(word), `: ${text}`]);
+  return lines.length === 0 ? []
+    : [{ id: "names", title: "What the names mean", blocks: [{ list: lines }] }];
+};
+
+/** What was played, in a sentence. */
+const leadOf = ({ subject, played, runs: all, sessions: recorded }) => {
+  if (leads[subject]) return leads[subject];
+  if (subject === "session") return leadOfSessions(recorded);
+  if (all.length > 1) {
+    const titles = all.map(({ manifest }) => manifest.title ?? manifest.kind).filter((one) => one);
+    return `${all.length} experiments: ${titles.join("; ")}.`;
+  }
+  const counts = all.length > 0 && all.every(({ manifest }) => manifest.valid === true)
+    ? " All sessions completed and passed their checks." : "";
+  return `${played[0] ?? "Results of an experiment."}${counts}`;
+};
+
+/** What "usable" and "good" mean, with the limits that judged. */
+const tierMeaning = ({ usable, good }) =>
+  paragraph([bold("Usable"), ` is a session in which the two copies are at most ${
+    general(usable.discrepancy_max_mm, 3)} mm apart on average, the body vibrates by at most ${
+    general(usable.vibration_max_mm, 3)} mm above 20 Hz, what a slow press (0.5 Hz) feels is off `
+    + `by at most ${general(100 * usable.slow_stiffness_error_max, 3)} % of what one shared world `
+    + `gives, the network adds at most ${general(usable.force_vibration_max_n, 3)} N of vibration `
+    + `to the force, and both sides are together for at least ${
+      general(100 * usable.scored_share_min, 3)} % of the time; otherwise it is `,
+  bold("unusable"), ". ", bold("Good"), ` is one whose copies besides are at most ${
+    general(good.discrepancy_max_mm, 3)} mm apart, whose stiffness is off by at most ${
+    general(100 * good.stiffness_error_max, 3)} % at 0.5, 1 and 2 Hz, whose forces differ by at `
+    + `most ${general(100 * good.force_discrepancy_max, 3)} %, which loses at most ${
+      general(100 * good.contact_lost_max, 3)} % of the contact and drags by at most ${
+      general(good.drag_max_n, 3)} N. What a task does not exercise counts as kept. The limits are `
+    + "a convention, not a finding about people."]);
+
+/** The blocks with what tiers mean at the first of their marks, and no other mark. */
+const withMeaning = (sections, { criteria }) => {
+  const meaning = criteria ? [tierMeaning(criteria)] : [];
+  const marked = (blocks) => blocks.flatMap((block) => {
+    if (block === tierMark) return meaning.splice(0);
+    return [block.blocks ? { ...block, blocks: marked(block.blocks) } : block];
+  });
+  return sections.map((section) => ({ ...section, blocks: marked(section.blocks) }));
+};
+
+const valueAxis = { curves: "y", bars: "y", dots: "x" };
+/** All values that a figure shows along its axis of values. */
+const valuesOf = (figure) => {
+  const axisOf = figure[valueAxis[figure.kind]];
+  const shownBy = {
+    curves: ({ points, scatter = [], band = [] }) => [...[...points, ...scatter].map(([, y]) => y),
+      ...band.flatMap(([, low, high]) => [low, high])],
+    bars: ({ bars }) => bars.flatMap(({ value, low, high }) => [0, value, low, high]),
+    dots: ({ dots }) => dots.flatMap(({ value, low, high, from, to, single = [] }) =>
+      [value, low, high, from, to, ...single]),
+  }[figure.kind];
+  return figure.series.flatMap(shownBy).concat(axisOf.range ?? [])
+    .filter((value) => Number.isFinite(value) && (axisOf.scale !== "log" || value > 0));
+};
+
+/** Figures of one group whose values have one name and one unit are compared: on one scale. */
+const onSharedScales = (figures, sections) => {
+  const groupOf = new Map(sections.flatMap(({ groups }) => groups)
+    .flatMap((group, i) => group.figures.map((id) => [id, i])));
+  const drawn = figures.filter((figure) =>
+    valueAxis[figure.kind] && groupOf.has(figure.id) && valuesOf(figure).length > 0);
+  const keyOf = (figure) => {
+    const { label, unit, scale } = figure[valueAxis[figure.kind]];
+    return [groupOf.get(figure.id), figure.kind, label, unit, scale].join("\n");
+  };
+  const spans = new Map(distinct(drawn, keyOf).map((key) => {
+    const values = drawn.filter((figure) => keyOf(figure) === key).flatMap(valuesOf);
+    const [low, high] = [Math.min, Math.max].map((pick) => values.reduce((a, b) => pick(a, b)));
+    return [key, [low, high]];
+  }));
+  return figures.map((figure) => {
+    if (!drawn.includes(figure)) return figure;
+    const side = valueAxis[figure.kind];
+    return { ...figure, [side]: { ...figure[side], range: spans.get(keyOf(figure)) } };
+  });
+};
 
 /** The data of a page with its words and blocks, as document.js takes them. */
 export const layOut = (data) => ({
   ...data,
-  lead: leads[data.subject],
-  head: [...validity(data), ...tiles(data)],
-  sections: [...data.sections.map((section) => ({
+  figures: onSharedScales(withoutVerdicts(data), data.sections),
+  lead: leadOf(data),
+  head: [...validity(data), ...besideThePaper(data)],
+  sections: [...withMeaning(data.sections.map((section) => ({
     id: section.id, title: section.title, blocks: layouts[section.id](section, data),
-  })), ...missing(data.missing)],
+  })), data), ...meanings(data)],
   foot: data.subject === "session" ? ""
     : "The hands are simulated. A verdict is a calibrated convention, not a finding about people.",
 });

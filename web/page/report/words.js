@@ -37,6 +37,15 @@ export const limitText = (row) => `${above(row)}${roundedLimit(row.limit)}`;
 export const exactLimit = (row, limit = row.limit) =>
   `${limit === row.limit ? above(row) : ""}${general(limit)} ${inWords(row.unit)}`;
 
+/** The fewest seeds that give a 95 % interval, as metrics::interval_seeds_min has it. */
+export const intervalSeedsMin = 6;
+/** What reaches from low to high of a result of so many seeds. */
+export const spreadName = (seeds) =>
+  (seeds >= intervalSeedsMin ? "95 %" : `least to most of ${seeds} seeds`);
+/** "140 … 150" of a row of so many seeds; one seed has no interval. */
+export const hasInterval = ({ ci_low: low, seeds }) =>
+  low !== null && low !== undefined && seeds !== 1;
+
 export const distinct = (rows, nameOf) => [...new Set(rows.map(nameOf))];
 export const median = (values) => {
   const sorted = values.toSorted((a, b) => a - b);
@@ -63,8 +72,9 @@ export const tierBadge = (tier) => badge(`${tierSymbols[tier]} ${tier}`, `tier-$
 export const claimOf = (status) =>
   (/-missed$/.test(status) ? "missed" : /-met$/.test(status) ? "met" : status ?? "");
 /** Green is for predictions alone: the rest could hardly have come out otherwise. */
-export const statusBadge = (status) => {
+export const statusBadge = (status, isFirstLook = false) => {
   const claim = claimOf(status);
+  if (status && isFirstLook) return badge(`first look: ${claim}`, "seen");
   const isSeen = claim === "met" && status !== "predicted-met";
   return status ? badge(status, isSeen ? "seen" : claim) : "";
 };
@@ -84,16 +94,32 @@ export const panels = (size, blocks) => ({ panels: size, blocks });
 export const zoomed = (blocks) => ({ zoomed: true, blocks });
 export const figures = (ids) => ids.map((figure) => ({ figure }));
 
+/** Where "usable" and "good" are used: the first such place of a page says what they mean. */
+export const tierMark = { tiers: true };
+
+/** Says that numbers do not count, and each reason. */
 export const notValid = (reasons) =>
   banner("missed", [bold("Not valid."), " These numbers do not count:"], reasons);
+
+const [digits, wholeFrom] = [4, 1000];
+/** A number with a decimal point, to four digits; other texts stay. */
+export const fewDigits = (text) => {
+  if (!/^-?\d+\.\d+$/.test(text)) return text;
+  const value = Number(text);
+  if (value === 0) return "0";
+  if (Math.abs(value) >= wholeFrom) return value.toFixed(0);
+  const decimals = digits - 1 - Math.floor(Math.log10(Math.abs(value)));
+  return shown(value, Math.min(decimals, text.split(".")[1].length));
+};
 
 /** What a terminal shows as text, with its remarks below. */
 export const textTable = ({ caption, unit, heads, rows, remarks }) => {
   const hasNotes = rows.some(({ note }) => note !== "");
   const cellsOf = (row) => [
-    row.name, ...row.cells, ...Array(heads.length - row.cells.length).fill(""),
+    row.name, ...row.cells.map(fewDigits), ...Array(heads.length - row.cells.length).fill(""),
     ...(hasNotes ? [words(row.note)] : []),
   ];
-  return [table(caption, [unit, ...heads, ...(hasNotes ? [""] : [])], rows.map(cellsOf)),
-    ...remarks.map(paragraph)];
+  const shownTable = table(caption, [unit, ...heads, ...(hasNotes ? [""] : [])], rows.map(cellsOf));
+  return remarks.length === 0 ? [shownTable]
+    : [panels("", [shownTable, ...remarks.map(paragraph)])];
 };

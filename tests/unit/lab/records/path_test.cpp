@@ -42,6 +42,8 @@ TEST(Path, LosesWhatIsMissingUpToTheHighestSequenceReceived)
     const Path path = after_arrivals({1, 2, 4, 5, 8});
     EXPECT_EQ(path.arrived.received, 5U);
     EXPECT_EQ(path.loss, 3.0 / 8.0);
+    EXPECT_EQ(path.lost(), 3U);
+    EXPECT_EQ(path.in_flight, 0U) << "the record of A has no ticks";
 }
 
 TEST(Path, CountsTheSecondCopyAsADuplicateAndNothingElse)
@@ -130,6 +132,22 @@ TEST(Path, KnowsFromTheSenderHowManyAndHowFastItSent)
     EXPECT_EQ(analysis.a_to_b.packets_per_s, 250.0);
     EXPECT_EQ(analysis.b_to_a.arrived.sent, 0U);
     EXPECT_FALSE(analysis.b_to_a.packets_per_s);
+}
+
+TEST(Path, AccountsForEveryMessageAsReceivedLostOrInFlightAtTheEnd)
+{
+    Recording a{1};
+    Recording b{2};
+    a.session(1s).ticks(0s, 1s, Phase::running, sending(4));
+    b.session(1s).ticks(0s, 1s);
+    for (const std::uint32_t sequence : {1U, 2U, 2U, 5U, 4U, 200U})
+        b.message(sequence, start + sequence * 4ms, start + sequence * 4ms + 50ms);
+    const Path path = analysis_of(a, b).a_to_b;
+    EXPECT_EQ(path.arrived.sent, 250U);
+    EXPECT_EQ(path.arrived.received, 5U);
+    EXPECT_EQ(path.lost(), 195U);
+    EXPECT_EQ(path.in_flight, 50U);
+    EXPECT_EQ(analysis_of(a, b).b_to_a.in_flight, 0U);
 }
 
 TEST(Path, WasSentWhatCameEvenIfTheSendersRecordEndsEarly)

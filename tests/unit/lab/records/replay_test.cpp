@@ -111,7 +111,6 @@ TEST(ReplayOfARecord, NoticesASampleThatWasNotTheRecordedOne)
         [](record::TickRow& row) { row.calibrated = false; },
         [](record::TickRow& row) { row.fault = static_cast<std::uint8_t>(device::Fault::timeout); },
         [](record::TickRow& row) { row.hip_velocity.value.y = 1.1; },
-        [](record::TickRow& row) { row.late += std::chrono::milliseconds{30}; },
         [](record::TickRow& row) { row.contact.value.y += 1e-8; },
         [](record::TickRow& row) { row.device.value.z -= 1e-8; },
     };
@@ -283,7 +282,7 @@ TEST(ReplayOfATroubledSession, GivesTheForcesAfterAStallWhetherOrNotAWatchdogSaw
     }
 }
 
-TEST(ReplayOfADamagedRecord, RefusesARecordWithoutTicksWithTicksMissingOrOutOfOrder)
+TEST(ReplayOfADamagedRecord, RefusesOneWithoutTicksOrWithTicksMissingOrOutOfOrder)
 {
     const record::Record whole = RecordedPair{}.play(100);
     const auto refused = [](const record::Record& record) {
@@ -302,6 +301,9 @@ TEST(ReplayOfADamagedRecord, RefusesARecordWithoutTicksWithTicksMissingOrOutOfOr
     record = whole;
     record.ticks[41].tick = 7;
     EXPECT_EQ(refused(record), "tick 7 follows where tick 41 is expected: the file is damaged");
+    record = whole;
+    record.ticks[41].late -= 2ms;
+    EXPECT_EQ(refused(record), "tick 41 is not later than the tick before it: the file is damaged");
 }
 
 TEST(ReplayOfADamagedRecord, PlaysWhatIsLeftOfOneThatIsCutOffAndSaysThatItIsCutOff)

@@ -38,12 +38,173 @@ TEST(Report, HasASectionExactlyIfTheFolderHasItsData)
     EXPECT_FALSE(holds(whole, opening("missing")));
 }
 
-TEST(Report, SaysWhichCommandMakesWhatIsMissing)
+TEST(Report, SaysInASentenceWhatWasPlayed)
 {
-    const std::string page = words_of({sample_table1()});
-    EXPECT_TRUE(holds(page, R"({"what":"Fig. 6b","command":"scripts/fig6b.sh --out r/fig6b"})"));
-    EXPECT_TRUE(holds(page, R"("command":"scripts/table1.sh --real-time --out r/table1"})"));
-    EXPECT_FALSE(holds(page, R"("what":"Table 1")"));
+    const auto played = [](const std::string& configuration) {
+        const nlohmann::json manifest{{"title", "mine"}, {"configuration", configuration}};
+        return test::data_of(page_of({{"r/manifest.json", manifest.dump()}})).at("played").dump();
+    };
+    const std::string plain = "kind = \"table1\"\nseeds = 3\nalgorithms = [\"base\", \"sep\"]\n"
+                              "tasks = [\"T1\", \"T2\"]\nhands = \"firm\"\n";
+    EXPECT_EQ(played("title = \"mine\"\n" + plain + "both.delay = \"160ms\"\n"),
+              R"(["Simulated hands (firm) played tasks P1, T1 and T2 with the algorithms base and )"
+              R"(sep, under delay 160 ms; 3 seeds."])");
+    EXPECT_EQ(played("title = \"mine\"\n" + plain +
+                     "axis = { key = \"both.delay\", values = [\"0ms\", \"40ms\"] }\n"),
+              R"(["Simulated hands (firm) played tasks P1, T1 and T2 with the algorithms base and )"
+              R"(sep, with delay of the path varied (0 ms and 40 ms); 3 seeds."])");
+    EXPECT_EQ(played("of another version"), R"(["mine."])");
+}
+
+TEST(Report, HoldsOnesOwnExperimentAgainstNothing)
+{
+    results::File own = sample_table1();
+    own.text = "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,"
+               "verdict,class,max_class,max_low_mm,max_high_mm\nbase,0.19,0,0.7,0.1,,,,,,,,\n";
+    const std::string page = page_of({own});
+    const auto title = [](const std::string& of) {
+        return test::data_of(of).at("sections")[0].at("title").get<std::string>();
+    };
+    EXPECT_EQ(title(page), "How far the two copies are apart");
+    for (const char* id : {"table1-mean", "table1-std", "table1-max"}) {
+        const auto figure = test::figure_of(page, id);
+        EXPECT_EQ(figure.at("series").size(), 1U) << "no bars of the paper";
+        EXPECT_FALSE(figure.at("series")[0].at("bars")[0].contains("missed"));
+    }
+    EXPECT_EQ(title(page_of({sample_table1()})),
+              "How far the two copies are apart, beside the paper’s Table 1");
+}
+
+TEST(Report, DrawsEachMeasureAgainstTheAxisWithItsInterval)
+{
+    const std::string heads = "parameter,value,algorithm,task,seed,mean_mm,max_mm,vibration_mm,"
+                              "stiffness_ratio,force_vibration_n\n";
+    const std::string rows = "both.delay,20ms,base,T1,1,1,2,0.1,,0\n"
+                             "both.delay,20ms,base,T1,2,3,4,0.1,,0\n"
+                             "both.delay,0.1s,base,T1,1,8,9,0.1,,0\n";
+    const results::File table1{"r/table1_by_axis.csv",
+                               "parameter,value,algorithm,mean_mm,min_mm,max_mm,std_mm\n"
+                               "both.delay,20ms,base,1,0,2,1\n"};
+    const auto page = page_of({table1, {"r/sessions_by_axis.csv", heads + rows}});
+    const auto figure = test::figure_of(page, "axis-both-delay-T1-mean-mm");
+    EXPECT_EQ(figure.at("x").dump(), R"({"label":"delay of the path","unit":"ms"})");
+    const auto curve = figure.at("series")[0];
+    EXPECT_EQ(curve.at("points").dump(), "[[20.0,2.0],[100.0,8.0]]") << "means of the seeds";
+    EXPECT_EQ(curve.at("band").dump(), "[[20.0,1.0,3.0]]") << "and none of one seed";
+    EXPECT_EQ(figure.at("caption"),
+              "Mean of 2 seeds; the band is from the least to the most of the 2 seeds.");
+    const auto force = test::figure_of(page, "axis-both-delay-T1-force-vibration-n");
+    EXPECT_EQ(force.at("y").at("label"), "force vibration added") << "what sessions have of it";
+    EXPECT_EQ(test::data_of(page).at("sections")[0].at("id"), "axis");
+    const std::string other = "both.delay,20ms,base,P1,1,1,2,0.1,,0\n";
+    EXPECT_EQ(test::figure_of(page_of({table1, {"r/sessions_by_axis.csv", heads + rows + other}}),
+                              "axis-both-delay-P1-mean-mm")
+                  .at("caption"),
+              "Every seed plays the same session here.");
+}
+
+TEST(Report, CallsWhatFewSeedsGiveNo95PercentIntervalAndOneSeedGivesNone)
+{
+    const auto caption_of = [](int seeds) {
+        std::string rows = "algorithm,task,seed,mean_mm\nbase,P1,1,13.6\n";
+        for (int seed = 1; seed <= seeds; ++seed) rows += fmt::format("base,T2,{0},{0}.5\n", seed);
+        const auto figure =
+            figure_of({sample_tasks(), {"r/table1/sessions.csv", rows}}, "seeds-T2");
+        const auto dot = figure.at("series")[0].at("dots")[0];
+        EXPECT_EQ(dot.contains("low"), seeds > 1) << seeds;
+        if (seeds == 3) {
+            EXPECT_EQ(dot.at("low"), 1.5) << "the least itself";
+        }
+        return figure.at("caption").get<std::string>();
+    };
+    EXPECT_EQ(caption_of(1), "One seed: there is no interval.");
+    EXPECT_EQ(caption_of(3), "Large: the mean of the seeds; the line is from the least to the most "
+                             "of the 3 seeds. Small: each seed.");
+    EXPECT_EQ(caption_of(6),
+              "Large: the mean of the seeds; the line is its 95 % interval. Small: each seed.");
+    const auto limit = [](int seeds) {
+        results::File limits = sample_limits();
+        limits.text += fmt::format("sep,delay,worst,151,=,ms,,,,151,140,147,153,{}\n", seeds);
+        const auto series = figure_of({limits}, "limit-delay").at("series");
+        for (const auto& one : series)
+            for (const auto& bar : one.at("bars"))
+                if (bar.at("value") == 151.0) return bar.contains("low");
+        return false;
+    };
+    EXPECT_TRUE(limit(2));
+    EXPECT_FALSE(limit(1));
+}
+
+TEST(Report, CarriesHowMuchWasPlayedBesideHowMuchSettlesAClaim)
+{
+    const auto amounts = [](const std::string& configuration) {
+        const nlohmann::json manifest{{"title", "mine"}, {"configuration", configuration}};
+        return test::data_of(page_of({{"r/manifest.json", manifest.dump()}}))
+            .at("runs")[0]
+            .at("amounts")
+            .dump();
+    };
+    const std::string head = "title = \"t\"\nseeds = 3\nduration = \"6s\"\n"
+                             "algorithms = [\"remote-proxy\"]\n";
+    const std::string played = R"({"played":{"seeds":3,"duration_s":6.0})";
+    EXPECT_EQ(amounts(head + "kind = \"claims\"\ntasks = [\"T1\"]\n"),
+              played + R"(,"meant":{"seeds":200,"duration_s":30.0}})");
+    EXPECT_EQ(amounts(head + "kind = \"table1\"\ntasks = [\"T1\"]\n"), played + "}");
+    EXPECT_EQ(amounts("of another version"), "null");
+}
+
+TEST(Report, DrawsTheFittedCurveItsPointsAndTheIntervalOfTheLimit)
+{
+    results::File curves = sample_curves();
+    curves.text.clear();
+    curves.text = "algorithm,impairment,task,level,unit,seed,counts,mean_mm,vibration_mm,"
+                  "stiffness_ratio,force_vibration_n,tier\n";
+    for (const auto& [level, failed] : {std::pair{140, 0}, {150, 1}, {160, 2}, {170, 4}}) {
+        for (int seed = 0; seed < 4; ++seed)
+            curves.text += fmt::format("base,delay,T2,{},ms,{},true,1,1,,1,{}\n", level, seed,
+                                       seed < failed ? "unusable" : "good");
+    }
+    results::File limits = sample_limits();
+    limits.text += "base,delay,T2,158,=,ms,,,,158,148,151,165,4\n";
+    const auto figure = figure_of({limits, curves}, "failing-delay");
+    const auto curve = figure.at("series")[0];
+    EXPECT_EQ(curve.at("name"), "base in T2");
+    EXPECT_EQ(curve.at("scatter").dump(), "[[140.0,0.0],[150.0,25.0],[160.0,50.0],[170.0,100.0]]");
+    EXPECT_EQ(curve.at("crossing").dump(), R"({"y":50.0,"low":151.0,"high":165.0})");
+    double before = -1.0;
+    for (const auto& point : curve.at("points")) {
+        EXPECT_GE(point[1].get<double>(), before) << "it only rises";
+        before = point[1].get<double>();
+    }
+    EXPECT_GT(before, 80.0);
+}
+
+TEST(Report, DrawsTheNumbersOfEachClaimAgainstWhatItAccepts)
+{
+    const results::File numbers{
+        "r/beat/claims_numbers.csv",
+        "claim,number,value,low,high,accept_low,accept_high,unit,judged_by,sessions,kept\n"
+        "mean discrepancy,P1,5.97,5.5,6.3,,6,mm,mean,10,true\n"
+        "stiffness,,1.46,0.98,1.46,0.75,1.25,,worst,10,false\n"};
+    const auto page = page_of({sample_claims(), numbers});
+    const auto distances = test::figure_of(page, "claims-mm");
+    EXPECT_EQ(distances.at("kind"), "dots");
+    EXPECT_EQ(distances.at("y").at("categories").dump(), R"(["mean discrepancy: P1"])");
+    const auto row = distances.at("series")[0].at("dots")[0];
+    EXPECT_EQ(row.at("value"), 5.97);
+    EXPECT_EQ(row.at("high"), 6.3);
+    EXPECT_EQ(row.at("to"), 6.0);
+    EXPECT_FALSE(row.contains("from") || row.contains("missed"));
+    EXPECT_EQ(test::figure_of(page, "claims-ratio").at("series")[0].at("dots")[0].at("missed"),
+              true);
+    results::File one = numbers;
+    one.text = "claim,number,value,low,high,accept_low,accept_high,unit,judged_by,sessions,kept\n"
+               "apart,,0.5,0.5,0.5,,6,mm,worst,1,true\n";
+    EXPECT_FALSE(test::figure_of(page_of({sample_claims(), one}), "claims-mm")
+                     .at("series")[0]
+                     .at("dots")[0]
+                     .contains("low"))
+        << "one session has no interval";
 }
 
 TEST(Report, DrawsNumbersBesideThePapersAndMissesInRed)
@@ -66,6 +227,8 @@ TEST(Report, ShowsTheErrorOfEachFigureBesideItsCost)
 TEST(Report, DrawsEachSeedOfEachTaskAndALineThroughTheMedians)
 {
     results::File curves = sample_curves();
+    constexpr std::string_view ratio = "stiffness_ratio";
+    curves.text.replace(curves.text.find(ratio), ratio.size(), "slow_stiffness_error");
     curves.text += "base,delay,T2,120,ms,1,true,6.8,0.30,0.5,0.0200,usable\n"
                    "base,delay,T2,120,ms,2,true,6.8,0.30,0.7,0.0200,usable\n"
                    "base,delay,T2,240,ms,1,false,6.8,0.30,0.9,0.0200,usable\n";
@@ -93,7 +256,7 @@ TEST(Report, DrawsIntervalsAndThePaperWhereItStatesANumber)
         "67,40\n"
         "base,jitter,worst,20,>,ms,,,predicted,20,,20,,40\n";
     const auto delay = figure_of({limits}, "limit-delay");
-    EXPECT_TRUE(holds(delay.at("caption").dump(), "40 seeds; the line is the 95 % interval"));
+    EXPECT_TRUE(holds(delay.at("caption").dump(), "40 seeds; the line is its 95 % interval"));
     EXPECT_EQ(delay.at("series")[1].at("bars")[0].at("high"), 163.0);
     const std::string jitter = figure_of({limits}, "limit-jitter").dump();
     EXPECT_FALSE(holds(jitter, "base, paper: 15 ms"))
@@ -180,6 +343,16 @@ TEST(Report, MarksTheWorstOfTheTasksInThePlane)
         "T2: usable"));
     EXPECT_EQ(cells[0].at("colour"), "usable") << "T2 is only usable there";
     EXPECT_EQ(cells.size(), 2U) << "what was not tried has no field";
+    results::File limited = sample_qos();
+    limited.text = "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,vibration_mm,"
+                   "stiffness_ratio,force_vibration_n,tier,limited_by\n"
+                   "base,T1,0,0,0,0.1,1.31,,0.0100,unusable,vibration 1.31 mm > 1 mm\n";
+    EXPECT_TRUE(figure_of({limited}, "qos-base-0")
+                    .at("series")[0]
+                    .at("cells")[0]
+                    .at("tip")
+                    .get<std::string>()
+                    .ends_with("force vibration 0.010 N; vibration 1.31 mm > 1 mm"));
 }
 
 TEST(Report, CarriesTheReplayAsJsonThatCannotCloseItsElement)
@@ -238,7 +411,7 @@ TEST(Report, LinksEachFigureToTheRowsBehindIt)
     results->files = {{"limits", "fig 6a/limits.csv"},
                       {"curves", "curves.csv"},
                       {"trajectories", "fig7/trajectories.csv"}};
-    const auto files = report_of(*results, "r");
+    const auto files = report_of(*results);
     const std::string page = text_of(files, "report.html");
     const auto sources = [](std::string_view of, const char* id) {
         return test::figure_of(of, id).at("sources").dump();
@@ -248,13 +421,13 @@ TEST(Report, LinksEachFigureToTheRowsBehindIt)
     EXPECT_EQ(sources(page, "fig7-sep"), R"(["fig7/trajectories.csv"])");
     EXPECT_EQ(text_of(files, "figures/limit-delay.csv"), "");
     results->files.clear();
-    const auto own = report_of(*results, "r");
+    const auto own = report_of(*results);
     EXPECT_EQ(sources(text_of(own, "report.html"), "limit-delay"),
               R"(["figures/limit-delay.csv"])");
     const std::string bars = text_of(own, "figures/limit-delay.csv");
-    EXPECT_TRUE(
-        bars.starts_with("group,bar,value,low,high\n\"base\",\"base, paper: 160 ms\",160.0,,"
-                         "\n"))
+    EXPECT_TRUE(bars.starts_with(
+        "group,bar,value_ms,low_ms,high_ms\n\"base\",\"base, paper: 160 ms\",160.0,,"
+        "\n"))
         << bars;
     EXPECT_TRUE(holds(bars, ",160.0,157.0,163.0\n")) << bars;
     const std::string curves = text_of(own, "figures/curve-delay-T1-vibration.csv");

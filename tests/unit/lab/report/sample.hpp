@@ -191,7 +191,7 @@ inline std::vector<results::File> report_files(const std::vector<results::File>&
 {
     const auto results = read_results(as_written(files));
     EXPECT_TRUE(results) << results.error().message;
-    return results ? report_of(*results, "r") : std::vector<results::File>{};
+    return results ? report_of(*results) : std::vector<results::File>{};
 }
 
 inline std::string text_of(const std::vector<results::File>& files, std::string_view path)

@@ -3,6 +3,8 @@
 #include "tests/unit/lab/records/recording.hpp"
 #include "tests/unit/lab/report/sample.hpp"
 
+#include <array>
+
 namespace hapnet::lab::report {
 namespace {
 
@@ -32,7 +34,7 @@ results::Results results_of(TwoRecords& records)
 
 std::string page_of(const results::Results& results)
 {
-    return text_of(report_of(results, "r"), "report.html");
+    return text_of(report_of(results), "report.html");
 }
 
 TEST(SessionFigures, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecords)
@@ -43,22 +45,89 @@ TEST(SessionFigures, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecord
     const auto data = test::data_of(page);
     const std::string words = test::words_of(page);
     EXPECT_EQ(data.at("title"), "A recorded session of task T3");
-    EXPECT_EQ(data.at("sections")[0].at("id"), "replay");
-    EXPECT_EQ(data.at("sections")[1].at("id"), "sessions");
-    EXPECT_EQ(data.at("sections").size(), 2U) << "no experiment was to be here";
+    EXPECT_EQ(data.at("sections")[0].at("id"), "sessions");
+    EXPECT_EQ(data.at("sections")[1].at("id"), "replay");
+    EXPECT_EQ(data.at("sections")[2].at("id"), "repeat");
+    EXPECT_EQ(data.at("sections").size(), 3U) << "no experiment was to be here";
     EXPECT_TRUE(holds(page, "25.00 mm on average while both hands were on, 25.0 mm at most"));
     EXPECT_TRUE(holds(words, R"({"name":"the body |x_A - x_B|, mm","cells":["25.000")"));
     EXPECT_TRUE(holds(words, R"({"name":"ticks per second","cells":["1000.00")"));
     EXPECT_TRUE(holds(words, R"("algorithm":"<base>")"));
     EXPECT_FALSE(holds(page, "<base>"));
-    const auto files = report_of(results, "r");
+    const auto files = report_of(results);
     for (const std::string name : {"apart", "cubes", "forces"}) {
         const std::string csv = "figures/session-T3-" + name + ".csv";
-        EXPECT_TRUE(text_of(files, csv).starts_with("curve,x,y\n")) << name;
+        EXPECT_TRUE(text_of(files, csv).starts_with("curve,time_from_the_start_s,")) << name;
         EXPECT_EQ(test::figure_of(page, "session-T3-" + name).at("sources")[0], csv);
     }
     EXPECT_TRUE(holds(text_of(files, "figures/session-T3-apart.csv"), ",25.0\n"));
     EXPECT_EQ(page_subject(page), "session");
+}
+
+/// The points of the curve with this name.
+std::string points_of(const Json& figure, std::string_view name)
+{
+    for (const Json& series : figure.at("series"))
+        if (series.at("name").get<std::string>() == name) return series.at("points").dump();
+    return "";
+}
+
+TEST(SessionFigures, DrawsDelayAndLossOfBothDirectionsAndTheLatenessOfBothLoops)
+{
+    TwoRecords records;
+    // Every other message from A to B is lost; the others take 20 ms in the first half, then 40 ms.
+    for (std::uint32_t k = 1; k < 1000; k += 2) {
+        const auto sent = records::start + k * 1ms;
+        records.b.message(k, sent, sent + (k < 500 ? 20ms : 40ms));
+        records.a.message(k, sent, sent + 5ms).message(k + 1, sent + 1ms, sent + 6ms);
+    }
+    // The i-th tick of A is i / 2 us late.
+    auto& ticks = records.a.content().ticks;
+    for (std::size_t i = 0; i < ticks.size(); ++i)
+        ticks[i].late = static_cast<std::int64_t>(i) * 500ns;
+    const std::string page = page_of(results_of(records));
+    const auto figure = [&](const char* name) {
+        return test::figure_of(page, std::string{"session-T3-"} + name);
+    };
+    EXPECT_EQ(points_of(figure("delay"), "A to B").substr(0, 24), "[[0.05,20.0],[0.15,20.0]");
+    EXPECT_TRUE(points_of(figure("delay"), "A to B").ends_with("[0.85,40.0],[0.95,40.0]]"));
+    EXPECT_EQ(points_of(figure("delay"), "B to A").substr(0, 12), "[[0.05,5.0],");
+    EXPECT_EQ(points_of(figure("loss"), "B to A").substr(0, 21), "[[0.0,0.0],[0.1,0.0],");
+    EXPECT_TRUE(holds(points_of(figure("loss"), "A to B"), "[0.2,50.0],[0.3,50.0]"));
+    EXPECT_EQ(points_of(figure("delays"), "A to B"), "[[20.0,0.0],[20.0,0.5],[40.0,1.0]]");
+    const auto lateness = figure("lateness");
+    EXPECT_TRUE(points_of(lateness, "A").ends_with("[499.5,1.0]]"));
+    EXPECT_EQ(points_of(lateness, "B"), "") << "none of its ticks was late";
+    EXPECT_EQ(points_of(lateness, "budget"), "[[1000.0,0.0],[1000.0,1.0]]");
+    const auto range = figure("apart").at("x").at("range").dump();
+    EXPECT_EQ(figure("delay").at("x").at("range").dump(), range) << "they zoom together";
+}
+
+TEST(SessionFigures, NamesItsRecordsAsSourcesAndTheLowerIdA)
+{
+    TwoRecords records;
+    results::Results results;
+    ASSERT_TRUE(add_session(results, "",
+                            std::array{results::RecordFile{&records.b.content(), "b.rec"},
+                                       results::RecordFile{&records.a.content(), "a.rec"}}));
+    const std::string page = page_of(results);
+    EXPECT_EQ(test::figure_of(page, "session-T3-apart").at("sources").dump(),
+              R"(["figures/session-T3-apart.csv","a.rec","b.rec"])");
+    EXPECT_EQ(test::data_of(page).at("sessions")[0].at("peers").dump(), "[1,2]");
+    EXPECT_TRUE(holds(test::words_of(page), "hapnet-lab analyse a.rec b.rec"));
+}
+
+TEST(SessionFigures, SaysWhichRecordsCannotBeCompared)
+{
+    TwoRecords records;
+    records::Recording other{3};
+    results::Results results;
+    const auto added = add_session(results, "",
+                                   std::array{results::RecordFile{&records.a.content(), "a.rec"},
+                                              results::RecordFile{&other.content(), "other.rec"}});
+    ASSERT_FALSE(added);
+    EXPECT_TRUE(added.error().message.starts_with("a.rec with other.rec: the records share no "))
+        << added.error().message;
 }
 
 TEST(SessionFigures, ShowsDistanceAndAngleOfEachBodyWhereTheyTurnOrAreSeveral)
@@ -137,7 +206,7 @@ TEST(Report, PutsTheDemosTablesOnTopOfTheSessions)
     const std::string words = test::words_of(page);
     std::vector<std::string> ids;
     for (const auto& section : data.at("sections")) ids.push_back(section.at("id"));
-    EXPECT_EQ(ids, (std::vector<std::string>{"demo", "replay", "sessions", "runs"}));
+    EXPECT_EQ(ids, (std::vector<std::string>{"demo", "sessions", "replay", "runs"}));
     EXPECT_TRUE(holds(words, R"({"name":"paper","cells":["13.79","0.00")"));
     EXPECT_TRUE(holds(words, "mean within 15 % of the paper's: met"));
     EXPECT_TRUE(holds(words, "--out <here & there>"));

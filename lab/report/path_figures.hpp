@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/records/path_stretches.hpp"
+#include "proto/page/figure.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+/// Of figures of a session over time, one below the other.
+inline constexpr page::Size plot_size{900.0, 230.0};
+/// Of the points of a curve of shares.
+inline constexpr std::size_t share_points_max = 1000;
+
+/// The delay and the loss of both directions of a session over time; none where no message came.
+/// `arrival` says at what a delay ends.
+[[nodiscard]] std::vector<page::Figure> path_figures(const records::PathsOverTime& paths,
+                                                     std::string_view arrival);
+
+/// The share of the messages of each direction that took at most so long; likewise.
+[[nodiscard]] std::vector<page::Figure> delay_distribution(const records::PathsOverTime& paths);
+
+} // namespace hapnet::lab::report

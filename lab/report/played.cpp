@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/played.hpp"
+
+#include "lab/experiment/claims.hpp"
+#include "lab/experiment/session_spec.hpp"
+#include "lab/experiment/text.hpp"
+#include "lab/report/patterns.hpp"
+#include "scene/text/text.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+namespace {
+
+using experiment::Experiment;
+using Words = std::vector<std::string>;
+
+/// "a, b and c"
+std::string listed(const Words& words)
+{
+    if (words.size() < 2) return words.empty() ? "" : words.front();
+    std::string text;
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) text += (i > 0 ? ", " : "") + words[i];
+    return text + " and " + words.back();
+}
+
+std::string counted(std::size_t count, std::string_view one)
+{
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string tasks_of(const Experiment& experiment)
+{
+    Words names;
+    const bool plays_p1 =
+        std::ranges::find(experiment.tasks, device::Task::p1) != experiment.tasks.end();
+    if (std::holds_alternative<experiment::Table1>(experiment.kind) && !plays_p1)
+        names.emplace_back("P1");
+    for (const device::Task task : experiment.tasks) names.emplace_back(name_of(task));
+    return fmt::format("task{} {}", names.size() == 1 ? "" : "s", listed(names));
+}
+
+/// Whether an axis varies one of these keys, or one below it.
+bool varies(const Experiment& experiment, std::initializer_list<std::string_view> keys)
+{
+    return std::ranges::any_of(experiment.axes, [&](const experiment::Axis& axis) {
+        return std::ranges::any_of(keys,
+                                   [&](std::string_view key) { return axis.key.starts_with(key); });
+    });
+}
+
+bool varies_network(const Experiment& experiment)
+{
+    return varies(experiment, {"both.", "up.", "down."});
+}
+
+/// "160 ms" of "160ms"; what does not begin with a digit stays.
+std::string spaced(std::string_view text)
+{
+    const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+    const auto is_unit = [](char c) { return (c >= 'a' && c <= 'z') || c == '%'; };
+    std::string out;
+    bool is_number = false; // all of this word so far
+    for (const char c : text) {
+        if (is_number && is_unit(c)) out += ' ';
+        is_number = is_digit(c) && (is_number || out.empty() || out.back() == ' ');
+        out += c;
+    }
+    return out;
+}
+
+std::string network_of(const Experiment& experiment)
+{
+    if (varies_network(experiment)) return "";
+    emulator::Profile profile;
+    profile.path = experiment.path;
+    return network_in_words(profile);
+}
+
+/// What was varied, or under what all was played.
+struct Circumstances {
+    const Experiment& experiment;
+
+    std::string operator()(const experiment::Limits& limits) const
+    {
+        Words ranges;
+        for (const experiment::SearchRange& range : ranges_of(limits)) {
+            ranges.push_back(fmt::format("{} from {} to {} {}",
+                                         people_say(name_of(range.impairment)), to_text(range.from),
+                                         to_text(range.to), people_say(unit_of(range.impairment))));
+        }
+        return fmt::format("under {}, to find where half of the sessions fail", listed(ranges));
+    }
+    std::string operator()(const experiment::ImpairmentGrid& grid) const
+    {
+        return fmt::format("at every combination of {}, {} of jitter and {} of loss",
+                           counted(grid.delays.size(), "delay"),
+                           counted(grid.jitters.size(), "level"),
+                           counted(grid.losses.size(), "level"));
+    }
+    std::string operator()(const experiment::Claims& /*kind*/) const
+    {
+        return fmt::format("under the {} of the claims",
+                           counted(experiment::claim_cells().size(), "condition"));
+    }
+    template <typename Kind>
+    std::string operator()(const Kind& /*kind*/) const
+    {
+        const std::string network = network_of(experiment);
+        if (!network.empty()) return "under " + network;
+        return varies_network(experiment) ? "" : "on a perfect network";
+    }
+};
+
+std::string axes_of(const Experiment& experiment)
+{
+    Words axes;
+    for (const experiment::Axis& axis : experiment.axes) {
+        const std::string what{people_say(axis.key)};
+        if (!axis.values.empty()) {
+            Words values;
+            for (const std::string& value : axis.values) values.push_back(spaced(value));
+            axes.push_back(fmt::format("{} varied ({})", what, listed(values)));
+        } else if (axis.from && axis.to) {
+            axes.push_back(
+                fmt::format("{} varied from {} to {}", what, spaced(*axis.from), spaced(*axis.to)));
+        }
+    }
+    return axes.empty() ? "" : "with " + listed(axes);
+}
+
+/// The number of scenes and peers is told only where it is not the usual one.
+std::string party_of(const Experiment& experiment)
+{
+    std::string text;
+    if (!experiment.scenes.empty()) {
+        Words names;
+        for (const experiment::NamedScene& scene : experiment.scenes) names.push_back(scene.name);
+        text += " in " + listed(names);
+    }
+    if (experiment.peers != std::vector<std::uint32_t>{2}) {
+        Words counts;
+        for (const std::uint32_t count : experiment.peers) counts.push_back(std::to_string(count));
+        text += fmt::format(" with {} peers", listed(counts));
+    }
+    return text;
+}
+
+std::string words_of(const Experiment& experiment)
+{
+    Words algorithms;
+    for (const auto& one : experiment.algorithms) algorithms.push_back(one.name);
+    const bool has_hands = !std::holds_alternative<experiment::Claims>(experiment.kind) &&
+                           !varies(experiment, {"hands"});
+    std::string text = fmt::format("Simulated hands{} played {}{} with the algorithm{} {}",
+                                   has_hands ? fmt::format(" ({})", name_of(experiment.hands)) : "",
+                                   tasks_of(experiment), party_of(experiment),
+                                   algorithms.size() == 1 ? "" : "s", listed(algorithms));
+    for (const std::string& part :
+         {std::visit(Circumstances{experiment}, experiment.kind), axes_of(experiment)})
+        if (!part.empty()) text += ", " + part;
+    return text + fmt::format("; {}.", counted(experiment.seeds, "seed"));
+}
+
+/// A scene and the ways of hands are told by their names alone: any that can be read will do.
+base::Result<std::string> any_file(const std::string& name)
+{
+    if (name.ends_with(".csv")) return std::string{"time_s,x_m,y_m,z_m\n0,0,0,0\n1,0,0,0\n"};
+    return scene::to_text(scene::paper_scene());
+}
+
+base::Result<Experiment> experiment_of(const results::Run& run)
+{
+    const auto found = run.manifest.find("configuration");
+    if (found == run.manifest.end() || !found->is_string()) return base::fail("no configuration");
+    return experiment::parse_experiment(found->get<std::string>(), "configuration", {}, any_file);
+}
+
+/// The built-in experiment whose seeds and seconds settle a limit or a claim; "" of other kinds.
+std::string_view built_in_of(const experiment::Kind& kind)
+{
+    if (std::holds_alternative<experiment::Claims>(kind)) return "beat";
+    return std::holds_alternative<experiment::Limits>(kind) ? "fig6a" : "";
+}
+
+page::Json amount_of(const Experiment& experiment)
+{
+    return {{"seeds", experiment.seeds}, {"duration_s", base::to_seconds(experiment.duration)}};
+}
+
+} // namespace
+
+std::string network_in_words(const emulator::Profile& profile)
+{
+    emulator::Profile start;
+    start.path = profile.path;
+    std::string text = experiment::network_text(start);
+    for (const auto& [from, to] :
+         std::vector<std::pair<std::string_view, std::string_view>>{{"[both]; ", ""},
+                                                                    {"[up]; ", "A to B: "},
+                                                                    {"[down]; ", "B to A: "},
+                                                                    {" = ", " "},
+                                                                    {"\"", ""},
+                                                                    {";", ","}}) {
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+            text.replace(at, from.size(), to);
+    }
+    text = spaced(text);
+    if (profile.timeline.empty()) return text;
+    return (text.empty() ? "nothing" : text) + " at the start, and other conditions later";
+}
+
+std::string sentence_of(const results::Run& run)
+{
+    const auto experiment = experiment_of(run);
+    return experiment ? words_of(*experiment) : "";
+}
+
+page::Json amounts_of(const results::Run& run)
+{
+    const auto experiment = experiment_of(run);
+    if (!experiment) return nullptr;
+    page::Json amounts{{"played", amount_of(*experiment)}};
+    const base::OpenFile none = [](const std::string& file) { return base::fail(file); };
+    const std::string name{built_in_of(experiment->kind)};
+    if (const auto meant = experiment::load_experiment(name, none, {}); !name.empty() && meant)
+        amounts["meant"] = amount_of(*meant);
+    return amounts;
+}
+
+} // namespace hapnet::lab::report
