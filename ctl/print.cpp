@@ -85,9 +85,10 @@ std::string peer_text(const Json& reply)
         text_at(reply, "/seed"), text_at(reply, "/duration_s"), text_at(reply, "/force_limit_n"));
     if (at(reply, "/session").is_object()) {
         const double at_s = number_at(reply, "/session/at_s");
+        const bool is_a = at(reply, "/session/role") == "L";
         text += fmt::format("session {} as {}, {:.2f} s {} its start\n",
-                            text_at(reply, "/session/number"), text_at(reply, "/session/role"),
-                            std::abs(at_s), at_s < 0.0 ? "before" : "after");
+                            text_at(reply, "/session/number"), is_a ? "A" : "B", std::abs(at_s),
+                            at_s < 0.0 ? "before" : "after");
     }
     return text + fmt::format("device {}, governor {}, force {} N\n", text_at(reply, "/device"),
                               text_at(reply, "/governor"), text_at(reply, "/force_n"));
@@ -132,6 +133,9 @@ std::string diff_text(const Json& reply)
     return text.empty() ? "nothing would change\n" : text;
 }
 
+/// Paths of which a person is told the numbers of their datagrams.
+constexpr std::size_t paths_told_max = 4;
+
 /// From which datagrams on the conditions hold.
 std::string effect_text(const Json& reply)
 {
@@ -140,8 +144,9 @@ std::string effect_text(const Json& reply)
         from =
             fmt::format("datagram {} up (A to B) and datagram {} down (B to A)",
                         text_at(reply, "/effective_at/up"), text_at(reply, "/effective_at/down"));
+    } else if (const Json paths = at(reply, "/effective_at"); paths.size() > paths_told_max) {
+        from = fmt::format("the next datagrams of {} paths, which --json names", paths.size());
     } else {
-        const Json paths = at(reply, "/effective_at");
         for (const auto& [path, next] : paths.items()) {
             from += fmt::format("{}datagram {} up and {} down of {}", from.empty() ? "" : ", ",
                                 text_at(next, "/up"), text_at(next, "/down"), path);

@@ -86,7 +86,7 @@ why_invalid() {
 run_session() {
     local folder=$1 delay=160ms
     [[ -z $circle ]] || delay=40ms
-    printf 'demo: task %s with %d hands for %s s, %s each way; what peer 1 says:\n' \
+    printf 'demo: task %s with %d hands for %s s, %s each way; what A, peer 1, says:\n' \
         "$2" "$peers" "$3" "$delay"
     if [[ -n $circle ]]; then
         start_links "$folder" "$peers" --delay "$delay" --seed 42

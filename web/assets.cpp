@@ -65,7 +65,8 @@ Page::Page() : hash_{fmt::format("{:016x}", hash_of_all())}
         if (end == std::string_view::npos) break;
         index_ += rest.substr(0, begin);
         const auto name = rest.substr(begin + mark.size(), end - begin - mark.size());
-        index_ += fmt::format("/a/{}/{}", hash_, name);
+        // A page without a file, as in a build without three.js, must not ask for it.
+        if (asset_named(name) != nullptr) index_ += fmt::format("/a/{}/{}", hash_, name);
         rest.remove_prefix(end + mark.size());
     }
     index_ += rest;

@@ -26,7 +26,7 @@ class Page {
 public:
     Page();
 
-    /// index.html, in which @@FILE@@ stands for the path of FILE.
+    /// index.html, in which @@FILE@@ stands for the path of FILE, or for "" without such a file.
     [[nodiscard]] const std::string& index() const { return index_; }
     /// nullptr: no file is at this path.
     [[nodiscard]] const Asset* find(std::string_view path) const;

@@ -6,6 +6,7 @@
 #include "proto/base/version.hpp"
 #include "proto/control/core/request.hpp"
 #include "proto/net/clock.hpp"
+#include "web/core/members.hpp"
 #include "web/presets.hpp"
 
 #include <algorithm>
@@ -19,56 +20,34 @@ namespace hapnet::web {
 namespace {
 
 constexpr base::Duration state_every{std::chrono::milliseconds{100}};
-constexpr base::Duration look_every{std::chrono::milliseconds{500}};
 constexpr std::size_t mark_bytes_max = 320; // 80 characters of up to 4 bytes
-
-const std::string show_request = R"({"command":"show"})";
-const std::string scene_request = R"({"command":"scene"})";
 
 Viewer::Text shared(std::string text)
 {
     return std::make_shared<const std::string>(std::move(text));
 }
 
-std::string text_member(const nlohmann::ordered_json& json, const char* key)
-{
-    const auto found = json.find(key);
-    return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-std::uint64_t generation_in(const nlohmann::ordered_json& reply)
-{
-    const auto found = reply.find("generation");
-    return found != reply.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
-}
-
-std::size_t characters_in(std::string_view text)
-{
-    return static_cast<std::size_t>(std::ranges::count_if(
-        text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 } // namespace
 
-Hub::Hub(boost::asio::io_context& io) : io_{io}, begun_{net::monotonic_now()} {}
-
-bool Hub::is_virtual() const { return emulator_state_.is_virtual(); }
+Hub::Hub(boost::asio::io_context& io)
+    : io_{io},
+      begun_{net::monotonic_now()},
+      daemons_{io, Daemons::Handlers{.on_news = [this] { has_news_ = true; },
+                                     .on_event = [this](Event event) { note(std::move(event)); },
+                                     .on_other_peers = [this] { tell_reset(); }}}
+{}
 
 double Hub::at_s() const
 {
-    if (is_virtual()) return feed_.elapsed_s().value_or(at_s_told_);
+    if (daemons_.is_virtual()) return daemons_.feed().elapsed_s().value_or(at_s_told_);
     return base::to_seconds(net::monotonic_now() - begun_);
 }
 
-void Hub::attach_lab(const std::string& socket)
-{
-    finds_lab_peers_ = true;
-    set_daemons(socket, {});
-}
+void Hub::attach_lab(const std::string& socket) { daemons_.watch_lab(socket); }
 
 void Hub::attach(const std::string& emulator, const std::vector<std::string>& peers)
 {
-    set_daemons(emulator, peers);
+    daemons_.watch(emulator, peers);
 }
 
 void Hub::offer(Stage::Setup setup, bool begins, bool is_virtual)
@@ -81,211 +60,42 @@ void Hub::offer(Stage::Setup setup, bool begins, bool is_virtual)
             .on_event = [this](const std::string& text) { note("stage", text); },
             .on_daemons =
                 [this](const std::string& emulator, const std::vector<std::string>& peers) {
-                    set_daemons(emulator, peers);
+                    daemons_.watch(emulator, peers);
                 },
             .on_run_end = [this](int run) { results_->look_in(fmt::format("run-{}", run), run); }});
     if (!begins) return;
     Choice choice = stage_->choice();
     if (is_virtual) choice.mode = "virtual";
-    if (const auto begun = stage_->start(choice); !begun) {
-        note("stage", begun.error().message);
-    }
-}
-
-void Hub::set_daemons(const std::string& emulator, const std::vector<std::string>& peers)
-{
-    set_emulator(emulator);
-    // The sockets of the next session have the names of the last: these daemons just come back.
-    const bool are_same =
-        std::ranges::equal(peers, peers_, [](const std::string& path, const auto& peer) {
-            return peer->daemon->path() == path;
-        });
-    if (!are_same) {
-        peers_.clear();
-        for (const std::string& path : peers) add_peer(path);
-        order_peers();
-    }
-    has_news_ = true;
-}
-
-void Hub::set_emulator(const std::string& path)
-{
-    if (emulator_ && emulator_->path() == path) return;
-    emulator_.reset();
-    emulator_state_ = {.socket = path};
-    feed_.lose_emulator();
-    if (path.empty()) return;
-    emulator_ = std::make_unique<Daemon>(
-        io_, path, "20ms",
-        Daemon::Handlers{.on_attached =
-                             [this] {
-                                 emulator_state_.is_attached = true;
-                                 emulator_state_.error.clear();
-                                 shown_generation_ = 0;
-                                 is_showing_ = false;
-                                 note("emulator", "the emulator is attached");
-                                 ask_emulator_to_show();
-                             },
-                         .on_frame = [this](std::string_view line) { on_emulator_frame(line); },
-                         .on_lost =
-                             [this](const std::string& why) {
-                                 emulator_state_.is_attached = false;
-                                 emulator_state_.error = why;
-                                 feed_.lose_emulator();
-                                 note("emulator", "the emulator is gone: " + why);
-                             }});
-}
-
-void Hub::add_peer(const std::string& path)
-{
-    auto peer = std::make_shared<PeerDaemon>();
-    peer->state.socket = path;
-    peer->place = peers_.size();
-    const std::weak_ptr<PeerDaemon> weak = peer; // it has the daemon that has these handlers
-    peer->daemon = std::make_unique<Daemon>(
-        io_, path, "16ms",
-        Daemon::Handlers{.on_attached =
-                             [this, weak] {
-                                 const auto mine = weak.lock();
-                                 if (!mine) return;
-                                 mine->state.is_attached = true;
-                                 mine->state.error.clear();
-                                 ask_peer_to_show(mine);
-                                 ask_for_scene(mine);
-                             },
-                         .on_frame =
-                             [this, weak](std::string_view line) {
-                                 if (const auto mine = weak.lock()) on_peer_frame(*mine, line);
-                             },
-                         .on_lost =
-                             [this, weak](const std::string& why) {
-                                 const auto mine = weak.lock();
-                                 if (!mine) return;
-                                 mine->state.is_attached = false;
-                                 mine->state.error = why;
-                                 feed_.lose_peer(mine->place);
-                                 note("peer",
-                                      fmt::format("peer {} is gone: {}", mine->state.id(), why));
-                             }});
-    peers_.push_back(std::move(peer));
-}
-
-/// By their ids, as far as they are known.
-void Hub::order_peers()
-{
-    std::ranges::stable_sort(peers_, {}, [](const auto& peer) { return peer->state.id(); });
-    std::vector<Feed::Source> sources;
-    for (std::size_t i = 0; i < peers_.size(); ++i) {
-        peers_[i]->place = i;
-        sources.push_back({peers_[i]->state.id(), peers_[i]->state.boot_id()});
-    }
-    if (sources == feed_.peers()) return;
-    feed_.set_peers(std::move(sources));
-    tell_all(shared(fmt::format("{{\"type\":\"reset\",\"at_s\":{:.4f}}}", at_s())));
-}
-
-void Hub::on_emulator_frame(std::string_view line)
-{
-    auto frame = parse_emulator_frame(line);
-    if (!frame) {
-        emulator_state_.error = frame.error().message;
-        has_news_ = true;
-        return;
-    }
-    const auto generation = frame->generation;
-    feed_.take_emulator(*std::move(frame));
-    if (emulator_state_.paths != feed_.paths()) {
-        emulator_state_.paths = feed_.paths();
-        has_news_ = true;
-    }
-    if (generation == shown_generation_) return;
-    if (shown_generation_ > 0 && generation > own_generation_ && !is_showing_) {
-        Event event{.at = {}, .kind = "conditions", .text = {}};
-        event.text = fmt::format("the conditions have changed: generation {}", generation);
-        event.generation = static_cast<std::int64_t>(generation);
-        note(std::move(event));
-    }
-    ask_emulator_to_show();
-}
-
-void Hub::on_peer_frame(PeerDaemon& peer, std::string_view line)
-{
-    auto frame = parse_peer_frame(line);
-    if (frame) {
-        feed_.take_peer(peer.place, *std::move(frame));
-    } else if (peer.state.error != frame.error().message) {
-        peer.state.error = frame.error().message;
-        has_news_ = true;
-    }
-}
-
-void Hub::ask_emulator_to_show()
-{
-    if (is_showing_ || !emulator_) return;
-    is_showing_ = true;
-    emulator_->ask(show_request, [this](const base::Result<Json>& reply) {
-        is_showing_ = false;
-        if (!reply || !reply->value("ok", false)) return;
-        emulator_state_.shown = *reply;
-        const auto peers = reply->find("peers");
-        if (finds_lab_peers_ && peers != reply->end() && peers->is_number_unsigned() &&
-            *peers <= 8) {
-            finds_lab_peers_ = false;
-            const std::string socket = emulator_state_.socket;
-            set_daemons(socket, lab_peer_sockets(socket, peers->get<int>()));
-        }
-        shown_generation_ = generation_in(*reply);
-        has_news_ = true;
-    });
-}
-
-void Hub::ask_peer_to_show(const std::shared_ptr<PeerDaemon>& peer)
-{
-    const std::weak_ptr<PeerDaemon> weak = peer;
-    peer->daemon->ask(show_request, [this, weak](const base::Result<Json>& reply) {
-        const auto mine = weak.lock();
-        if (!mine || !reply || !reply->value("ok", false)) return;
-        const auto before = text_member(mine->state.shown, "state");
-        const auto now = text_member(*reply, "state");
-        has_news_ = has_news_ || mine->state.shown != *reply;
-        mine->state.shown = *reply;
-        if (before != now) note("peer", fmt::format("peer {}: {}", mine->state.id(), now));
-        order_peers();
-    });
-}
-
-void Hub::ask_for_scene(const std::shared_ptr<PeerDaemon>& peer)
-{
-    const std::weak_ptr<PeerDaemon> weak = peer;
-    peer->daemon->ask(scene_request, [this, weak](const base::Result<Json>& reply) {
-        const auto mine = weak.lock();
-        if (!mine || !reply || !reply->value("ok", false)) return;
-        mine->state.scene = *reply;
-        mine->state.scene.erase("ok");
-        has_news_ = true;
-    });
+    if (const auto begun = stage_->start(choice); !begun) note("stage", begun.error().message);
 }
 
 nlohmann::ordered_json Hub::state() const
 {
-    const std::vector<PeerState> peers = peer_states();
+    const std::vector<PeerState> peers = daemons_.peer_states();
+    const EmulatorState& emulator = daemons_.emulator_state();
     Json trap = trap_.json();
-    const auto why_not = why_nothing_is_held(emulator_state_, peers);
+    const auto why_not = why_nothing_is_held(emulator, peers);
     trap["available"] = why_not.empty();
-    trap["keys"] = feed_.names();
+    trap["keys"] = daemons_.feed().names();
     Json presets = Json::array();
-    for (const Preset& preset : presets_built_in()) presets.push_back({{"name", preset.name}});
+    for (const Preset& preset : presets_built_in()) {
+        presets.push_back({{"name", preset.name}, {"about", about_profile(preset.text)}});
+    }
     Json stage{{"available", false}, {"state", "stopped"}, {"says", "start hapnet-web --stage"}};
     if (stage_) stage = stage_->json();
-    return state_json(at_s(), emulator_state_, peers,
+    const bool is_paced = emulator.is_virtual() && emulator.is_attached;
+    const auto hand = daemons_.hand_id();
+    const Json own = hand ? Json(*hand) : Json(nullptr);
+    return state_json(at_s(), emulator, peers,
                       {{"presets", std::move(presets)},
                        {"stage", std::move(stage)},
-                       {"mode", is_virtual() ? "virtual" : "live"},
-                       {"pace", is_virtual() ? emulator_state_.shown["pace"] : Json(nullptr)},
+                       {"mode", emulator.is_virtual() ? "virtual" : "live"},
+                       {"pace", is_paced ? emulator.shown["pace"] : Json(nullptr)},
                        {"trap", std::move(trap)},
+                       {"hand", {{"peer", own}, {"held", hand_.is_held()}}},
                        {"keep", {{"available", why_not.empty()}, {"says", why_not}}},
                        {"events", events_.kept()},
-                       {"help", help_for(emulator_state_, peers, stage_ != nullptr)}});
+                       {"help", help_for(emulator, peers, stage_ != nullptr)}});
 }
 
 void Hub::note(const std::string& kind, const std::string& text)
@@ -319,30 +129,30 @@ void Hub::tick(base::TimePoint now)
 {
     if (stage_) stage_->tick(now);
     saving_.tick(now);
-    if (emulator_) emulator_->tick(now);
-    for (const auto& peer : peers_) peer->daemon->tick(now);
-    if (!next_look_ || base::is_due(next_look_, now)) {
-        next_look_ = now + look_every;
-        for (const auto& peer : peers_) {
-            if (peer->daemon->is_attached()) ask_peer_to_show(peer);
-        }
-        if (is_virtual()) ask_emulator_to_show(); // how far it is
-    }
+    daemons_.tick(now);
+    has_news_ = hand_.tick(daemons_.peer_with_hand(), now) || has_news_;
     tell_frame(now);
     tell_state(now);
 }
 
+/// Live figures begin anew.
+void Hub::tell_reset()
+{
+    tell_all(shared(fmt::format("{{\"type\":\"reset\",\"at_s\":{:.4f}}}", at_s())));
+}
+
 void Hub::tell_frame(base::TimePoint now)
 {
-    if (is_virtual()) {
-        if (std::exchange(moves_told_, feed_.moves()) == feed_.moves()) return;
+    Feed& feed = daemons_.feed();
+    if (daemons_.is_virtual()) {
+        if (std::exchange(moves_told_, feed.moves()) == feed.moves()) return;
         if (at_s() < at_s_told_) {
-            feed_.forget();
-            tell_all(shared(fmt::format("{{\"type\":\"reset\",\"at_s\":{:.4f}}}", at_s())));
+            feed.forget();
+            tell_reset();
         }
         at_s_told_ = at_s();
     }
-    const auto body = feed_.next(at_s(), now);
+    const auto body = feed.next(at_s(), now);
     if (!body) return;
     const auto viewers = *viewers_;
     for (const auto& [id, viewer] : viewers) viewer.frame(*body);
@@ -351,7 +161,7 @@ void Hub::tell_frame(base::TimePoint now)
 
 void Hub::step_trap(base::TimePoint now)
 {
-    switch (trap_.step(feed_.figures(), now)) {
+    switch (trap_.step(daemons_.feed().figures(), now)) {
     case Trap::News::none: return;
     case Trap::News::fired: return note("trap", fmt::format("{} came true", trap_.when()));
     case Trap::News::wants_keep:
@@ -370,7 +180,10 @@ std::optional<Membership> Hub::join(Viewer viewer)
                                     {"version", base::version()},
                                     {"frame_ms", base::to_seconds(frame_every) * 1e3},
                                     {"state", state()}})));
-    viewer.tell(shared(feed_.history().fine_json()));
+    viewer.tell(shared(daemons_.feed().history().fine_json()));
+    // While virtual time stands still no other frame comes.
+    const auto newest = daemons_.feed().newest(at_s(), net::monotonic_now());
+    if (daemons_.is_virtual() && newest) viewer.frame(*newest);
     const auto id = next_viewer_++;
     viewers_->emplace(id, std::move(viewer));
     return Membership{viewers_, id};
@@ -383,11 +196,11 @@ void Hub::answer(std::string_view path, const std::string& body, const OnReply& 
         json.update(state());
         return on_reply({.body = text_of(json)});
     }
-    if (path == "/api/history") return on_reply({.body = feed_.history().coarse_json()});
+    if (path == "/api/history") return on_reply({.body = daemons_.feed().history().coarse_json()});
     if (path == "/api/files") {
         return on_reply(results_ ? results_->list() : fine_reply("files", Json::array()));
     }
-    if (path == "/metrics") return metrics_.answer(attached_emulator(), attached_peers(), on_reply);
+    if (path == "/metrics") return metrics_.answer(daemons_.emulator(), daemons_.peers(), on_reply);
     if (path.starts_with("/f/")) {
         return on_reply(results_ ? results_->file(path) : error_reply(404, "no such file"));
     }
@@ -412,20 +225,18 @@ void Hub::answer_emulator(const Json& request, const OnReply& on_reply)
     if (request.contains("file") || request.contains("files")) {
         return on_reply(error_reply(400, "a page may name no files: send the profile itself"));
     }
-    if (!emulator_ || !emulator_->is_attached()) {
-        return on_reply(error_reply(503, "no emulator is attached"));
-    }
+    Daemon* emulator = daemons_.emulator();
+    if (emulator == nullptr) return on_reply(error_reply(503, "no emulator is attached"));
     Json asked = request;
     // None but those that the request brings, which are none: the emulator opens no file for a
     // page.
     const bool may_name_files = command == "set" || command == "apply" || command == "diff";
     if (may_name_files) asked["files"] = Json::object();
-    emulator_->ask(
+    emulator->ask(
         text_of(asked), [this, request, command, on_reply](const base::Result<Json>& reply) {
             if (!reply) return on_reply(error_reply(504, "the emulator: " + reply.error().message));
             const bool is_fine = reply->value("ok", false);
             if (is_fine && reply->value("changed", false)) {
-                own_generation_ = std::max(own_generation_, generation_in(*reply));
                 Event event{.at = {}, .kind = "conditions", .text = {}};
                 event.generation = static_cast<std::int64_t>(generation_in(*reply));
                 event.text = command;
@@ -437,7 +248,7 @@ void Hub::answer_emulator(const Json& request, const OnReply& on_reply)
                 }
                 event.text += fmt::format(": generation {}", event.generation);
                 note(std::move(event));
-                ask_emulator_to_show();
+                daemons_.know_generation(generation_in(*reply));
             }
             on_reply({.status = is_fine ? 200 : 422, .body = text_of(*reply)});
         });
@@ -476,7 +287,7 @@ void Hub::answer_trap(const Json& request, const OnReply& on_reply)
                               ? base::parse_duration(text_member(request, "last"))
                               : base::Result<base::Duration>{Trap::last_usual};
         if (!last) return on_reply(error_reply(400, "\"last\": " + last.error().message));
-        const auto names = feed_.names();
+        const auto names = daemons_.feed().names();
         const auto armed = trap_.arm(text_member(request, "when"), *last, names);
         if (!armed) return on_reply(error_reply(400, armed.error().message));
     } else {
@@ -488,11 +299,12 @@ void Hub::answer_trap(const Json& request, const OnReply& on_reply)
 
 void Hub::answer_pace(const Json& request, const OnReply& on_reply)
 {
-    if (!is_virtual()) return on_reply(error_reply(409, "this is live: time cannot be set here"));
+    Daemon* lab = daemons_.is_virtual() ? daemons_.emulator() : nullptr;
+    if (lab == nullptr) return on_reply(error_reply(409, "this is live: time cannot be set here"));
     if (request.contains("command")) return on_reply(error_reply(400, "\"do\" says what to do"));
     Json passed{{"command", "pace"}};
     passed.update(request);
-    emulator_->ask(text_of(passed), [this, on_reply](const base::Result<Json>& reply) {
+    lab->ask(text_of(passed), [this, on_reply](const base::Result<Json>& reply) {
         if (!reply) return on_reply(error_reply(504, "hapnet-lab: " + reply.error().message));
         if (!reply->value("ok", false)) return on_reply({.status = 422, .body = text_of(*reply)});
         on_pace(*reply, on_reply);
@@ -502,7 +314,7 @@ void Hub::answer_pace(const Json& request, const OnReply& on_reply)
 void Hub::on_pace(const Json& reply, const OnReply& on_reply)
 {
     Json json = reply;
-    if (json.contains("pace")) emulator_state_.shown["pace"] = json["pace"];
+    if (json.contains("pace")) daemons_.know_pace(json["pace"]);
     if (const auto path = text_member(json, "file"); !path.empty()) {
         if (stage_) results_->look_in(fmt::format("run-{}", stage_->run()), stage_->run());
         json["file"] = std::filesystem::path{path}.filename().string();
@@ -516,7 +328,8 @@ void Hub::on_pace(const Json& reply, const OnReply& on_reply)
 
 void Hub::answer_keep(const Json& request, const OnReply& on_reply)
 {
-    if (const auto why = why_nothing_is_held(emulator_state_, peer_states()); !why.empty()) {
+    if (const auto why = why_nothing_is_held(daemons_.emulator_state(), daemons_.peer_states());
+        !why.empty()) {
         return on_reply(error_reply(409, why));
     }
     const auto last = request.contains("last") ? base::parse_duration(text_member(request, "last"))
@@ -542,8 +355,8 @@ std::string Hub::free_name(const std::string& stem)
 /// By all daemons; tells everybody.
 void Hub::save(const std::string& name, base::Duration last, Saving::OnSaved on_saved)
 {
-    std::vector<Daemon*> daemons = attached_peers();
-    if (Daemon* emulator = attached_emulator()) daemons.insert(daemons.begin(), emulator);
+    std::vector<Daemon*> daemons = daemons_.peers();
+    if (Daemon* emulator = daemons_.emulator()) daemons.insert(daemons.begin(), emulator);
     saving_.begin(daemons, name, last,
                   [this, name, on_saved = std::move(on_saved)](
                       const base::Result<std::vector<std::string>>& paths) {
@@ -570,29 +383,12 @@ void Hub::answer_mark(const Json& request, const OnReply& on_reply)
     on_reply({.body = R"({"ok":true})"});
 }
 
-std::vector<PeerState> Hub::peer_states() const
+void Hub::hand(std::uint64_t page, const HandMessage& message)
 {
-    std::vector<PeerState> states;
-    for (const auto& peer : peers_) {
-        states.push_back(peer->state);
-        states.back().shares_clock =
-            peer->place < feed_.peers().size() && feed_.share_clock(0, peer->place);
-    }
-    return states;
-}
-
-std::vector<Daemon*> Hub::attached_peers() const
-{
-    std::vector<Daemon*> attached;
-    for (const auto& peer : peers_) {
-        if (peer->daemon->is_attached()) attached.push_back(peer->daemon.get());
-    }
-    return attached;
-}
-
-Daemon* Hub::attached_emulator() const
-{
-    return emulator_ && emulator_->is_attached() ? emulator_.get() : nullptr;
+    Daemon* peer = daemons_.peer_with_hand();
+    if (peer == nullptr) return;
+    const auto told = hand_.on_message(page, message, *peer, net::monotonic_now());
+    if (!told.empty()) viewers_->at(page).tell(shared(told));
 }
 
 } // namespace hapnet::web

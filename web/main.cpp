@@ -82,7 +82,7 @@ std::optional<tcp::acceptor> listening(asio::io_context& io, const tcp::endpoint
     if (!error) acceptor.listen(64, error);
     if (error == asio::error::address_in_use) return std::nullopt;
     if (error) {
-        throw std::system_error{error.value(), std::generic_category(),
+        throw std::system_error{error.value(), net::errors_of(net::AddressUse::bind),
                                 fmt::format("listen at {}", at.address().to_string())};
     }
     return acceptor;
@@ -102,7 +102,7 @@ tcp::acceptor listening_on_loopback(asio::io_context& io, const Options& options
             return std::move(*acceptor);
         }
     }
-    throw std::system_error{EADDRINUSE, std::generic_category(),
+    throw std::system_error{EADDRINUSE, net::errors_of(net::AddressUse::bind),
                             fmt::format("listen at 127.0.0.1:{}", options.port)};
 }
 
@@ -126,7 +126,8 @@ void listen_besides(asio::io_context& io, const Options& options, std::uint16_t 
     }
     auto acceptor = listening(io, {address, port});
     if (!acceptor) {
-        throw std::system_error{EADDRINUSE, std::generic_category(), "--listen " + options.listen};
+        throw std::system_error{EADDRINUSE, net::errors_of(net::AddressUse::bind),
+                                "--listen " + options.listen};
     }
     server.accept_from(std::move(*acceptor));
     net::say(program_name, fmt::format("{}:{} speaks plain HTTP: whoever sees the traffic has the "

@@ -5,8 +5,9 @@
 #include "proto/net/clock.hpp"
 #include "proto/output/metrics.hpp"
 
+#include <cstddef>
 #include <memory>
-#include <utility>
+#include <vector>
 
 namespace hapnet::web {
 
@@ -29,22 +30,27 @@ void MetricsPage::answer(Daemon* emulator, const std::vector<Daemon*>& peers,
     const auto now = net::monotonic_now();
     if (until_ && !base::is_due(until_, now)) return reply_with(text_, on_reply);
     until_ = now + kept_for;
+    std::vector<Daemon*> daemons = peers;
+    if (emulator != nullptr) daemons.insert(daemons.begin(), emulator);
     struct Gathered {
-        output::Metrics metrics;
+        std::vector<Json> replies; // in the order of the daemons, however they come
         std::size_t awaited = 1;
     };
     auto gathered = std::make_shared<Gathered>();
+    gathered->replies.resize(daemons.size());
     const auto one_more = [this, gathered, on_reply] {
         if (--gathered->awaited > 0) return;
-        text_ = gathered->metrics.text();
+        output::Metrics metrics;
+        for (const Json& reply : gathered->replies) {
+            if (reply.contains("metrics")) metrics.add(reply.at("metrics"));
+        }
+        text_ = metrics.text();
         reply_with(text_, on_reply);
     };
-    std::vector<Daemon*> daemons = peers;
-    if (emulator != nullptr) daemons.insert(daemons.begin(), emulator);
-    for (Daemon* daemon : daemons) {
+    for (std::size_t i = 0; i < daemons.size(); ++i) {
         ++gathered->awaited;
-        daemon->ask(metrics_request, [gathered, one_more](const base::Result<Json>& reply) {
-            if (reply && reply->contains("metrics")) gathered->metrics.add(reply->at("metrics"));
+        daemons[i]->ask(metrics_request, [gathered, one_more, i](const base::Result<Json>& reply) {
+            if (reply) gathered->replies[i] = *reply;
             one_more();
         });
     }

@@ -3,6 +3,7 @@
 #include "web/stage.hpp"
 
 #include "proto/net/clock.hpp"
+#include "web/core/state.hpp"
 
 #include <algorithm>
 #include <boost/asio/buffer.hpp>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <spdlog/fmt/fmt.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -49,6 +51,13 @@ std::string last_line(const std::string& file)
         if (!line.empty()) last = line;
     }
     return last.substr(0, 300);
+}
+
+/// The whole text of a file; empty where there is none.
+std::string text_of(const std::string& file)
+{
+    std::ifstream in{file};
+    return {std::istreambuf_iterator<char>{in}, {}};
 }
 
 /// How a process ended that can be waited for: 128 + n for signal n.
@@ -240,9 +249,26 @@ bool Stage::has_peers() const
     return std::ranges::any_of(children_, [](const auto& one) { return !one->is_emulator; });
 }
 
+/// The emulator of a loop goes on, and has written nothing yet.
+void Stage::judge()
+{
+    last_.reset();
+    if (is_virtual() || peer_sockets_.empty()) return;
+    std::vector<ProgramStatistics> programs;
+    for (int id = 1; id <= choice_.peers; ++id) {
+        programs.push_back({capital_letter(static_cast<std::size_t>(id - 1)),
+                            text_of(fmt::format("{}/peer-{}.json", folders().results, id))});
+    }
+    auto emulator = text_of(folders().results + "/emulator.json");
+    if (!emulator.empty()) programs.push_back({"the emulator", std::move(emulator)});
+    last_ = verdict_of(run_, programs);
+}
+
 void Stage::on_all_peers_ended()
 {
     handlers_.on_run_end(run_);
+    judge();
+    if (last_) handlers_.on_event(last_->text());
     if (!choice_.loop) {
         change(State::stopping, "the session has ended");
         return end_children(/*with_emulator*/ true);
@@ -255,8 +281,8 @@ void Stage::on_empty()
 {
     kill_at_.reset();
     begin_at_.reset();
-    handlers_.on_daemons("", {});
-    handlers_.on_run_end(run_);
+    handlers_.on_run_end(run_); // the daemons stay known: pages show what came of them
+    judge();
     if (next_) {
         choice_ = *std::exchange(next_, std::nullopt);
         return begin();
@@ -303,6 +329,7 @@ nlohmann::ordered_json Stage::json() const
             {"state", names.at(static_cast<std::size_t>(state_))},
             {"says", says_},
             {"run", run_},
+            {"last", last_ ? last_->json() : nlohmann::ordered_json(nullptr)},
             {"loop", choice_.loop},
             {"choice", choice_.json()},
             {"choices", setup_.choices.json()}};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/time.hpp"
+#include "web/core/run_verdict.hpp"
 #include "web/core/stage_plan.hpp"
 #include "web/spawner.hpp"
 
@@ -25,7 +26,7 @@ public:
     struct Handlers {
         std::function<void()> on_change; // of what json() says
         std::function<void(const std::string&)> on_event;
-        /// The sockets of what was started; none: all has ended.
+        /// The sockets of what was started.
         std::function<void(const std::string& emulator, const std::vector<std::string>& peers)>
             on_daemons;
         std::function<void(int run)> on_run_end; // its files are written
@@ -84,6 +85,7 @@ private:
     void on_output(Running& running);
     void on_end(const std::shared_ptr<Running>& running);
     void on_all_peers_ended();
+    void judge();
     void on_empty();
     void end_children(bool with_emulator);
     void fail(const std::string& why);
@@ -101,6 +103,7 @@ private:
     State state_ = State::stopped;
     std::string says_ = "press start";
     int run_ = 0;
+    std::optional<RunVerdict> last_; // of the newest run that has ended, in real time
     Places places_;
     std::vector<std::shared_ptr<Running>> children_;
     std::vector<std::string> peer_sockets_;

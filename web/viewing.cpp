@@ -104,6 +104,7 @@ private:
         const auto message = control::parse_object(text);
         if (!message) return close(1008, "not a message of a page");
         if (!is_in_) return on_token(*message);
+        if (const auto hand = hand_message_in(*message)) return hub_.hand(membership_->id(), *hand);
         const auto acknowledged = acknowledged_in(*message);
         if (!acknowledged || *acknowledged > sent_) return close(1008, "not a message of a page");
         acknowledged_ = std::max(acknowledged_, *acknowledged);

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// picture.mjs FILE ANIMATED REPORT: a picture of the live page, 1440 pixels wide, while the copies
-// are apart; both worlds as they move, in virtual time so that it is the same every time; and the
-// player and Table 1 of a report.
+// picture.mjs LIVE ANIMATED REPORT SESSION RUN: a picture of the live page, 1440 pixels wide, while
+// the copies are apart; both worlds as they move, in virtual time so that it is the same every
+// time; Table 1 and the player of a report; and the pages of a session of two peers over the
+// emulator and of the emulator's run.
 
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -17,7 +18,7 @@ if (reason) {
   console.error(`picture: ${reason}`);
   process.exit(3);
 }
-const [still, animated, report] = process.argv.slice(2);
+const [still, animated, report, session, run] = process.argv.slice(2);
 const patience = { timeout: 90_000 };
 const browser = await startBrowser();
 
@@ -28,9 +29,9 @@ const takeStill = async () => {
   });
   const page = await openPage(context, web.address);
   await page.waitForFunction(() => {
-    const { model } = globalThis.hapnet;
-    const apart = model.frame.pairs[0]?.apart_mm;
-    return model.frame.peers[0]?.session?.at_s > 12 && apart > 10 && apart < 25;
+    const apart = Number(document.getElementById("apart").textContent);
+    return globalThis.hapnet.model.frame.peers[0]?.session?.at_s > 12 && apart > 15 && apart < 30
+      && document.getElementById("timing").classList.contains("met");
   }, undefined, patience);
   await page.screenshot({ path: still });
   await context.close();
@@ -40,6 +41,20 @@ const takeStill = async () => {
 const pictures = 16;
 const begin = 10; // s
 const apart = 0.15; // s
+
+/** Ends when the worlds have stood still for ten frames: they are not drawn in each. */
+const whenDrawn = () => new Promise((done) => {
+  const shown = () => document.getElementById("worlds").innerText;
+  let [last, same] = [shown(), 0];
+  const look = () => {
+    const now = shown();
+    same = now === last ? same + 1 : 0;
+    last = now;
+    if (same === 10) done();
+    else requestAnimationFrame(look);
+  };
+  requestAnimationFrame(look);
+});
 
 const takeAnimated = async () => {
   const web = await startWeb("--virtual");
@@ -63,9 +78,7 @@ const takeAnimated = async () => {
       return Math.abs(frame.at_s - time) < 1e-3 && frame.pairs[0].apart_mm !== null
         && frame.peers.every((peer) => Math.abs(peer.at_ns / 1e9 - 1000 - time) < 2e-3);
     }, to, patience);
-    await page.evaluate(() => new Promise((done) => {
-      requestAnimationFrame(() => requestAnimationFrame(done));
-    }));
+    await page.evaluate(whenDrawn);
     taken.push(await page.screenshot({ clip }));
   }
   writeFileSync(animated, animationOf(taken, 1000 * apart));
@@ -73,30 +86,94 @@ const takeAnimated = async () => {
   await web.stop();
 };
 
-const takeReport = async () => {
-  const folder = mkdtempSync(join(tmpdir(), "hapnet-report-"));
-  const lab = (...words) => execFileSync(programBeside("hapnet-lab"), words, { stdio: "pipe" });
-  lab("run", "table1", "--quick", "--out", folder);
-  lab("report", folder);
+const pageWidth = 1100;
+
+/** A page of results, wide enough for two figures beside each other. */
+const openResults = async (file) => {
   const context = await browser.newContext({
-    viewport: { width: 1100, height: 1400 }, colorScheme: "light",
+    viewport: { width: pageWidth, height: 1400 }, colorScheme: "light",
   });
   const page = await context.newPage();
-  await page.goto(`file://${join(folder, "report.html")}`);
+  await page.goto(`file://${file}`);
   await page.waitForFunction(() => globalThis.hapnet && document.body.dataset.view, undefined,
     patience);
-  await page.evaluate(() => globalThis.hapnet.player.goTo(540));
+  return page;
+};
+
+/** Takes what lies between the top of one element and the bottom of another. */
+const takePart = async (page, path, from, to) => {
   const box = (where) => page.locator(where).boundingBox();
-  const [top, table] = [await box("#replay"), await box("#table1")];
-  await page.screenshot({
-    path: report, fullPage: true,
-    clip: { x: 0, y: top.y, width: 1100, height: table.y + table.height - top.y },
+  const [first, last] = [await box(from), await box(to)];
+  const top = Math.max(0, first.y - 16); // letters stand out of their line
+  const height = last.y + last.height - top;
+  await page.screenshot({ path, fullPage: true, clip: { x: 0, y: top, width: pageWidth, height } });
+  await page.context().close();
+};
+
+const lab = (...words) => execFileSync(programBeside("hapnet-lab"), words, { stdio: "pipe" });
+
+const takeReport = async () => {
+  const folder = mkdtempSync(join(tmpdir(), "hapnet-report-"));
+  lab("run", "table1", "--quick", "--out", folder);
+  lab("report", folder);
+  const page = await openResults(join(folder, "report.html"));
+  await page.evaluate(() => {
+    document.getElementById("tasks").remove();
+    globalThis.hapnet.player.goTo(540);
   });
-  await context.close();
+  await takePart(page, report, "#table1", "#replay");
+  rmSync(folder, { recursive: true, force: true });
+};
+
+const network = `name = "Wi-Fi that fails for half a second"
+both.delay = "20ms"
+both.jitter = { law = "gamma", mean = "3ms", sd = "6ms", correlation_time = "20ms" }
+[[at]]
+time = "7s"
+up.delay = "80ms"
+[[at]]
+time = "11s"
+both.loss = "100%"
+[[at]]
+time = "11.5s"
+both.loss = "2%"
+`;
+
+/** The records of two peers over the emulator, with its statistics and fates, in the folder. */
+const playOverEmulator = async (folder) => {
+  const at = (name) => join(folder, name);
+  writeFileSync(at("network.toml"), network);
+  const emulator = spawn(programBeside("hapnet-emulator"),
+    ["--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--profile", at("network.toml"),
+      "--stats", at("run.json"), "--fates", at("run.fates")]);
+  const ended = new Promise((resolve) => { emulator.on("exit", resolve); });
+  const remotes = await new Promise((resolve, reject) => {
+    emulator.on("exit", (code) => reject(new Error(`hapnet-emulator ended with ${code}`)));
+    emulator.stdout.once("data", (text) => resolve(/a=(\S+) b=(\S+)/.exec(text).slice(1)));
+  });
+  const peers = remotes.map((remote, i) => spawn(programBeside("hapnet-peer"), [
+    "--id", String(i + 1), "--remote", remote, "--task", "T3", "--duration", "16s",
+    "--record", at(`peer-${i + 1}.rec`),
+  ], { stdio: "ignore" }));
+  await Promise.all(peers.map((peer) => new Promise((resolve) => { peer.on("exit", resolve); })));
+  emulator.kill("SIGTERM");
+  await ended;
+};
+
+const takeSession = async () => {
+  const folder = mkdtempSync(join(tmpdir(), "hapnet-session-"));
+  await playOverEmulator(folder);
+  lab("report", join(folder, "peer-1.rec"), join(folder, "peer-2.rec"));
+  await takePart(await openResults(join(folder, "report.html")), session, "header",
+    'figure[data-figure$="-lateness"]');
+  execFileSync(programBeside("hapnet-emulator"),
+    ["report", join(folder, "run.json"), "--out", join(folder, "run.html")], { stdio: "pipe" });
+  await takePart(await openResults(join(folder, "run.html")), run, "header", "#figures .panels");
   rmSync(folder, { recursive: true, force: true });
 };
 
 await takeStill();
 await takeAnimated();
 await takeReport();
+await takeSession();
 await browser.close();

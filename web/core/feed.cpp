@@ -159,23 +159,45 @@ std::vector<Feed::Pair> Feed::pairs() const
 
 std::optional<std::string> Feed::next(double at_s, base::TimePoint now)
 {
+    if (is_empty()) return std::nullopt;
+    const auto paired = pairs();
+    std::string text = text_of(paired, at_s, now, /*is_again*/ false);
+    note_figures(paired);
+    note_history(at_s, paired);
+    for (auto& one : newest_) one.is_new = false;
+    emulator_.is_new = false;
+    return text;
+}
+
+std::optional<std::string> Feed::newest(double at_s, base::TimePoint now) const
+{
+    if (is_empty()) return std::nullopt;
+    return text_of(pairs(), at_s, now, /*is_again*/ true);
+}
+
+bool Feed::is_empty() const
+{
     const bool has_peer =
         std::ranges::any_of(newest_, [](const auto& one) { return one.frame.has_value(); });
-    if (!has_peer && !emulator_.frame) return std::nullopt;
-    const auto paired = pairs();
+    return !has_peer && !emulator_.frame;
+}
+
+std::string Feed::text_of(const std::vector<Pair>& pairs, double at_s, base::TimePoint now,
+                          bool is_again) const
+{
     std::string text;
     put(text, ",\"at_s\":{:.4f},\"at_ns\":{},\"peers\":[", at_s, now.time_since_epoch().count());
     for (std::size_t i = 0; i < newest_.size(); ++i) {
         if (i > 0) text += ',';
         if (newest_[i].frame) {
-            put_frame(text, newest_[i].frame->text, newest_[i].is_new);
+            put_frame(text, newest_[i].frame->text, newest_[i].is_new && !is_again);
         } else {
             text += "null";
         }
     }
     text += "],\"pairs\":[";
-    for (const Pair& pair : paired) {
-        put(text, "{}{{\"a\":{},\"b\":{}", &pair == &paired.front() ? "" : ",", peers_[pair.a].id,
+    for (const Pair& pair : pairs) {
+        put(text, "{}{{\"a\":{},\"b\":{}", &pair == &pairs.front() ? "" : ",", peers_[pair.a].id,
             peers_[pair.b].id);
         if (pair.apart) {
             put(text,
@@ -193,15 +215,11 @@ std::optional<std::string> Feed::next(double at_s, base::TimePoint now)
     }
     text += "],\"emulator\":";
     if (emulator_.frame) {
-        put_frame(text, emulator_.frame->text, emulator_.is_new);
+        put_frame(text, emulator_.frame->text, emulator_.is_new && !is_again);
     } else {
         text += "null";
     }
     text += '}';
-    note_figures(paired);
-    note_history(at_s, paired);
-    for (auto& one : newest_) one.is_new = false;
-    emulator_.is_new = false;
     return text;
 }
 

@@ -49,6 +49,9 @@ public:
     /// attached. Adds a row to the history.
     [[nodiscard]] std::optional<std::string> next(double at_s, base::TimePoint now);
 
+    /// The newest live frame once more, for a page that comes later: as `repeated`, without a row.
+    [[nodiscard]] std::optional<std::string> newest(double at_s, base::TimePoint now) const;
+
     /// Of the newest live frame.
     [[nodiscard]] const Figures& figures() const { return figures_; }
     [[nodiscard]] const History& history() const { return history_; }
@@ -78,6 +81,9 @@ private:
         double uncertainty_ms = unknown;
     };
 
+    [[nodiscard]] bool is_empty() const; // nothing is attached
+    [[nodiscard]] std::string text_of(const std::vector<Pair>& pairs, double at_s,
+                                      base::TimePoint now, bool is_again) const;
     [[nodiscard]] Pair pair_of(std::size_t a, std::size_t b) const;
     [[nodiscard]] const PeerFrame::Heard* heard_by(std::size_t place, std::uint16_t from) const;
     [[nodiscard]] std::vector<Pair> pairs() const;

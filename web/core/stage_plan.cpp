@@ -15,7 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::int64_t virtual_seed_max = 1'000'000'000;       // of an experiment
+constexpr std::int64_t virtual_seed_max = 1'000'000'000; // of an experiment
+constexpr int lab_others_max = 2;                        // beside the chosen algorithm
+constexpr const char* own_scene = "task";
 constexpr const char* held_for = "20s";                        // as much as a trap may ask for
 constexpr std::int64_t seed_max = (std::int64_t{1} << 53) - 1; // that JavaScript counts exactly
 
@@ -61,8 +63,8 @@ public:
 
     void refuse_others()
     {
-        constexpr std::array known{"do",    "mode",    "task", "algorithm", "preset",
-                                   "peers", "seconds", "seed", "loop"};
+        constexpr std::array known{"do",     "story", "mode",    "task", "algorithm", "scene",
+                                   "preset", "peers", "seconds", "seed", "loop",      "device"};
         for (const auto& [name, value] : json_.items()) {
             if (std::ranges::find(known, name) == known.end()) {
                 fail(fmt::format("\"{}\" is not known here", name));
@@ -84,6 +86,56 @@ private:
 
 std::string pair_name(int a, int b) { return fmt::format("{}-{}", a, b); }
 
+/// Scenes in which a session of two can play every task: the others of the project share too many
+/// bodies, hang on joints, or have hands of different kinds.
+constexpr std::array scenes_of_two{"bench",   "carry",           "guide",   "hammer",
+                                   "lift",    "mass-ratio-1000", "paper",   "push-6dof",
+                                   "rolling", "stack-of-three",  "turning", "wall"};
+
+std::vector<Story> all_stories()
+{
+    return {
+        {"paper-160",
+         "The paper's 160 ms",
+         "Watch the two cubes: B's follows A's about 160 ms late, so the faster the hand, the "
+         "larger the number between them.",
+         {.task = "P1", .algorithm = "base", .preset = "paper-delay-160"}},
+        {"dead-reckoning-shakes",
+         "Why dead reckoning shakes",
+         "Watch B's cube tremble: it is extrapolated from messages that jitter delivers in the "
+         "wrong order, and each one throws it to another place.",
+         {.task = "P1", .algorithm = "dead-reckoning", .preset = "paper-jitter-15"}},
+        {"loss-97",
+         "97 % loss with remote-proxy",
+         "Watch the wire: it drops 97 of 100 datagrams, and the copies stay together, because the "
+         "few that arrive say where the other hand means to go.",
+         {.task = "T3", .algorithm = "remote-proxy", .preset = "loss-97"}},
+        {"starlink",
+         "Starlink",
+         "Watch the delay: it wanders by tens of milliseconds, and where the dish changes its "
+         "satellite the wire goes dark for a moment and the cubes part.",
+         {.task = "T1", .algorithm = "sep", .preset = "starlink"}},
+        {"lte-car",
+         "LTE in a car",
+         "Watch the two directions: up is slower than down, and each handover from cell to cell "
+         "stops both for a moment, after which the copies find each other again.",
+         {.task = "T1", .algorithm = "base", .preset = "lte-car"}},
+    };
+}
+
+std::vector<std::string> names_of(const std::vector<Story>& stories)
+{
+    std::vector<std::string> names;
+    for (const Story& story : stories) names.push_back(story.name);
+    return names;
+}
+
+/// The device of a peer as its command line calls it.
+const char* device_of(int id, const Choice& choice)
+{
+    return id == 1 && choice.device == "page" ? "page" : "sim";
+}
+
 /// Tasks for more than two hands.
 bool is_for_many(std::string_view task) { return task == "T7" || task == "T8"; }
 
@@ -91,28 +143,60 @@ bool is_for_many(std::string_view task) { return task == "T7" || task == "T8"; }
 
 nlohmann::ordered_json Choices::json() const
 {
+    Json told = Json::array();
+    for (const Story& story : stories) told.push_back(story.json());
     return {{"modes", modes},
             {"tasks", tasks},
             {"algorithms", algorithms},
+            {"scenes", scenes},
             {"presets", presets},
+            {"stories", std::move(told)},
+            {"devices", devices},
             {"peers", {peers_min, peers_max}},
             {"seconds", {seconds_min, seconds_max}}};
+}
+
+std::string about_profile(std::string_view text)
+{
+    constexpr std::size_t about_bytes_max = 160;
+    std::string words;
+    while (text.starts_with("# ")) {
+        const auto line = text.substr(2, text.find('\n') - 2);
+        text.remove_prefix(std::min(text.size(), line.size() + 3));
+        if (!line.starts_with("SPDX-")) words += (words.empty() ? "" : " ") + std::string{line};
+    }
+    for (auto end = words.find(". "); end != std::string::npos; end = words.find(". ", end + 1)) {
+        const char next = words[end + 2];
+        if (next < 'A' || next > 'Z') continue; // "Fig. 6a"
+        words.resize(end + 1);
+        break;
+    }
+    if (words.size() <= about_bytes_max) return words;
+    return words.substr(0, words.rfind(' ', about_bytes_max)) + " ...";
 }
 
 Choices all_choices(std::vector<std::string> presets)
 {
     Choices choices;
     choices.tasks = {"P1", "T1", "T2", "T3", "T4", "T5", "T6", "T7", "T8", "T9", "T10"};
-    choices.algorithms = {"base", "dead-reckoning", "sep"};
+    choices.algorithms = {"base", "dead-reckoning", "sep", "remote-proxy"};
+    choices.scenes.emplace_back(own_scene);
+    choices.scenes.insert(choices.scenes.end(), scenes_of_two.begin(), scenes_of_two.end());
+    choices.stories = all_stories();
     choices.presets = std::move(presets);
     return choices;
 }
 
 nlohmann::ordered_json Choice::json() const
 {
-    return {{"mode", mode},     {"task", task},   {"algorithm", algorithm},
-            {"preset", preset}, {"peers", peers}, {"seconds", seconds},
-            {"seed", seed}};
+    return {{"mode", mode},       {"task", task},     {"algorithm", algorithm},
+            {"scene", scene},     {"preset", preset}, {"peers", peers},
+            {"seconds", seconds}, {"seed", seed},     {"device", device}};
+}
+
+nlohmann::ordered_json Story::json() const
+{
+    return {{"name", name}, {"title", title}, {"look", look}, {"choice", choice.json()}};
 }
 
 base::Result<Choice> choice_of(const nlohmann::ordered_json& request, const Choice& before,
@@ -120,10 +204,19 @@ base::Result<Choice> choice_of(const nlohmann::ordered_json& request, const Choi
 {
     Choice choice = before;
     ChoiceReader in{request};
+    std::string name;
+    in.one_of("story", names_of(choices.stories), name);
+    if (!name.empty()) {
+        choice = std::ranges::find(choices.stories, name, &Story::name)->choice;
+        choice.mode = before.mode;
+        choice.loop = before.loop;
+    }
     in.one_of("mode", choices.modes, choice.mode);
     in.one_of("task", choices.tasks, choice.task);
     in.one_of("algorithm", choices.algorithms, choice.algorithm);
+    in.one_of("scene", choices.scenes, choice.scene);
     in.one_of("preset", choices.presets, choice.preset);
+    in.one_of("device", choices.devices, choice.device);
     in.number("peers", choices.peers_min, choices.peers_max, choice.peers);
     in.number("seconds", choices.seconds_min, choices.seconds_max, choice.seconds);
     in.number("seed", 1, seed_max, choice.seed);
@@ -133,6 +226,11 @@ base::Result<Choice> choice_of(const nlohmann::ordered_json& request, const Choi
     if (choice.peers > 2 && !is_for_many(choice.task)) {
         return base::fail(fmt::format("task {} is for two peers; with {} choose T7 or T8",
                                       choice.task, choice.peers));
+    }
+    if (choice.peers > 2 && choice.scene != own_scene) {
+        return base::fail(fmt::format("the scene {} is for two peers; with {} leave the scene at "
+                                      "{}, that of the task",
+                                      choice.scene, choice.peers, own_scene));
     }
     if (choice.mode == "virtual" && choice.seed > virtual_seed_max) {
         return base::fail(
@@ -202,14 +300,19 @@ Start lab_start(const Choice& choice, const StageFolders& folders, const Choices
                 .socket = folders.sockets + "/lab.sock",
                 .log = folders.results + "/lab.log"};
     auto& words = start.words;
+    int others = choice.peers == 2 ? lab_others_max : 0;
     for (const std::string& other : choices.algorithms) {
-        if (other == choice.algorithm || choice.peers != 2) continue;
+        if (other == choice.algorithm || others == 0) continue;
+        --others;
         words.insert(words.end(), {"--algorithm", other});
     }
-    words.insert(words.end(),
-                 {"--profile", choice.preset, "--seed", std::to_string(choice.seed), "--duration",
-                  fmt::format("{}s", choice.seconds), "--peers", std::to_string(choice.peers),
-                  "--control", start.socket, "--out", folders.results});
+    if (choice.scene != own_scene) {
+        words.insert(words.end(), {"--set", "scene=" + choice.scene});
+    }
+    words.insert(words.end(), {"--profile", choice.preset, "--seed", std::to_string(choice.seed),
+                               "--duration", fmt::format("{}s", choice.seconds), "--peers",
+                               std::to_string(choice.peers), "--control", start.socket, "--out",
+                               folders.results, "--device", device_of(1, choice)});
     return start;
 }
 
@@ -238,9 +341,10 @@ Start peer_start(int id, const Choice& choice, const StageFolders& folders, cons
             words.push_back(fmt::format("{}={}", other, places.at(pair_name(id, other))));
         }
     }
+    if (choice.scene != own_scene) words.insert(words.end(), {"--scene", choice.scene});
     words.insert(words.end(), {"--keep",      held_for,
                                "--keep-in",   folders.kept,
-                               "--device",    "sim",
+                               "--device",    device_of(id, choice),
                                "--task",      choice.task,
                                "--algorithm", choice.algorithm,
                                "--seed",      std::to_string(choice.seed),

@@ -14,29 +14,14 @@
 
 namespace hapnet::web {
 
-/// The sets that a page may choose from. Nothing else of what a page says reaches a command line.
-struct Choices {
-    std::vector<std::string> modes{"live", "virtual"};
-    std::vector<std::string> tasks;
-    std::vector<std::string> algorithms;
-    std::vector<std::string> presets;
-    int peers_min = 2;
-    int peers_max = 8;
-    int seconds_min = 5;
-    int seconds_max = 600;
-
-    [[nodiscard]] nlohmann::ordered_json json() const;
-};
-
-/// The sets of this version.
-[[nodiscard]] Choices all_choices(std::vector<std::string> presets);
-
 /// What the stage is to play.
 struct Choice {
     std::string mode = "live";
     std::string task = "P1";
     std::string algorithm = "base";
+    std::string scene = "task"; // the task's own, or a built-in scene
     std::string preset = "paper-delay-160";
+    std::string device = "simulated"; // of A; that of others is simulated
     int peers = 2;
     int seconds = 30;
     std::int64_t seed = 1;
@@ -46,8 +31,42 @@ struct Choice {
     [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// `before`, with what the request says instead. The error names what is wrong and what would be
-/// right. Members that are not known are refused, "do" apart.
+/// A choice to start from, and what there is to see in it.
+struct Story {
+    std::string name; // in requests
+    std::string title;
+    std::string look; // a sentence: where to look, and what happens there
+    Choice choice;
+
+    [[nodiscard]] nlohmann::ordered_json json() const;
+};
+
+/// The sets that a page may choose from. Nothing else of what a page says reaches a command line.
+struct Choices {
+    std::vector<std::string> modes{"live", "virtual"};
+    std::vector<std::string> scenes; // first the one of the task
+    std::vector<Story> stories;
+    std::vector<std::string> tasks;
+    std::vector<std::string> algorithms;
+    std::vector<std::string> presets;
+    std::vector<std::string> devices{"simulated", "page"}; // of A
+    int peers_min = 2;
+    int peers_max = 8;
+    int seconds_min = 5;
+    int seconds_max = 600;
+
+    [[nodiscard]] nlohmann::ordered_json json() const;
+};
+
+/// What a profile is, by the first sentence of its comments; at most 160 bytes of it.
+[[nodiscard]] std::string about_profile(std::string_view text);
+
+/// The sets of this version.
+[[nodiscard]] Choices all_choices(std::vector<std::string> presets);
+
+/// `before`, or the story that the request names in its mode and loop, with what the request says
+/// instead. The error names what is wrong and what would be right. Members that are not known are
+/// refused, "do" apart.
 [[nodiscard]] base::Result<Choice> choice_of(const nlohmann::ordered_json& request,
                                              const Choice& before, const Choices& choices);
 
@@ -81,7 +100,7 @@ using Places = std::map<std::string, std::string, std::less<>>;
 /// The sockets of its peers.
 [[nodiscard]] std::vector<std::string> lab_peer_sockets(const std::string& socket, int peers);
 
-/// A peer, 1 to choice.peers; simulated, always. `places` is of places_in().
+/// A peer, 1 to choice.peers; never with a real device. `places` is of places_in().
 [[nodiscard]] Start peer_start(int id, const Choice& choice, const StageFolders& folders,
                                const Places& places);
 

@@ -48,7 +48,7 @@ Json place_of(const Json& scene, Json& scenes)
 Json peer_json(const PeerState& peer, std::size_t place, Json& scenes)
 {
     Json json{{"id", peer.id()},
-              {"letter", std::string(1, static_cast<char>('A' + static_cast<int>(place % 26)))},
+              {"letter", capital_letter(place)},
               {"attached", peer.is_attached},
               {"socket", file_of(peer.socket)},
               {"scene", place_of(peer.scene, scenes)}};
@@ -64,16 +64,30 @@ Json peer_json(const PeerState& peer, std::size_t place, Json& scenes)
 
 } // namespace
 
+std::string capital_letter(std::size_t place)
+{
+    return {static_cast<char>('A' + static_cast<int>(place % 26))};
+}
+
 std::uint16_t PeerState::id() const
 {
     const Json id = member(shown, "peer_id");
     return id.is_number_unsigned() && id <= 65535 ? id.get<std::uint16_t>() : std::uint16_t{0};
 }
 
+bool PeerState::takes_hand() const { return member(shown, "takes_hand") == true; }
+
 std::string PeerState::boot_id() const
 {
     const Json boot_id = member(shown, "boot_id");
     return boot_id.is_string() ? boot_id.get<std::string>() : "";
+}
+
+std::string name_of_peer(const std::vector<PeerState>& peers, std::size_t place)
+{
+    const bool are_known =
+        std::ranges::none_of(peers, [](const PeerState& peer) { return peer.id() == 0; });
+    return are_known ? capital_letter(place) : "peer " + std::to_string(peers.at(place).id());
 }
 
 nlohmann::ordered_json state_json(double at_s, const EmulatorState& emulator,

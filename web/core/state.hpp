@@ -33,7 +33,16 @@ struct PeerState {
     /// 0: not known yet.
     [[nodiscard]] std::uint16_t id() const;
     [[nodiscard]] std::string boot_id() const;
+    /// True if pages may move its hand.
+    [[nodiscard]] bool takes_hand() const;
 };
+
+/// "A" for the first place.
+[[nodiscard]] std::string capital_letter(std::size_t place);
+
+/// What people call the peer at that place: its letter, "A" for the lowest id; "peer 2" as long as
+/// the ids of some are not known, and so their order is not.
+[[nodiscard]] std::string name_of_peer(const std::vector<PeerState>& peers, std::size_t place);
 
 /// The state that pages get: docs/formats/live.md. `peers` are in the order of the live frames;
 /// the members of `others` follow as they are.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "web/core/trap.hpp"
 
+#include "proto/base/reading.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
@@ -13,11 +14,12 @@ namespace hapnet::web {
 base::Result<void> Trap::arm(const std::string& when, base::Duration last,
                              std::span<const std::string> names)
 {
-    const auto condition = base::parse_condition(when);
+    const auto condition = base::parse_condition(when, "apart_mm>30");
     if (!condition) return tl::unexpected{condition.error()};
     if (std::ranges::find(names, condition->path) == names.end()) {
-        return base::fail(fmt::format("no figure is called '{}'; use one of {}", condition->path,
-                                      fmt::join(names, ", ")));
+        const std::vector<std::string_view> all{names.begin(), names.end()};
+        return base::fail(fmt::format("no figure is called '{}': {}", condition->path,
+                                      base::suggestion(condition->path, all)));
     }
     if (last < last_min || last > last_max) {
         return base::fail(fmt::format("\"last\" must be from {} to {}", base::bound_text(last_min),

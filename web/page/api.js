@@ -4,12 +4,17 @@
 
 const key = "hapnet-token";
 
+/** What the address's fragment says besides the token: the settings that a link carries. */
+export const wanted = new URLSearchParams(location.hash.slice(1));
+
 /** Takes the token out of the address bar; a reload finds it in the tab's storage. */
 const takeToken = () => {
-  const found = new URLSearchParams(location.hash.slice(1)).get("t");
+  const found = wanted.get("t");
+  wanted.delete("t");
   if (found) {
     sessionStorage.setItem(key, found);
-    history.replaceState(null, "", location.pathname);
+    const rest = String(wanted);
+    history.replaceState(null, "", location.pathname + (rest === "" ? "" : `#${rest}`));
   }
   return found ?? sessionStorage.getItem(key) ?? "";
 };

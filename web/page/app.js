@@ -8,7 +8,10 @@ import { Conditions } from "./conditions.js";
 import { announce, byId, fillSelect, say } from "./dom.js";
 import { Events } from "./events.js";
 import { openFeed } from "./feed.js";
+import { offerFullScreen, offerGuide } from "./guide.js";
+import { Hand } from "./hand.js";
 import { Lamps } from "./lamps.js";
+import { Link } from "./link.js";
 import { Model } from "./model.js";
 import { Network } from "./network.js";
 import { Orbit } from "./orbit.js";
@@ -16,13 +19,16 @@ import { Pace } from "./pace.js";
 import { painterFor } from "./painters.js";
 import { Rhythm } from "./rhythm.js";
 import { Stage } from "./stage.js";
+import { isOver, statusOf } from "./status.js";
+import { Stories } from "./stories.js";
 import { Timeline } from "./timeline.js";
 import { Trap } from "./trap.js";
-import { farthestOf, sentenceOf, verdictOf } from "./verdict.js";
+import { withMicro } from "./units.js";
+import { farthestOf, meanOf, sentenceOf, verdictOf } from "./verdict.js";
 import { Wishes } from "./wishes.js";
 import { Worlds } from "./worlds.js";
 
-const describeMs = 250;
+const describeMs = 100; // so that the number is that of the picture
 
 const model = new Model();
 const orbit = new Orbit();
@@ -32,9 +38,11 @@ const pace = new Pace(model);
 const timeline = new Timeline(model, (seconds) => pace.seek(seconds));
 const events = new Events(model);
 let charts = null;
+let feed = null;
+const hand = new Hand({ model, orbit, send: (message) => feed?.send(message) });
 
 const tell = (text, isError) => {
-  say(byId("effect"), text);
+  say(byId("effect"), withMicro(text));
   byId("effect").classList.toggle("error", isError);
   if (isError) announce(text);
 };
@@ -49,16 +57,21 @@ const ends = (path) => {
     : [model.peers[0]?.letter ?? "A", model.peers[1]?.letter ?? "B"];
 };
 
-const network = new Network({
+new Network({
   container: byId("sliders"),
   linked: byId("linked"),
   order: byId("order"),
   model,
   wishes: new Wishes(tell, lasts),
   ends,
+  tell,
 });
-new Conditions(model, tell);
-new Stage(model);
+const conditions = new Conditions(model, tell);
+const stage = new Stage(model, () => conditions.preset);
+new Stories(model, (story) => stage.tell(story), () => conditions.preset);
+new Link(model, () => conditions.preset);
+offerGuide();
+offerFullScreen();
 new Trap(model);
 
 const showPath = () => {
@@ -73,7 +86,6 @@ const showPath = () => {
   charts?.show(path, ends(path));
 };
 byId("path").addEventListener("change", showPath);
-byId("linked").addEventListener("change", () => network.refresh());
 
 const rangeButtons = [...document.querySelectorAll("[data-seconds]")];
 rangeButtons.forEach((button) =>
@@ -85,6 +97,12 @@ rangeButtons.forEach((button) =>
   }),
 );
 
+/** The unit of the large number, and between whom it is. */
+const pairName = (farthest) => {
+  const letter = (id) => model.peers.find((peer) => peer.id === id)?.letter ?? String(id);
+  return farthest ? `mm between ${letter(farthest.a)} and ${letter(farthest.b)}` : "mm apart";
+};
+
 /** Timing of what is watched: whether its own lateness would spoil what is seen. */
 const timing = () => {
   const names = [...model.fine.columns.keys()].filter((name) => name.includes("late_us:"));
@@ -94,12 +112,15 @@ const timing = () => {
 };
 
 const describe = () => {
-  worlds.describe();
+  const farthest = farthestOf(model);
+  worlds.describe(farthest);
+  hand.describe();
   lamps.describe();
   charts?.describe();
   const first = model.frame?.peers?.find(Boolean);
   const at = first?.session?.at_s;
-  say(byId("clock"), Number.isFinite(at) ? `t = ${at.toFixed(1)} s` : "t = –");
+  if (first || !isOver(model.state)) // else it stays at the end
+    say(byId("clock"), Number.isFinite(at) ? `t = ${at.toFixed(1)} s` : "t = –");
   const [kind, words] = timing();
   byId("timing").className = `pill ${kind}`;
   say(byId("timing"), words);
@@ -107,22 +128,26 @@ const describe = () => {
   byId("verdict").className = `badge tier-${verdict.tier}`;
   say(byId("verdict"), verdict.says);
   const back = model.lookingAt === null ? "" : `Looking back. `;
-  const farthest = farthestOf(model);
   say(byId("sentence"), back + sentenceOf(model, farthest));
-  say(byId("apart"), farthest ? farthest.mean.toFixed(1) : "–");
+  say(byId("apart"), farthest ? farthest.apart.toFixed(1) : "–");
+  say(byId("pair"), pairName(farthest));
+  say(byId("apart-mean"), meanOf(model, farthest));
 };
 
 const showState = (state) => {
   document.body.dataset.peers = String(model.peers.length);
+  const isAlone = model.peers.length === 0 && Boolean(state.emulator?.attached);
+  document.body.dataset.alone = String(isAlone);
   document.body.dataset.matrix = String(model.paths.length > 1);
   const isRecord = Boolean(state.pace?.read_only);
   const time = isRecord ? "from records" : "virtual time";
   say(byId("mode"), state.mode === "virtual" ? time : "live UDP");
   byId("read-only").hidden = !isRecord;
-  byId("network-controls").inert = isRecord;
+  byId("network-controls").hidden = isRecord;
   byId("wire").hidden = isRecord;
-  byId("help").hidden = !state.help;
-  say(byId("help-text"), state.help ?? "");
+  const { says } = statusOf(state);
+  byId("help").hidden = says === "";
+  say(byId("help-text"), says);
   showPath();
 };
 model.addEventListener("state", ({ detail }) => showState(detail));
@@ -156,7 +181,7 @@ const painted = () => new Promise((resolve) => {
 });
 
 const start = async () => {
-  openFeed({
+  feed = openFeed({
     hello: (message) => {
       events.clear();
       model.hello(message);
@@ -167,13 +192,16 @@ const start = async () => {
     state: (message) => model.setState(message.state),
     event: (message) => model.addEvent(message),
     reset: () => model.clear(),
+    hand: (message) => hand.told(message),
     connection,
   });
   await painted();
   charts = new ChartPanel(byId("charts"), byId("chart-table"), model);
   if (model.state) showPath();
   requestAnimationFrame(turn);
-  const painter = await painterFor(byId("worlds"));
+  const three = byId("three").getAttribute("href") !== ""; // else the build had none
+  byId("credit").hidden = !three;
+  const painter = await painterFor(byId("worlds"), three);
   rhythm = new Rhythm({ level: painter.level });
   rhythm.addEventListener("change", () => painter.setLevel(rhythm.level));
   worlds.painter = painter;
@@ -181,4 +209,4 @@ const start = async () => {
 };
 start();
 // For the tests, and for the curious at the console.
-globalThis.hapnet = { model, orbit, worlds, get rhythm() { return rhythm; } };
+globalThis.hapnet = { model, orbit, worlds, hand, get rhythm() { return rhythm; } };

@@ -45,25 +45,31 @@ export class Columns {
     return this.length > 0 ? this.times[this.first] : NaN;
   }
 
-  /** A row of {name: number | [value, least, most]}. Time that does not grow is left out. */
+  /**
+   * A row of {name: number | [value, least, most]}. One of the newest time adds to that row, as
+   * peers and emulator may tell of a moment apart; an earlier one is left out.
+   */
   push(time, row) {
-    if (this.length > 0 && time <= this.newest) return;
-    if (this.end === this.times.length) this.#compact();
-    this.times[this.end] = time;
+    if (this.length > 0 && time < this.newest) return;
+    if (this.length === 0 || time > this.newest) this.#begin(time);
     for (const [name, cell] of Object.entries(row)) {
       const column = this.columns.get(name) ?? this.#add(name);
       const [value, least, most] = Array.isArray(cell) ? cell : [cell, cell, cell];
-      column.value[this.end] = value ?? NaN;
-      column.least[this.end] = least ?? NaN;
-      column.most[this.end] = most ?? NaN;
+      column.value[this.end - 1] = value ?? NaN;
+      column.least[this.end - 1] = least ?? NaN;
+      column.most[this.end - 1] = most ?? NaN;
     }
-    for (const [name, column] of this.columns) {
-      if (Object.hasOwn(row, name)) continue;
-      column.value[this.end] = column.least[this.end] = column.most[this.end] = NaN;
-    }
-    this.end += 1;
     const start = time - this.seconds;
     while (this.times[this.first] < start || this.length > this.most) this.first += 1;
+  }
+
+  /** A row in which nothing is known yet. */
+  #begin(time) {
+    if (this.end === this.times.length) this.#compact();
+    this.times[this.end] = time;
+    for (const { value, least, most } of this.columns.values())
+      value[this.end] = least[this.end] = most[this.end] = NaN;
+    this.end += 1;
   }
 
   #add(name) {

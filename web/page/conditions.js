@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // Whole networks at once: presets, a sentence as tc-netem takes it, back to the start, and the
-// present conditions as TOML.
+// present conditions as TOML. A preset is chosen here alone: it holds at once, and a session that
+// is started begins with it.
 
 import { post } from "./api.js";
 import { byId, make, say } from "./dom.js";
@@ -16,7 +17,7 @@ const copy = async (text) => {
 };
 
 export class Conditions {
-  #chosen = null;
+  #chosen = undefined; // a preset; null: other conditions; undefined: what the session began with
   #signature = "";
 
   constructor(model, tell) {
@@ -31,6 +32,7 @@ export class Conditions {
     });
     byId("copy-toml").addEventListener("click", () => this.#copy());
     model.addEventListener("state", () => this.#show());
+    model.addEventListener("event", ({ detail }) => this.#follow(detail));
     byId("presets").addEventListener("keydown", (event) => this.#move(event));
   }
 
@@ -39,8 +41,6 @@ export class Conditions {
       const reply = await post("/api/emulator", request);
       const warnings = (reply.warnings ?? []).map((one) => ` ${one}`).join("");
       this.tell(`${name}: generation ${reply.generation}.${warnings}`, false);
-      this.#chosen = request.preset ?? null;
-      this.#mark();
     } catch (error) {
       this.tell(error.message, true);
     }
@@ -63,9 +63,36 @@ export class Conditions {
     }
   }
 
+  /** The preset that holds; null where its conditions have been changed. */
+  get preset() {
+    const { stage } = this.model.state ?? {};
+    return this.#chosen === undefined ? stage?.choice?.preset ?? null : this.#chosen;
+  }
+
+  /** The preset after that event, by whichever page asked for it. */
+  #follow({ kind, text, set }) {
+    if (kind === "emulator" && text.endsWith("is attached")) this.#chosen = undefined;
+    if (kind !== "conditions") return;
+    const applied = /^apply (\S+): /.exec(text)?.[1];
+    const isPreset = this.model.state?.presets.some(({ name }) => name === applied);
+    if (/^reset: /.test(text)) this.#chosen = undefined;
+    else if (isPreset) this.#chosen = applied;
+    else if (applied || set) this.#chosen = null;
+    this.#mark();
+  }
+
+  #choose(name) {
+    const { emulator, pace } = this.model.state;
+    if (emulator?.attached && pace?.state !== "ended")
+      return this.#ask({ command: "apply", preset: name }, name);
+    this.#chosen = name;
+    this.#mark();
+    return this.tell(`The next session begins with ${name}.`, false);
+  }
+
   #mark() {
     for (const button of byId("presets").querySelectorAll("button")) {
-      button.setAttribute("aria-pressed", String(button.dataset.preset === this.#chosen));
+      button.setAttribute("aria-pressed", String(button.dataset.preset === this.preset));
     }
   }
 
@@ -95,18 +122,24 @@ export class Conditions {
               title: about,
               "aria-pressed": false,
               "data-preset": name,
-              onclick: () => this.#ask({ command: "apply", preset: name }, name),
+              onclick: () => this.#choose(name),
             },
             name,
           ),
         ),
       );
     }
+    const { stage } = this.model.state ?? {};
+    this.#mark();
     const attached = this.model.state?.emulator?.attached ?? false;
     for (const control of byId("network").querySelectorAll("button, #netem-sentence")) {
-      control.disabled = !attached;
+      control.disabled = !(attached || (control.dataset.preset && stage?.available));
     }
     const error = this.model.state?.emulator?.error;
-    say(byId("network-error"), error ?? (attached ? "" : "No emulator is attached."));
+    const isOver = stage?.available && stage.state !== "running";
+    const says = attached ? error ?? "" : error ?? "No emulator is attached.";
+    say(byId("network-error"), isOver ? "" : says);
+    say(byId("network-next"), isOver
+      ? "Nothing plays: a preset that you choose now is what the next session begins with." : "");
   }
 }

@@ -15,9 +15,14 @@ export const make = (name, members = {}, ...children) => {
   return element;
 };
 
-/** Sets the text only where it differs, so that nothing is laid out or read out anew. */
+/**
+ * Sets the text only where it differs, so that nothing is laid out or read out anew. True if it
+ * did.
+ */
 export const say = (element, text) => {
-  if (element.textContent !== text) element.textContent = text;
+  const differs = element.textContent !== text;
+  if (differs) element.textContent = text;
+  return differs;
 };
 
 export const byId = (id) => document.getElementById(id);

@@ -4,6 +4,7 @@
 
 import { download, get } from "./api.js";
 import { announce, byId, make, say } from "./dom.js";
+import { withMicro } from "./units.js";
 
 const shownMax = 60;
 const spokenKinds = ["peer", "emulator", "stage", "trap", "keep"];
@@ -59,7 +60,7 @@ export class Events {
         { "data-kind": event.kind },
         make("time", {}, clock(event)),
         make("span", { class: "kind" }, kindNames[event.kind] ?? event.kind),
-        make("span", { class: "what" }, event.text ?? ""),
+        make("span", { class: "what" }, withMicro(event.text ?? "")),
         ...files,
       ),
     );

@@ -45,4 +45,10 @@ export const openFeed = (on) => {
   };
   if (token === "") on.connection({ open: false, final: true, says: sentences[4401] });
   else connect();
+  return {
+    /** Sends a message of the page; nothing while there is no connection. */
+    send: (message) => {
+      if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+    },
+  };
 };

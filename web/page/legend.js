@@ -4,9 +4,10 @@
 
 import { make } from "./dom.js";
 
-/** A button that hides and shows what has that label; `swatch` stands before it. */
-export const toggleOf = ({ label, colour, dash }, isShown, onToggle, ...more) => {
-  const swatch = make("span", { class: `swatch${dash ? " dash" : ""}`, "aria-hidden": "true" });
+/** A button that hides and shows what has that label; before it stands the mark of its data. */
+export const toggleOf = ({ label, colour, dash, mark = "line" }, isShown, onToggle, ...more) => {
+  const swatch = make("span",
+    { class: `swatch ${mark}${dash ? " dash" : ""}`, "aria-hidden": "true" });
   swatch.style.color = colour;
   return make("button", {
     type: "button",

@@ -26,6 +26,15 @@ const joined = (rows) => {
   return one;
 };
 
+/** Sides and pairs that a moment does not know stay as they were in the one before. */
+const keepMissing = (moment, before) => {
+  for (const [id, side] of before?.sides ?? []) {
+    if (!moment.sides.has(id)) moment.sides.set(id, side);
+  }
+  const isKnown = (pair) => moment.pairs.some(({ a, b }) => a === pair.a && b === pair.b);
+  moment.pairs.push(...(before?.pairs ?? []).filter((pair) => !isKnown(pair)));
+};
+
 export class Model extends EventTarget {
   state = null;
   frame = null;
@@ -90,8 +99,12 @@ export class Model extends EventTarget {
       this.coarse.push(frame.at_s, joined(this.#waiting));
       this.#waiting = [];
     }
-    this.moments.push(momentOf(frame, this.peers, this.sceneOf(0).shared));
-    while (this.moments[0].at < frame.at_s - fineSeconds) this.moments.shift();
+    const moment = momentOf(frame, this.peers, this.sceneOf(0).shared);
+    // Between two sessions of a stage, and after the last, the worlds stay as they were.
+    if (this.state?.stage?.available) keepMissing(moment, this.moments.at(-1));
+    this.moments.push(moment);
+    const oldest = frame.at_s - fineSeconds;
+    while (this.moments.length > 1 && this.moments[0].at < oldest) this.moments.shift();
     this.#say("frame", frame);
   }
 
@@ -105,7 +118,6 @@ export class Model extends EventTarget {
   get peers() { return this.state?.peers ?? []; }
   get paths() { return this.state?.emulator?.paths ?? []; }
   get conditions() { return this.state?.emulator?.conditions ?? {}; }
-  get isVirtual() { return this.state?.mode === "virtual"; }
 
   /** The scene of the peer at that place. */
   sceneOf(place) { return this.scenes[this.peers[place]?.scene ?? 0] ?? this.scenes[0]; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Where everything is in one live frame: a Map of sides for the painters, in mm and N.
 
+import { colourOfAlgorithm } from "./paint/palette.js";
 import { noTurn, subtract } from "./paint/vector.js";
 import { millimetres } from "./scene.js";
 
@@ -34,9 +35,18 @@ const offsetsOf = (id, pairs) => {
   return offsets;
 };
 
-/** Where the first shared body of that side is with the other algorithms. */
-const besideOf = (place, others) =>
-  others.map((other) => millimetres(place === 0 ? other.cube_a : other.cube_b));
+/** Where the first shared body of that side is with each other algorithm, and its colour. */
+const besideOf = (place, others) => others.map(({ algorithm, cube_a: a, cube_b: b }) => ({
+  algorithm, tint: colourOfAlgorithm(algorithm), at: millimetres(place === 0 ? a : b),
+}));
+
+/** The pairs whose positions are known: their first shared body's x at one time, mm. */
+const pairsOf = (pairs) =>
+  pairs
+    .filter((pair) => pair.cube_a && pair.cube_b)
+    .map(({ a, b, cube_a: one, cube_b: other, uncertainty_ms: doubt }) => ({
+      a, b, x: [1000 * one[0], 1000 * other[0]], uncertainty_ms: doubt,
+    }));
 
 /** `peers` are those of the state, `shared` the number of the first shared body. */
 export const momentOf = (frame, peers, shared) => {
@@ -55,5 +65,5 @@ export const momentOf = (frame, peers, shared) => {
       beside: besideOf(place, frame.emulator?.others ?? []),
     });
   });
-  return { at: frame.at_s, sides };
+  return { at: frame.at_s, sides, pairs: pairsOf(frame.pairs ?? []) };
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // The network under one's fingers: sliders for one path, or a matrix of them for the links of
-// several peers. Both ways together, or each on its own.
+// several peers. Both directions together, or each on its own, as it must be where they differ.
 
 import { fillSelect, make, say } from "./dom.js";
 import { conditionsOf, prefixOf } from "./rows.js";
@@ -28,10 +28,20 @@ export class Network {
   #rows = [];
   #signature = "";
 
-  /** `ends(path)` gives the letters of the two peers that a path joins. */
-  constructor({ container, linked, order, model, wishes, ends }) {
-    Object.assign(this, { container, linked, order, model, wishes, ends });
-    linked.addEventListener("change", () => this.refresh());
+  #wantsLinked = true; // by the viewer
+  #isAligning = false; // asked for, not answered
+
+  /**
+   * `ends(path)` gives the letters of the two peers that a path joins, `tell(text, isError)` shows
+   * what is refused.
+   */
+  constructor({ container, linked, order, model, wishes, ends, tell }) {
+    Object.assign(this, { container, linked, order, model, wishes, ends, tell });
+    linked.addEventListener("change", () => {
+      this.#wantsLinked = linked.checked;
+      if (linked.checked) this.#align();
+      this.refresh();
+    });
     fillSelect(
       order,
       orders.map((one) => [one, one]),
@@ -45,8 +55,37 @@ export class Network {
     model.addEventListener("state", () => this.refresh());
   }
 
+  get #paths() { return this.model.paths.length > 0 ? this.model.paths : [""]; }
+
+  /** What holds of a path in both directions: [up, down]. */
+  #held(path) {
+    return ["up", "down"].map((way) => conditionsOf(this.model.conditions, path, way));
+  }
+
+  /** The keys in which the directions of a path differ. */
+  #differing(path) {
+    const [up, down] = this.#held(path);
+    return Object.keys({ ...up, ...down }).filter((key) => up[key] !== down[key]);
+  }
+
+  /** Gives each direction back what holds on the way there. */
+  #align() {
+    const wish = {};
+    for (const path of this.#paths) {
+      const [up] = this.#held(path);
+      for (const key of this.#differing(path)) {
+        const none = settings.find((setting) => setting.key === key)?.write(0);
+        const text = up[key] ?? (key === "order" ? "keep" : none);
+        if (text !== undefined) wish[`${prefixOf(path, "down")}${key}`] = text;
+      }
+    }
+    if (Object.keys(wish).length === 0) return;
+    this.#isAligning = true;
+    this.wishes.ask(wish, () => { this.#isAligning = false; }); // the state that follows shows it
+  }
+
   #targets() {
-    const paths = this.model.paths.length > 0 ? this.model.paths : [""];
+    const paths = this.#paths;
     return targetsOf(paths, this.linked.checked, this.ends);
   }
 
@@ -58,7 +97,7 @@ export class Network {
         slider.answered();
         this.#show();
       });
-    });
+    }, (text) => this.tell(text, true));
     return slider;
   }
 
@@ -118,6 +157,11 @@ export class Network {
   }
 
   refresh() {
+    const differ = this.#paths.some((path) => this.#differing(path).length > 0);
+    this.linked.checked = this.#wantsLinked && (this.#isAligning || !differ);
+    this.linked.parentElement.title = differ
+      ? "The directions differ. Tick this to give the way back what holds on the way there."
+      : "A change holds for both directions.";
     const targets = this.#targets();
     const signature = targets.map((target) => target.keys.join() + target.label).join();
     if (signature !== this.#signature) {

@@ -39,7 +39,9 @@ export class Pace {
     byId("pace").hidden = !pace;
     if (!pace) return;
     byId("save").hidden = Boolean(pace.read_only);
-    say(byId("play"), pace.state === "playing" ? "Pause" : "Play");
+    const acts = { playing: "Pause", paused: "Play", ended: "Play again" };
+    say(byId("play"), acts[pace.state]);
+    byId("step").disabled = pace.state === "ended";
     if (document.activeElement !== byId("factor")) byId("factor").value = String(pace.factor);
   }
 }

@@ -5,6 +5,7 @@
 
 import { make, say } from "./dom.js";
 import { spokenSetting } from "./settings.js";
+import { spoken } from "./units.js";
 
 let count = 0;
 
@@ -12,8 +13,11 @@ export class Slider {
   #asked = null; // what the viewer wants, until the server has answered
   #shown = 0;
 
-  /** `label` names it for all, `ask(number)` is called with each new wish. */
-  constructor(setting, label, ask) {
+  /**
+   * `label` names it for all, `ask(number)` is called with each new wish, and `refuse(text)` with
+   * the reason why a number that was typed is none.
+   */
+  constructor(setting, label, ask, refuse) {
     this.setting = setting;
     const id = `slider-${(count += 1)}`;
     const note = `${id}-note`;
@@ -55,8 +59,16 @@ export class Slider {
     };
     this.range.addEventListener("input", fromRange);
     this.number.addEventListener("change", () => {
-      const wish = Math.min(Math.max(Number(this.number.value) || 0, 0), setting.limit);
-      this.#ask(wish, ask);
+      const typed = this.number.value;
+      const wish = typed === "" && !setting.none ? NaN : Number(typed);
+      if (wish >= 0 && wish <= setting.limit) {
+        this.#ask(wish, ask);
+        return;
+      }
+      const most = `${spoken(setting.limit)} ${setting.unit}`;
+      const what = Number.isNaN(wish) ? "is not a number" : `cannot be ${typed} ${setting.unit}`;
+      refuse(`The ${label} ${what}: enter 0 to ${most}. It stays as it was.`);
+      this.#put(this.#shown, true);
     });
   }
 
@@ -67,7 +79,7 @@ export class Slider {
     ask(number);
   }
 
-  #put(number) {
+  #put(number, isCorrection = false) {
     const { setting } = this;
     this.#shown = number;
     const place = setting.toSlider ? setting.toSlider(number) : number;
@@ -76,7 +88,8 @@ export class Slider {
     this.range.setAttribute("aria-valuetext", spokenSetting(setting, number));
     const share = place / Number(this.range.max);
     this.range.style.setProperty("--share", `${(100 * share).toFixed(2)}%`);
-    if (document.activeElement !== this.number || this.#asked !== null) {
+    const isTyped = document.activeElement === this.number && this.#asked === null;
+    if (!isTyped || isCorrection) {
       this.number.value = setting.none && number === 0 ? "" : String(Number(number.toPrecision(6)));
       this.number.placeholder = setting.none ?? "";
     }

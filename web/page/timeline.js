@@ -47,7 +47,7 @@ export class Timeline {
   #moved() {
     const [from, to] = this.#span;
     const time = from + (Number(this.range.value) / 1000) * (to - from);
-    if (this.model.isVirtual) this.seek(time);
+    if (this.model.state?.pace) this.seek(time);
     else if (Number(this.range.value) >= 1000) this.#backToNow();
     else this.model.lookAt(time);
   }
@@ -124,19 +124,20 @@ export class Timeline {
       this.#curve(context, from, to, width, height);
       this.#marks(context, from, to, width, height);
     }
-    const at = model.isVirtual ? (model.state.pace?.at_s ?? 0) : model.lookingAt;
+    const { pace } = model.state ?? {};
+    const at = pace ? pace.at_s : model.lookingAt;
     if (at !== null && document.activeElement !== this.range) {
       this.range.value = String((1000 * (at - from)) / (to - from));
     }
-    if (at !== null && !model.isVirtual && at < from) model.lookAt(from);
+    if (at !== null && !pace && at < from) model.lookAt(from);
     const back = model.lookingAt === null ? 0 : to - model.lookingAt;
-    const words = model.isVirtual
-      ? `${at.toFixed(2)} s of ${to} s`
+    const words = pace
+      ? `${at.toFixed(2)} s of ${to.toFixed(2)} s`
       : back > 0
         ? `${back.toFixed(1)} s ago`
         : "now";
     this.range.setAttribute("aria-valuetext", words);
     say(byId("timeline-at"), words);
-    byId("now").hidden = model.isVirtual || model.lookingAt === null;
+    byId("now").hidden = Boolean(pace) || model.lookingAt === null;
   }
 }

@@ -4,10 +4,19 @@
 
 import { post } from "./api.js";
 import { announce, byId, make, say } from "./dom.js";
+import { sentenceFrom } from "./units.js";
 
-const states = {
-  disarmed: "not armed", armed: "armed", fired: "fired: collecting what follows",
-  resting: "resting before it is armed again",
+/** What the trap does now, in sentences. */
+const sentencesOf = ({ state, when, fired }) => {
+  const times = fired === 1 ? "once" : `${fired} times`;
+  const had = fired > 0 ? ` It has come true ${times}.` : "";
+  const does = {
+    disarmed: "The trap is not armed.",
+    armed: `The trap waits for ${when}.`,
+    fired: `${when} came true. The trap collects 2 s of what follows.`,
+    resting: "The trap rests. It is armed again within 30 s.",
+  };
+  return `${does[state] ?? ""}${had}`;
 };
 
 export class Trap {
@@ -28,9 +37,9 @@ export class Trap {
   async #ask(path, request) {
     try {
       const reply = await post(path, request);
-      this.#say(reply.files ? `Saved ${reply.files.join(", ")}.` : reply.trap?.says ?? "");
+      this.#say(reply.files ? `Saved ${reply.files.join(", ")}.` : "");
     } catch (error) {
-      this.#say(error.message);
+      this.#say(sentenceFrom(error.message));
     }
   }
 
@@ -49,9 +58,8 @@ export class Trap {
     byId("trap-when").disabled = !trap?.available;
     say(byId("arm"), trap && trap.state !== "disarmed" ? "Disarm" : "Arm");
     byId("trap").dataset.state = trap?.state ?? "disarmed";
-    const times = trap?.fired > 0 ? `, fired ${trap.fired} times` : "";
-    say(byId("trap-state"), trap?.available ? `${states[trap.state] ?? trap.state}${times}`
-      : keep?.says ?? trap?.says ?? "");
+    const why = keep?.available ? "" : sentenceFrom(keep?.says ?? "");
+    say(byId("trap-state"), trap ? `${sentencesOf(trap)} ${why}` : "");
     const keys = (trap?.keys ?? []).join();
     const list = byId("trap-keys");
     if (list.dataset.keys === keys) return;

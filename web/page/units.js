@@ -73,3 +73,10 @@ export const spoken = (number, digits = 1) =>
   number === null || number === undefined || Number.isNaN(number)
     ? "–"
     : number.toLocaleString("en-GB", { maximumFractionDigits: digits }).replaceAll(",", "\u202f");
+
+/** A message of the server with µs in place of us. */
+export const withMicro = (words) => words.replace(/(\d ?)us\b/g, "$1µs");
+
+/** A message of the server as a sentence. */
+export const sentenceFrom = (words) =>
+  words === "" ? "" : words[0].toUpperCase() + words.slice(1) + (/[.!?]$/.test(words) ? "" : ".");

@@ -4,6 +4,7 @@
 // these conditions is usable by the convention of scripts/criteria/paper.toml.
 
 import { askedDelay, conditionsOf } from "./rows.js";
+import { isOver } from "./status.js";
 import { spoken } from "./units.js";
 
 export const delayUsable = 160; // ms one way: stiffness of `base` is calibrated to end there
@@ -46,15 +47,18 @@ export const worstAskedDelay = (model) =>
 
 /** {tier, says}: what the convention says of the present conditions. */
 export const verdictOf = (model) => {
+  if (model.lookingAt !== null) return { tier: "none", says: "no verdict on the past" };
   const pairs = model.frame?.pairs ?? [];
-  if (pairs.every((pair) => pair.apart_mm === null))
-    return { tier: "none", says: "no verdict yet" };
+  if (pairs.every((pair) => pair.apart_mm === null)) {
+    const says = isOver(model.state) ? "no verdict after the end" : "no verdict yet";
+    return { tier: "none", says };
+  }
   const delay = worstAskedDelay(model);
   const algorithm = model.peers[0]?.algorithm;
   if (algorithm === "base" && delay > delayUsable) {
     return {
       tier: "unusable",
-      says: `unusable by the paper's convention: at ${spoken(delay, 0)} ms the cube feels too soft`,
+      says: `beyond the paper's limits: at ${spoken(delay, 0)} ms the cube feels too soft`,
     };
   }
   const [{ a, b, vibration_mm: said }] = pairs;
@@ -64,40 +68,55 @@ export const verdictOf = (model) => {
     return {
       tier: "unusable",
       says:
-        "unusable by the paper's convention: the cube vibrates by " +
+        "beyond the paper's limits: the cube vibrates by " +
         `${about}${spoken(vibration)} mm`,
     };
   }
-  return { tier: "usable", says: "usable by the paper's convention" };
+  return { tier: "usable", says: "within the paper's limits" };
 };
 
 const letterOf = (model, id) => model.peers.find((peer) => peer.id === id)?.letter ?? String(id);
 
-/** The pair that is farthest apart and its mean of 0.4 s, mm: {pair, mean}; null of none. */
+/** To a tenth, as it is shown. */
+const tenths = (mm) => Math.round(10 * mm) / 10 + 0; // never -0
+
+/**
+ * The pair that is farthest apart in the moment that is shown: {a, b, x, apart, mean}, in mm; null
+ * where no positions are known. `x` are the two positions as they are shown, `apart` is their
+ * difference, and `mean` that of the 0.4 s before.
+ */
 export const farthestOf = (model) => {
-  const known = (model.frame?.pairs ?? []).filter((pair) => Number.isFinite(pair.apart_mm));
-  const to = model.lookingAt ?? undefined;
-  const means = known.map((pair) => ({
-    pair,
-    mean: model.fine.summary(`apart_mm:${pair.a}-${pair.b}`, 0.4, to)?.mean ?? pair.apart_mm,
-  }));
-  return means.sort((one, other) => other.mean - one.mean)[0] ?? null;
+  const { moment } = model;
+  const pairs = (moment?.pairs ?? []).map((pair) => {
+    const x = pair.x.map(tenths);
+    return { ...pair, x, apart: tenths(Math.abs(x[0] - x[1])) };
+  });
+  const farthest = pairs.sort((one, other) => other.apart - one.apart)[0];
+  if (!farthest) return null;
+  const { a, b } = farthest;
+  const mean = model.fine.summary(`apart_mm:${a}-${b}`, 0.4, moment.at)?.mean ?? null;
+  return { ...farthest, mean };
 };
 
 /** One sentence about that pair. */
 export const sentenceOf = (model, farthest) => {
   if (farthest === null) return "";
-  const { pair, mean } = farthest;
-  const [a, b] = [letterOf(model, pair.a), letterOf(model, pair.b)];
-  const doubt =
-    pair.uncertainty_ms > 1 ? `, clocks known to ± ${spoken(pair.uncertainty_ms)} ms` : "";
-  if (mean < 1)
-    return `The cubes of ${a} and ${b} agree within ${spoken(Math.max(mean, 0.1))} mm${doubt}.`;
-  const apart = `${b}'s cube is ${spoken(mean)} mm from ${a}'s`;
-  const speed = model.moments.at(-1)?.sides.get(pair.a)?.speed ?? 0; // m/s, and so mm/ms
-  const delay = model.fine.summary(`heard_delay_ms:${pair.b}`, 1)?.mean;
-  const explains = delay > 20 && Math.abs(mean - speed * delay) < 0.35 * mean;
+  const { apart, x, uncertainty_ms: doubt } = farthest;
+  const [a, b] = [letterOf(model, farthest.a), letterOf(model, farthest.b)];
+  const places = `${a}'s cube is at x = ${x[0].toFixed(1)} mm, ${b}'s at ${x[1].toFixed(1)} mm`;
+  const clocks = doubt > 1 ? ` The clocks are known to ± ${spoken(doubt)} ms.` : "";
+  const { moment } = model;
+  const speed = moment.sides.get(farthest.a)?.speed ?? 0; // m/s, and so mm/ms
+  const delay = model.fine.summary(`heard_delay_ms:${farthest.b}`, 1, moment.at)?.mean;
+  const explains = apart >= 1 && delay > 20 && Math.abs(apart - speed * delay) < 0.35 * apart;
   return explains
-    ? `${apart}: it is where ${a}'s was ${spoken(delay, 0)} ms ago${doubt}.`
-    : `${apart}${doubt}.`;
+    ? `${places}: about where ${a}'s was ${spoken(delay, 0)} ms ago.${clocks}`
+    : `${places}.${clocks}`;
+};
+
+/** The pair and its mean, small below the sentence. */
+export const meanOf = (model, farthest) => {
+  if (farthest === null || farthest.mean === null) return "";
+  const [a, b] = [letterOf(model, farthest.a), letterOf(model, farthest.b)];
+  return `Mean distance of ${a} and ${b} in the last 0.4 s: ${farthest.mean.toFixed(1)} mm.`;
 };

@@ -55,8 +55,9 @@ export const effectOf = (settings, reply, sentMs) => {
   const at = reply.effective_at ?? {};
   const numbers = at.up !== undefined ? at : Object.values(at)[0] ?? {};
   const from = numbers.up === undefined ? ""
-    : ` from datagram ${spoken(numbers.up, 0)} up, ${spoken(numbers.down, 0)} down`;
+    : ` from datagram ${spoken(numbers.up, 0)} of A → B and `
+      + `${spoken(numbers.down, 0)} of B → A`;
   const took = performance.now() - sentMs;
   const held = reply.changed === false ? "held already" : `generation ${reply.generation}`;
-  return `${what}:${from || ""} ${held}, answered in ${spoken(took, 1)} ms`.replace(":  ", ": ");
+  return `${what}:${from}${from ? "," : ""} ${held}, answered in ${spoken(took, 1)} ms`;
 };

@@ -75,6 +75,24 @@ class Web(unittest.TestCase):
         self.assertEqual(live.read(), 4401)
         live.close()
 
+    def test_nonsense_about_the_hand_closes_the_page_that_sends_it(self):
+        for hand in ({"x": 0.3, "y": 0, "z": 0}, {"x": 0, "y": 0}, {"x": "0", "y": 0, "z": 0},
+                     [0, 0, 0], {"x": 0, "y": 0, "z": 0, "command": "stop"}, True):
+            live = Live(self.port, self.token)
+            live.send({"hand": hand})
+            got = live.read()
+            while isinstance(got, dict):
+                got = live.read()
+            self.assertEqual(got, 1008, hand)
+            live.close()
+
+    def test_the_hand_of_a_simulated_device_moves_for_no_page(self):
+        live = Live(self.port, self.token)
+        live.send({"hand": {"x": 0, "y": 0, "z": 0}})
+        state = json.loads(self.ask("GET", "/api/state")[1])
+        self.assertEqual(state["hand"], {"peer": None, "held": False})
+        live.close()
+
     def test_a_page_that_is_late_with_its_token_may_try_again(self):
         live = Live(self.port, None)
         self.assertEqual(live.read(), 4408)

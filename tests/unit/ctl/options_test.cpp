@@ -83,8 +83,8 @@ TEST(CtlOptions, TakeTheSocketInFrontAsAnOptionOrFromTheEnvironment)
 
 TEST(CtlOptions, NameTheOptionWhoseTimeHasNoUnit)
 {
-    EXPECT_EQ(refusal({"s", "set", "delay", "1ms", "--for", "5"}).rfind("--for: '5' is not", 0),
-              0U);
+    EXPECT_EQ(
+        refusal({"s", "set", "delay", "1ms", "--for", "5"}).rfind("--for: '5' has no unit", 0), 0U);
     EXPECT_EQ(options_of({"s", "set", "delay", "1ms", "--for", "5s"}).lasting, 5s);
     EXPECT_EQ(refusal({"s", "set", "delay", "1ms", "--for", "0s"}),
               "--for: '0s' is out of range: use 1ms to 24h");

@@ -98,10 +98,27 @@ TEST(InWords, TellsTheTimeOfThePeerFromThatOfItsSession)
     const std::string running = in_words(asked("show"), reply);
     EXPECT_EQ(running.rfind("hapnet-peer 1, started 1.51 s ago, running: in session\n", 0), 0U)
         << running;
-    EXPECT_NE(running.find("\nsession 7 as L, 0.46 s after its start\n"), std::string::npos);
+    EXPECT_NE(running.find("\nsession 7 as A, 0.46 s after its start\n"), std::string::npos);
     reply["session"]["at_s"] = -0.5;
-    EXPECT_NE(in_words(asked("show"), reply).find("L, 0.50 s before its start\n"),
+    reply["session"]["role"] = "R";
+    EXPECT_NE(in_words(asked("show"), reply).find("as B, 0.50 s before its start\n"),
               std::string::npos);
+}
+
+TEST(InWords, CountsThePathsOfAChangeWhereTheyAreMany)
+{
+    Json reply{{"generation", 2},
+               {"changed", true},
+               {"elapsed_s", 0.24},
+               {"effective_at", Json::object()}};
+    for (const char* path : {"1-2", "1-3", "2-3", "1-4"})
+        reply["effective_at"][path] = {{"up", 5}, {"down", 1}};
+    EXPECT_NE(in_words(asked("set"), reply).find("datagram 5 up and 1 down of 1-4, "),
+              std::string::npos);
+    reply["effective_at"]["2-4"] = {{"up", 5}, {"down", 1}};
+    EXPECT_EQ(in_words(asked("set"), reply),
+              "generation 2 holds from the next datagrams of 5 paths, which --json names, 0.24 s "
+              "after the start\n");
 }
 
 TEST(InWords, TellsFromWhenAChangeHolds)

@@ -65,6 +65,30 @@ TEST(Feed, TakesOneBootForOneClockUnlessAnEchoRulesThatOut)
     }
 }
 
+TEST(Feed, TellsTheNewestFrameToAPageThatComesWhileTimeStandsStill)
+{
+    Feed feed;
+    feed.set_peers({{1, "a boot"}, {2, "a boot"}});
+    EXPECT_FALSE(feed.newest(0.0, at_ms(0))) << "nothing is attached";
+    PeerFrame frame;
+    frame.text = R"({"ok":true,"peer":1})";
+    feed.take_peer(0, frame);
+    ASSERT_TRUE(feed.next(2.0, at_ms(0)));
+    const auto rows = feed.history().size();
+    const auto again = feed.newest(2.0, at_ms(5));
+    ASSERT_TRUE(again);
+    const auto json = nlohmann::json::parse("{\"n\":1" + *again);
+    EXPECT_EQ(json["at_s"], 2.0);
+    EXPECT_EQ(json["peers"][0]["peer"], 1);
+    EXPECT_EQ(json["peers"][0]["repeated"], true) << "what it counts has been told before";
+    EXPECT_EQ(feed.history().size(), rows);
+    feed.take_peer(0, frame);
+    EXPECT_EQ(
+        nlohmann::json::parse("{\"n\":1" + *feed.next(3.0, at_ms(9)))["peers"][0].count("repeated"),
+        0U)
+        << "it takes nothing away from the pages that look already";
+}
+
 TEST(History, KeepsThePeaksOfEightRows)
 {
     History history;

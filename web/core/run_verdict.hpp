@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::web {
+
+/// The statistics that a program of a run wrote at its end.
+struct ProgramStatistics {
+    std::string name; // as people call it: "A", "the emulator"
+    std::string text; // of the file; empty: it wrote none
+};
+
+/// Whether a run of the stage counts as a measurement.
+struct RunVerdict {
+    int run = 0;
+    std::vector<std::string> because; // it is not valid; empty: it is
+
+    /// {"run":3,"valid":true,"invalid_because":[]}
+    [[nodiscard]] nlohmann::ordered_json json() const;
+    /// "run 3 has ended: valid", or why not.
+    [[nodiscard]] std::string text() const;
+};
+
+/// The verdict by what all its programs say of themselves.
+[[nodiscard]] RunVerdict verdict_of(int run, const std::vector<ProgramStatistics>& programs);
+
+} // namespace hapnet::web

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "web/core/hand_hold.hpp"
+#include "web/daemon.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace hapnet::web {
+
+/// Passes the places of the page that holds the hand on to its peer, and tells the peer to let the
+/// hand go when no page holds it any more.
+class HandDesk {
+public:
+    /// A peer that leaves so many places unanswered is told no more until it answers.
+    static constexpr std::size_t asked_max = 8;
+
+    /// What the page is told; empty: nothing new.
+    [[nodiscard]] std::string on_message(std::uint64_t page, const HandMessage& message,
+                                         Daemon& peer, base::TimePoint now);
+
+    /// Whether a page holds the hand, as of the last tick; tick() returns whether it has changed.
+    /// `peer` may be null: none has a hand that pages move.
+    [[nodiscard]] bool is_held() const { return is_held_; }
+    [[nodiscard]] bool tick(Daemon* peer, base::TimePoint now);
+
+private:
+    void ask(Daemon& peer, const std::optional<HandPlace>& place);
+
+    HandHold hold_;
+    bool is_held_ = false;
+    bool has_told_ = false; // the peer of a place, and not yet to let the hand go
+    /// Requests without an answer. Each holds a copy, and a daemon that goes takes its copies
+    /// along.
+    std::shared_ptr<char> asked_ = std::make_shared<char>();
+};
+
+} // namespace hapnet::web
