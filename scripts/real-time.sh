@@ -93,7 +93,7 @@ play_all() {
     for algorithm in "${algorithms[@]}"; do
         folder=$out/real-time/$1/$algorithm
         mkdir -p "$folder"
-        printf '\nreal-time: %d of %d over %s: %s for %s s; what peer 1 says:\n' \
+        printf '\nreal-time: %d of %d over %s: %s for %s s; what A, peer 1, says:\n' \
             $((played += 1)) ${#algorithms[@]} "$1" "$algorithm" "$seconds"
         start_emulator "$folder" --delay 160ms --seed 42 "${@:2}"
         play_session "$folder" "$seconds" --task P1 --algorithm "$algorithm" --insecure
@@ -108,7 +108,7 @@ scene_of() { if [[ $1 == T8 ]]; then echo turning; else echo carry; fi; }
 play_many() {
     local folder=$out/real-time/loopback/${task,,}-$peers
     mkdir -p "$folder"
-    printf '\nreal-time: %s with %d peers for %s s, %s each way; what peer 1 says:\n' \
+    printf '\nreal-time: %s with %d peers for %s s, %s each way; what A, peer 1, says:\n' \
         "$task" "$peers" "$seconds" "$delay"
     start_links "$folder" "$peers" --delay "$delay" --seed 42
     play_session "$folder" "$seconds" --task "$task" --scene "$(scene_of "$task")"

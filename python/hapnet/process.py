@@ -37,7 +37,8 @@ def find_program(name: str) -> str:
     path = shutil.which(name, path=folder) if folder else shutil.which(name)
     if path is None:
         where = f"the folder HAPNET_BIN={folder}" if folder else "PATH"
-        raise ProgramFailed(f"{name} is not in {where}")
+        cure = "name its folder" if folder else "add its folder, or set HAPNET_BIN to it"
+        raise ProgramFailed(f"{name} is not in {where}: {cure}")
     return path
 
 
@@ -66,9 +67,12 @@ class Lifeline:
     def __init__(self) -> None:
         self._reading, self._writing = os.pipe()
 
-    def given(self) -> Dict[str, Any]:
-        """Keyword arguments that hand the other end to subprocess.Popen."""
+    def given(self, folder: str = "") -> Dict[str, Any]:
+        """Keyword arguments that hand the other end to subprocess.Popen. `folder`: what the program
+        removes at its end, when nobody is left here to do so."""
         variables = dict(os.environ, HAPNET_LIFELINE=str(self._reading))
+        if folder:
+            variables["HAPNET_LIFELINE_FOLDER"] = folder
         return {"pass_fds": (self._reading,), "env": variables}
 
     def close(self) -> None:
@@ -135,7 +139,7 @@ class Daemon:
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            **self._lifeline.given(),
+            **self._lifeline.given(self._folder.name),
         )
         self._read(self._process.stdout, self._keep_out)
         self._read(self._process.stderr, self._keep_err)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import struct
 from dataclasses import dataclass, field
@@ -38,7 +39,12 @@ class Table:
 
     def column(self, name: str) -> List[Value]:
         """All values of a field."""
-        at = [column.name for column in self.columns].index(name)
+        names = [column.name for column in self.columns]
+        if name not in names:
+            close = difflib.get_close_matches(name, names, 1)
+            cure = f"did you mean '{close[0]}'?" if close else f"use one of {', '.join(names)}"
+            raise ValueError(f"no column '{name}': {cure}")
+        at = names.index(name)
         return [row[at] for row in self.rows]
 
     def dicts(self) -> List[Dict[str, Value]]:

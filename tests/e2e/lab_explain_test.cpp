@@ -25,8 +25,8 @@ TEST(LabExplain, PrintsHelpWithEveryOptionAndTheBuiltInScenes)
 {
     const auto outcome = explain({"--help"});
     EXPECT_EQ(outcome.exit, 0);
-    for (const char* word : {"SCENE", "--tick", "--no-sleeping", "--json", "paper", "stack-10",
-                             "cubes-10000", "mass-ratio-1000", "Exit codes"}) {
+    for (const char* word : {"SCENE", "--tick", "--no-sleeping", "--json", "paper", "rolling",
+                             "stack-of-three", "mass-ratio-1000", "Exit codes"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }
@@ -51,10 +51,10 @@ TEST(LabExplain, NamesFileLineAndCureOfABadScene)
     const TemporaryFolder folder;
     const auto file = folder.file("bad.toml");
     std::ofstream{file} << "[[body]]\nmass = \"1kg\"\nsize = \"40\"\n";
-    expect_refusal(explain({file}), 2, {file + ":3:8: ", "'40' is not a length", "40mm"});
+    expect_refusal(explain({file}), 2, {file + ":3:8: ", "'40' has no unit", "40mm"});
     expect_refusal(explain({"papr"}), 2, {"'papr'", "did you mean 'paper'?"});
     expect_refusal(explain({folder.file("none.toml")}), 2, {"none.toml", "No such file"});
-    expect_refusal(explain({"paper", "--tick", "1"}), 2, {"--tick", "'1'", "160ms"});
+    expect_refusal(explain({"paper", "--tick", "1"}), 2, {"--tick", "'1'", "write 1ms"});
     expect_refusal(explain({"paper", "--tick", "1s"}), 2, {"--tick", "'1s'", "100ms"});
     expect_refusal(explain({}), 2, {"SCENE"});
 }

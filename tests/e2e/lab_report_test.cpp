@@ -74,11 +74,29 @@ TEST(LabReport, WritesThePageAndItsFiguresOfAFolderAndItsSubfolders)
     std::vector<std::string> sections;
     for (const auto& section : data.at("sections")) sections.push_back(section.at("id"));
     EXPECT_EQ(sections, (std::vector<std::string>{"table1", "qos", "claims"}));
-    EXPECT_NE(page.find("scripts/fig7.sh --out " + folder.string() + "/fig7"), std::string::npos);
     EXPECT_EQ(test::figure_of(page, "table1-mean").at("sources")[0], "table1/table1.csv");
     EXPECT_EQ(test::figure_of(page, "qos-base-0").at("sources")[0], "qos.csv");
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     EXPECT_EQ(text_of((folder / "report.html").string()), page) << "made again, it is the same";
+}
+
+TEST(LabReport, WritesThePageWhereOutSaysAndNamesItsSourcesFromThere)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("results");
+    const fs::path page = fs::path{temporary.file("pages")} / "mine.html";
+    write_file(folder / "table1/results.json", table1);
+    const auto outcome = run("hapnet-lab", {"report", folder.string(), "--out", page.string()});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, page.string() + "\n");
+    EXPECT_FALSE(fs::exists(folder / "report.html"));
+    EXPECT_EQ(test::figure_of(text_of(page.string()), "table1-mean").at("sources")[0],
+              "../results/table1/table1.csv");
+    const auto refused = run("hapnet-lab", {"report", folder.string(), "--out", folder.string()});
+    EXPECT_EQ(refused.exit, 2);
+    EXPECT_NE(refused.err.find("is a folder: name the page, such as " + folder.string()),
+              std::string::npos)
+        << refused.err;
 }
 
 TEST(LabReport, WritesTheManifestOfAFolderOfResultsAndAgainWhenOneHasChanged)
@@ -154,10 +172,11 @@ TEST(LabReport, MakesAPageOfAnybodysTwoRecordsBesideTheFirst)
     EXPECT_EQ(outcome.exit, 0) << outcome.err;
     EXPECT_EQ(outcome.out, (folder / "report.html").string() + "\n");
     const auto page = text_of((folder / "report.html").string());
-    EXPECT_EQ(test::data_of(page).at("sections")[0].at("id"), "replay");
+    EXPECT_EQ(test::data_of(page).at("sections")[0].at("id"), "sessions");
     EXPECT_NE(page.find("25.00 mm on average while both hands were on"), std::string::npos);
-    EXPECT_TRUE(text_of((folder / "figures/session-T3-apart.csv").string())
-                    .starts_with("curve,x,y\n\"|x_A − x_B|\",0.0,25.0\n"));
+    EXPECT_TRUE(
+        text_of((folder / "figures/session-T3-apart.csv").string())
+            .starts_with("curve,time_from_the_start_s,x_a_x_b_mm\n\"|x_A − x_B|\",0.0,25.0\n"));
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     EXPECT_EQ(text_of((folder / "report.html").string()), page)
         << "the folder that holds the two records gives the same page";

@@ -92,7 +92,7 @@ TEST_F(LabRun, WritesTheSameBytesTwiceAndForAnyNumberOfJobsAndPlaysNothingAgain)
     const auto first = manifest("one");
     EXPECT_EQ(first["kind"], "limits");
     EXPECT_EQ(first["valid"], true);
-    EXPECT_EQ(first["seeds"], (std::vector{1, 2}));
+    EXPECT_EQ(first["seeds"], (std::vector{1001, 1002}));
     EXPECT_GT(first["sessions"]["played"], 10);
     EXPECT_GT(first["speed_ratio"], 1.0);
 

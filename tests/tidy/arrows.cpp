@@ -35,6 +35,7 @@ const std::vector<Folder>& map()
         {"scene", true, {"proto/base"}},
         {"emulator/core", true, {"proto/base"}},
         {"emulator/tools", true, {"emulator/core", "proto/output", "proto/page"}},
+        {"emulator/abi", false, {"emulator/core", "proto/net"}},
         {"emulator/control", true, {"emulator/core", "proto/control/core", "proto/output"}},
         {"emulator", false, {"emulator/tools", "emulator/control", "proto/control", "proto/cli"}},
         {"ctl", false, {"proto/output", "proto/net", "proto/cli"}},

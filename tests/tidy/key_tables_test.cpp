@@ -8,6 +8,8 @@
 #include "emulator/control/frame_report.hpp"
 #include "emulator/control/run_statistics.hpp"
 #include "emulator/core/conditions.hpp"
+#include "emulator/core/flow/flow.hpp"
+#include "emulator/tools/learn/learn.hpp"
 #include "emulator/tools/prediction_report.hpp"
 #include "emulator/tools/probe_statistics.hpp"
 #include "emulator/tools/verify/verify.hpp"
@@ -138,6 +140,7 @@ std::vector<KeyTable> tables_of_outputs()
         {"emulator-run", output::key_table<emulator::RunStatistics>()},
         {"emulator-direction", output::key_table<emulator::DirectionReport>()},
         {"emulator-change", output::key_table<emulator::ChangeReport>()},
+        {"emulator-stretch", output::key_table<emulator::StretchReport>()},
         {"emulator-lens", output::key_table<emulator::StreamShape>()},
         {"emulator-client", output::key_table<emulator::ClientReport>()},
         {"emulator-link", output::key_table<emulator::LinkReport>()},
@@ -145,6 +148,9 @@ std::vector<KeyTable> tables_of_outputs()
         {"emulator-check", output::key_table<emulator::CheckReport>()},
         {"predict", output::key_table<emulator::tools::PredictionReport>()},
         {"predict-direction", output::key_table<emulator::tools::DirectionForecast>()},
+        {"learn", output::key_table<emulator::tools::LearnReport>()},
+        {"learn-way", output::key_table<emulator::tools::WayLesson>()},
+        {"learn-likeness", output::key_table<emulator::tools::Likeness>()},
         {"verify", output::key_table<emulator::tools::Verification>()},
         {"verify-test", output::key_table<emulator::tools::TestResult>()},
         {"probe", output::key_table<emulator::tools::ProbeReport>()},
@@ -175,14 +181,11 @@ std::vector<KeyTable> tables_of_inputs()
          grouped<emulator::Mtu, emulator::Rate, emulator::QueueControl, emulator::Corruption,
                  emulator::Duplication, emulator::Reordering>("stage")},
         {"rate-trace", rows_of<emulator::RateTraceLaw>()},
+        {"flow", rows_of<emulator::Flow>()},
         {"scene", rows_of<scene::Description>()},
         {"hips", rows_of<scene::HandDescription>()},
         {"hand", rows_of<scene::Feel>()},
         {"field", rows_of<scene::FieldDescription>()},
-        {"hinge", rows_of<scene::text::Hinge>()},
-        {"slider", rows_of<scene::text::Slider>()},
-        {"ball", rows_of<scene::text::Ball>()},
-        {"spring", rows_of<scene::text::Spring>()},
         {"plane", rows_of<scene::PlaneDescription>()},
         {"body", rows_of<scene::BodyDescription, scene::text::Density>()},
         {"part", rows_of<scene::PartDescription>()},
@@ -217,12 +220,13 @@ const std::set<std::string>& without_table()
         "HandDynamics", "ProxyHandOptions", "Material", "Sway", "ByOrder", "UsableCriteria",
         "GoodCriteria", "HandImpedance", "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent",
         "Search", "GovernorLimits", "EnergyLimits", "WrittenCorner", "WrittenTorques",
-        "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube",
+        "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube", "Match",
         // parts of the outputs above
         "Counters", "ProgramReport", "EndsReport", "FilesReport", "StreamReport", "TimesReport",
-        "DelayReport", "ReorderReport", "Configuration", "FirstDatagrams", "CourseReport",
-        "InterfaceReports", "RealTimeReport", "DelaySpread", "LateSpread", "PathFrame", "Precision",
-        "LossReport", "ProbeDelays", "ProbeWay", "ProbeSummary",
+        "DelayReport", "CorrelationAt", "LossWhenSlow", "ReorderReport", "Configuration",
+        "FirstDatagrams", "CourseReport", "InterfaceReports", "FlowReport", "RealTimeReport",
+        "DelaySpread", "LateSpread", "PathFrame", "Precision", "LossReport", "ProbeDelays",
+        "ProbeWay", "ProbeSummary",
         // JSON, CSV and the settings in a record's header
         "BuildReport", "TickFrame", "PeerConfiguration", "SessionReport", "ClockReport",
         "AgeReport", "PathTimes", "InwardPath", "OtherReport", "MessagesReport", "ForceReport",
@@ -247,15 +251,16 @@ const std::set<std::string>& with_table()
         "BaseOptions", "DeadReckoningOptions", "EstimatorPredictorOptions", "RemoteProxyOptions",
         "BaseTdpaOptions", "WaveOptions", "CoupleOptions", "LagOptions", "RollbackOptions",
         "SharedObjectOptions", "WrittenLimits", "Operator", "TaskOptions", "Axis", "Mtu", "Rate",
-        "Corruption", "Duplication", "Reordering", "RateTraceLaw", "QueueControl", "Description",
-        "HandDescription", "Feel", "FieldDescription", "Hinge", "Slider", "Ball", "Spring",
-        "PlaneDescription", "BodyDescription", "PartDescription", "Density", "Array", "Criteria",
-        "Experiment", "Table1", "Limits", "Trajectories", "ImpairmentGrid", "Calibration", "Claims",
-        "TickRow", "BodyRow", "MessageRow", "SessionRow",
+        "Corruption", "Duplication", "Reordering", "RateTraceLaw", "Flow", "QueueControl",
+        "Description", "HandDescription", "Feel", "FieldDescription", "PlaneDescription",
+        "BodyDescription", "PartDescription", "Density", "Array", "Criteria", "Experiment",
+        "Table1", "Limits", "Trajectories", "ImpairmentGrid", "Calibration", "Claims", "TickRow",
+        "BodyRow", "MessageRow", "SessionRow",
         // that programs print
-        "RunStatistics", "DirectionReport", "ChangeReport", "StreamShape", "ClientReport",
-        "LinkReport", "InterfaceReport", "CheckReport", "PredictionReport", "DirectionForecast",
-        "Verification", "TestResult", "ProbeReport", "EmulatorFrame", "WayFrame"};
+        "RunStatistics", "DirectionReport", "ChangeReport", "StreamShape", "StretchReport",
+        "ClientReport", "LinkReport", "InterfaceReport", "CheckReport", "PredictionReport",
+        "DirectionForecast", "LearnReport", "WayLesson", "Likeness", "Verification", "TestResult",
+        "ProbeReport", "EmulatorFrame", "WayFrame"};
     return names;
 }
 

@@ -57,13 +57,14 @@ READINGS = f"{SMALL} --set tasks=T1 {DELAY} {JITTER} {LOSS} {BURST}"
 EXPERIMENTS = {
     "any-network": f"{TWO} --set latin_hypercube.points=6",
     "beat": SMALL,
-    "calibration": "--quick --seeds 1 --set duration=15s --set 'tasks=[\"T1\", \"T2\"]'",
+    "calibration": "--quick --seeds 1 --set duration=30s --set 'tasks=[\"T1\", \"T2\"]'",
     "fig6-other-tasks": f"{TWO} {DELAY} {JITTER} {LOSS} {BURST}",
     "fig6a": f"{TWO} {DELAY} {JITTER}",
     "fig6b": f"{TWO} {LOSS} {BURST}",
     "fig7": SMALL,
     "horizon": f"{READINGS} --set 'axis.values=[\"one-way\", \"none\"]'",
     "jitter-order": TWO,
+    "limits-pool": f"{TWO} {DELAY} {JITTER} {LOSS} {BURST}",
     "many": f"{SMALL} --set 'algorithms=[\"base\"]' --set 'peers=[2, 3]'",
     "path-delay": f"{TWO} {LOSS} {BURST} --set 'axis.values=[\"0ms\", \"5ms\"]'",
     "qos": TWO,
@@ -232,7 +233,7 @@ def controlled_play(programs):
 # The columns of some tables that the CSV has not.
 IN_JSON_ALONE = {
     "table1": [f"{part}_{end}_mm" for part in ("mean", "std", "max") for end in ("low", "high")],
-    "limits": ["band"], "precision": ["order"]}
+    "limits": ["band"], "precision": ["order"], "qos": ["limited_by"]}
 
 
 def tables_agree(programs):

@@ -31,6 +31,7 @@ MASKS = [(re.compile(pattern), replacement) for pattern, replacement in (
     # In the tables of a page.
     (r'(\["(?:version|commit|compiler|host|start|(?:wall|processor) time, s|speed ratio)",'
      r'\{"text":)"[^"]*"', r'\1"MASKED"'),
+    (r'("name":"(?:version|commit)","cells":)\["[^"]*","[^"]*"\]', r'\1["MASKED","MASKED"]'),
     (r'(\["reported/[^"]*",\{"text":"[^"]*","style":"words"\},)"[\d.]+",("[\d.]+"),"[\d.]+"',
      r'\1"MASKED",\2,"MASKED"'),
     (r"(?m)^\d+/\d+ sessions \(.*\n", ""),  # progress

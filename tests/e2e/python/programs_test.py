@@ -143,7 +143,7 @@ starter = threading.Thread(target=network.start)
 starter.start()
 starter.join()
 assert network.is_running()
-print(network._process.pid, flush=True)
+print(network._process.pid, network.control_path, flush=True)
 sys.stdin.read()
 """
 
@@ -151,7 +151,9 @@ sys.stdin.read()
         script = subprocess.Popen(
             [sys.executable, "-c", self.text], stdin=subprocess.PIPE, stdout=subprocess.PIPE
         )
-        emulator = int(script.stdout.readline())
+        number, path = script.stdout.readline().decode().split()
+        emulator = int(number)
+        self.assertTrue(os.path.exists(path))
         time.sleep(0.5)
         self.assertTrue(self.is_alive(emulator))
         script.kill()
@@ -160,6 +162,7 @@ sys.stdin.read()
         while self.is_alive(emulator):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
+        self.assertFalse(os.path.exists(os.path.dirname(path)))
 
     def is_alive(self, pid):
         try:
