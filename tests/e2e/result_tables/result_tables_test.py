@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+"""The tables of the pages are those of their data files, and scripts/result_tables.py notices where
+they are not.
+
+    result_tables_test.py REPOSITORY
+"""
+
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+REPOSITORY = pathlib.Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(REPOSITORY / "scripts"))
+
+import result_tables
+
+RESULTS = REPOSITORY / "docs" / "results"
+LIMITS = "limits.json"  # scripts/limits_pool.py writes and reads it
+PAGES = [page for page in sorted(RESULTS.glob("*.md"))
+         if "<!-- data:" in page.read_text(encoding="utf-8")]
+FILES = [file for file in sorted((RESULTS / "data").glob("*.json")) if file.name != LIMITS]
+
+
+def run(*arguments):
+    """Exit code, stdout and stderr of the script."""
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+        code = result_tables.main([str(word) for word in arguments])
+    return code, out.getvalue(), errors.getvalue()
+
+
+def row(subject, value, **others):
+    return {"case": "c", "subject": subject, "baseline": None, "metric": "p50_us", "value": value,
+            "baseline_value": None, "ratio": None, "target": None, "direction": "max", "met": None,
+            **others}
+
+
+class Repository(unittest.TestCase):
+    def test_pages_have_the_tables_of_their_data(self):
+        self.assertIn(RESULTS / "benchmarks.md", PAGES)
+        self.assertEqual(run("--check", *PAGES), (0, "", ""))
+
+    def test_every_data_file_is_sound_and_named_by_a_page(self):
+        code, out, errors = run("--print", *FILES)
+        self.assertEqual((code, errors), (0, ""))
+        pages = "".join(page.read_text(encoding="utf-8") for page in RESULTS.glob("*.md"))
+        for file in FILES:
+            self.assertIn(f"[{file.name}]", out)
+            self.assertTrue(f"data/{file.name}" in pages or f"data: {file.name} " in pages, file)
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.page = pathlib.Path(folder.name) / "page.md"
+        self.file = self.page.parent / "data" / "a.json"
+        self.file.parent.mkdir()
+        self.rows = [row("fast", 1.5, target=2, met=True), row("slow", None)]
+        self.write("a.json")
+
+    def write(self, words):
+        data = {"commit": None, "date": "2026-11-26", "machine": None, "command": "run",
+                "rows": self.rows}
+        self.file.write_text(json.dumps(data), encoding="utf-8")
+        self.page.write_text(f"before\n<!-- data: {words} -->\n<!-- end data -->\nafter\n",
+                             encoding="utf-8")
+
+    def table(self):
+        self.assertEqual(run(self.page), (0, "", ""))
+        text = self.page.read_text(encoding="utf-8")
+        self.assertTrue(text.startswith("before\n<!-- data: ") and text.endswith("-->\nafter\n"))
+        return [line for line in text.splitlines() if line.startswith("|")]
+
+    def refusal(self):
+        code, _, errors = run("--check", self.page)
+        self.assertEqual(code, 2)
+        return errors
+
+    def test_a_table_has_a_column_for_each_subject(self):
+        self.assertEqual(self.table(), ["| case | metric | fast | slow | target |",
+                                        "| --- | --- | ---: | ---: | --- |",
+                                        "| c | p50_us | 1.5 | – | ≤ 2 met |"])
+        self.assertIn("[a.json](data/a.json): 2026-11-26; `run`.",
+                      self.page.read_text(encoding="utf-8"))
+
+    def test_subjects_without_a_common_case_share_a_column(self):
+        self.rows[1]["case"] = "d"
+        self.write("a.json")
+        self.assertEqual(self.table()[2:], ["| c | p50_us | fast | 1.5 | ≤ 2 met |",
+                                            "| d | p50_us | slow | – |  |"])
+
+    def test_joined_metrics_share_a_line(self):
+        self.rows += [row("fast", 7, metric="p99_us"), row("slow", 1234.5, metric="p99_us")]
+        self.write("a.json joined")
+        self.assertEqual(self.table()[2:],
+                         ["| c | p50_us / p99_us | 1.5 / 7 | – / 1234 | ≤ 2 met |"])
+
+    def test_baselines_stand_beside_what_is_compared_with_them(self):
+        self.rows.append(row("fast", 1.5, metric="p50_us_ratio", baseline="slow", baseline_value=3,
+                             ratio=2, target=5, direction="min", met=False))
+        self.write("a.json baselines")
+        self.assertEqual(self.table(), ["| case | metric | fast | slow | target |",
+                                        "| --- | --- | ---: | ---: | --- |",
+                                        "| c | p50_us | 1.5 | 3 (2x) | ≤ 2 met; "
+                                        "≥ 5x **missed** against slow |"])
+
+    def test_an_expression_chooses_the_rows(self):
+        self.rows.append(row("fast", 3, case="d"))
+        self.write("a.json cases: ^d, p50")
+        self.assertEqual(self.table()[2:], ["| d | p50_us | 3 |"])
+        self.write("a.json cases: ^e")
+        self.assertIn("a.json: no row matches '^e'", self.refusal())
+
+    def test_a_figure_that_differs_is_noticed(self):
+        self.table()
+        self.assertEqual(run("--check", self.page)[0], 0)
+        text = self.page.read_text(encoding="utf-8")
+        self.page.write_text(text.replace("| 1.5 |", "| 1.4 |"), encoding="utf-8")
+        code, _, errors = run("--check", self.page)
+        self.assertEqual(code, 1)
+        self.assertIn(f"{self.page}: differs from its data: run ", errors)
+        self.assertIn("| 1.4 |", self.page.read_text(encoding="utf-8"))
+        self.assertIn("| c | p50_us | 1.5 | – | ≤ 2 met |", self.table())
+
+    def test_wrong_data_is_refused_with_its_place(self):
+        self.rows[0]["met"] = False
+        self.write("a.json")
+        self.assertIn("a.json: row 1: 'met' is False, but its figures say True", self.refusal())
+        self.rows[0] = row("fast", 2, baseline="slow", baseline_value=3, ratio=2)
+        self.write("a.json")
+        self.assertIn("row 1: 'ratio' is 2, but its figures say 1.5", self.refusal())
+        self.rows[0] = {"case": "c"}
+        self.write("a.json")
+        self.assertIn("row 1: its keys are case: write case, subject,", self.refusal())
+
+    def test_a_table_without_an_end_is_refused(self):
+        self.page.write_text("<!-- data: a.json -->\n", encoding="utf-8")
+        self.assertIn("a table has no end", self.refusal())
+        self.assertEqual(run()[0], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
