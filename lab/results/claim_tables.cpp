@@ -171,7 +171,7 @@ std::optional<double> energy_mj(const metrics::Scores& scores)
 }
 
 /// What a copy lends, stores in its contacts and in the cube's motion, and gives in a tick; of each
-/// further copy what it stores. docs/design/algorithms.md derives it.
+/// further copy what it stores. docs/design/remote-proxy.md derives it.
 double energy_bound_mj(const experiment::ClaimCell& cell)
 {
     const peer::RemoteProxyOptions proxy;

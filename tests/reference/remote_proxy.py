@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
-"""remote-proxy once more, in one dimension, after docs/design/algorithms.md.
+"""remote-proxy once more, in one dimension, after docs/design/remote-proxy.md.
 
 Two copies of the paper's scene, two simulated hands (docs/design/tasks.md) and a network between
 them that only delays, in plain Python: to see whether the page says all that is needed to build the
@@ -156,7 +156,7 @@ def slide(place, speed, force, dt, mass, damping, friction):
     return place + dt * after, after
 
 
-# --- the algorithm: docs/design/algorithms.md, "remote-proxy" ---
+# --- the algorithm: docs/design/remote-proxy.md ---
 MODEL_M, MODEL_B, MODEL_K, FRICTION = 0.22, 7.0, 300.0, 0.26  # the friction is that of the device
 
 

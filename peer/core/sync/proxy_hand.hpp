@@ -16,7 +16,7 @@
 
 namespace hapnet::peer {
 
-/// How a proxy stands for another hand. docs/design/algorithms.md has the equations.
+/// How a proxy stands for another hand. docs/design/remote-proxy.md has the equations.
 struct ProxyHandOptions {
     HandDynamics hand{}; // where the hello says nothing
     base::Duration anchor_filter{std::chrono::milliseconds{20}};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What docs/design/algorithms.md says of the energy of remote-proxy, over random networks, hands,
+// What docs/design/remote-proxy.md says of the energy of remote-proxy, over random networks, hands,
 // numbers of peers and liars.
 #include "scene/text/text.hpp"
 #include "tests/support/seeds.hpp"
