@@ -14,7 +14,7 @@ namespace hapnet::tidy {
 /// "" for none, such as tests and third-party headers.
 [[nodiscard]] std::string folder_of(std::string_view path);
 
-/// Whether a file of folder `from` may include one of folder `to`: arrows compose, and a folder
+/// True if a file in folder `from` may include a file in folder `to`. Arrows compose, and a folder
 /// may include itself.
 [[nodiscard]] bool may_include(std::string_view from, std::string_view to);
 

@@ -18,19 +18,6 @@ bool is_fence(std::string_view line)
     return first != std::string_view::npos && line.substr(first).starts_with("```");
 }
 
-/// The lines of a page that are no code, the others empty.
-std::vector<std::string> prose_of(const SourceFile& page)
-{
-    std::vector<std::string> lines = page.lines;
-    bool is_code = false;
-    for (std::string& line : lines) {
-        const bool toggles = is_fence(line);
-        if (toggles) is_code = !is_code;
-        if (is_code || toggles) line.clear();
-    }
-    return lines;
-}
-
 /// GitHub's: lower case, blanks to hyphens, no other punctuation. Bytes of UTF-8 stay.
 std::string slug_of(std::string_view heading)
 {
@@ -110,6 +97,18 @@ std::size_t find_word(std::string_view line, std::string_view word)
 }
 
 } // namespace
+
+std::vector<std::string> prose_of(const SourceFile& page)
+{
+    std::vector<std::string> lines = page.lines;
+    bool is_code = false;
+    for (std::string& line : lines) {
+        const bool toggles = is_fence(line);
+        if (toggles) is_code = !is_code;
+        if (is_code || toggles) line.clear();
+    }
+    return lines;
+}
 
 std::set<std::string> anchors_of(const SourceFile& page)
 {

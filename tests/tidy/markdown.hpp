@@ -13,6 +13,9 @@ namespace hapnet::tidy {
 
 // Rules of the pages. Each gives its complaints, one line of text each; none when all is well.
 
+/// The lines of a page, where lines of code blocks are empty.
+[[nodiscard]] std::vector<std::string> prose_of(const SourceFile& page);
+
 /// The anchors of a page, as GitHub makes them from its headings.
 [[nodiscard]] std::set<std::string> anchors_of(const SourceFile& page);
 

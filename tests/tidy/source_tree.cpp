@@ -49,6 +49,8 @@ bool SourceFile::is_script() const { return !lines.empty() && lines.front().star
 
 bool SourceFile::is_python() const { return path.ends_with(".py"); }
 
+bool SourceFile::is_page() const { return path.ends_with(".md"); }
+
 bool SourceFile::is_web() const { return path.ends_with(".css") || path.ends_with(".js"); }
 
 bool SourceFile::is_in(std::string_view folder) const

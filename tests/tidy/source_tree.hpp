@@ -21,11 +21,12 @@ struct SourceFile {
     [[nodiscard]] bool is_script() const; // starts with #!
     [[nodiscard]] bool is_web() const;    // a script or a style sheet of a page
     [[nodiscard]] bool is_python() const;
-    /// Whether the file lies in `folder` ("proto/net") or below it.
+    [[nodiscard]] bool is_page() const; // Markdown
+    /// True if the file lies in `folder` ("proto/net") or below it.
     [[nodiscard]] bool is_in(std::string_view folder) const;
 };
 
-/// What one #include line names.
+/// The file that one #include line names.
 struct Include {
     std::string path;
     bool is_quoted = false; // "ours", not <theirs>
@@ -35,7 +36,7 @@ struct Include {
 /// A complaint about a line, which is counted from 0.
 [[nodiscard]] std::string at(std::size_t index, const std::string& what);
 
-/// Whether it is part of a word: a letter, a digit or '_'.
+/// True for the characters of a word: letters, digits and '_'.
 [[nodiscard]] bool is_word_character(char c);
 
 /// A file from its path and its text.

@@ -4,10 +4,14 @@
 #include "tests/tidy/markdown.hpp"
 #include "tests/tidy/rules.hpp"
 #include "tests/tidy/source_tree.hpp"
+#include "tests/tidy/words.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace hapnet::tidy {
 namespace {
@@ -76,8 +80,6 @@ const SourceFile& file_at(std::string_view path)
     return *found;
 }
 
-bool is_page(const SourceFile& file) { return file.path.ends_with(".md"); }
-
 /// Where words that are not used any more are told of.
 bool is_history(const SourceFile& file)
 {
@@ -88,7 +90,7 @@ TEST(Pages, HaveNoDeadLink)
 {
     const auto paths = paths_below(HAPNET_SOURCE_DIR);
     expect_none([&](const SourceFile& file) {
-        return is_page(file) ? dead_links(file, tree(), paths) : std::vector<std::string>{};
+        return file.is_page() ? dead_links(file, tree(), paths) : std::vector<std::string>{};
     });
 }
 
@@ -104,16 +106,16 @@ TEST(Pages, NameNoFileThatIsGone)
 {
     const auto paths = paths_below(HAPNET_SOURCE_DIR);
     expect_none([&](const SourceFile& file) {
-        return is_page(file) && file.path != "CHANGELOG.md" ? dead_file_names(file, paths)
-                                                            : std::vector<std::string>{};
+        return file.is_page() && file.path != "CHANGELOG.md" ? dead_file_names(file, paths)
+                                                             : std::vector<std::string>{};
     });
 }
 
 TEST(Pages, HaveNoCommandThatNoTestRuns)
 {
     expect_none([](const SourceFile& file) {
-        return is_page(file) ? commands_not_run(file, file_at("tests/e2e/CMakeLists.txt"))
-                             : std::vector<std::string>{};
+        return file.is_page() ? commands_not_run(file, file_at("tests/e2e/CMakeLists.txt"))
+                              : std::vector<std::string>{};
     });
 }
 
@@ -189,7 +191,7 @@ TEST(Words, ThatAreRetiredAreGone)
     const auto words = words_below(file_at("docs/GLOSSARY.md"), "Retired words");
     ASSERT_FALSE(words.empty());
     expect_none([&](const SourceFile& file) {
-        const bool is_read = (file.is_cpp() && !file.is_in("tests")) || is_page(file);
+        const bool is_read = (file.is_cpp() && !file.is_in("tests")) || file.is_page();
         return is_read && !is_history(file) ? words_in(file, words) : std::vector<std::string>{};
     });
 }
@@ -199,8 +201,8 @@ TEST(Words, OfThePagesArePlain)
     const auto words = words_below(file_at("docs/GLOSSARY.md"), "Phrases to avoid");
     ASSERT_FALSE(words.empty());
     expect_none([&](const SourceFile& file) {
-        return is_page(file) && file.path != "docs/GLOSSARY.md" ? words_in(file, words)
-                                                                : std::vector<std::string>{};
+        return file.is_page() && file.path != "docs/GLOSSARY.md" ? words_in(file, words)
+                                                                 : std::vector<std::string>{};
     });
 }
 
@@ -211,6 +213,44 @@ TEST(Words, OfTheProgramsArePlain)
         const bool is_read = file.is_cpp() && !file.is_in("tests");
         return is_read ? words_in(literals_of(file), words) : std::vector<std::string>{};
     });
+}
+
+// Rules with a limit per folder, in a table that HAPNET_WRITE_WORD_LIMITS=1 lowers to what is
+// found.
+
+constexpr std::string_view limits_path = "tests/tidy/word_limits.txt";
+
+void write_limits(const Counts& limits)
+{
+    std::ofstream table{HAPNET_SOURCE_DIR "/" + std::string{limits_path}};
+    for (const std::string& line : file_at(limits_path).lines) {
+        if (line.starts_with('#')) table << line << '\n';
+    }
+    for (const auto& [key, limit] : limits) table << key << ' ' << limit << '\n';
+}
+
+TEST(Words, OfCommentsAndPagesKeepTheirLimits)
+{
+    const std::vector<std::pair<std::string, decltype(&fragments)>> rules{
+        {"fragments", fragments},
+        {"archaic_words", archaic_words},
+        {"long_sentences", long_sentences}};
+    Counts counts;
+    std::map<std::string, std::string> complaints;
+    for (const auto& [name, rule] : rules) {
+        for (const SourceFile& file : tree()) {
+            for (const std::string& complaint : rule(file)) {
+                const std::string key = count_key(name, file);
+                ++counts[key];
+                complaints[key] += "\n" + file.path + ": " + complaint;
+            }
+        }
+    }
+    const Counts limits = limits_of(file_at(limits_path));
+    if (std::getenv("HAPNET_WRITE_WORD_LIMITS") != nullptr) write_limits(lowered(limits, counts));
+    for (const std::string& complaint : beyond_limits(counts, limits)) {
+        ADD_FAILURE() << complaint << complaints[complaint.substr(0, complaint.find(": "))];
+    }
 }
 
 } // namespace
