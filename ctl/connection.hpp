@@ -24,7 +24,7 @@ public:
         stopped, // a signal came
     };
 
-    /// Throws std::system_error when nobody answers there.
+    /// Throws std::system_error when no program answers at the path.
     Connection(const std::string& path, net::StopSignal& stop);
 
     /// Sends a line, without its newline.

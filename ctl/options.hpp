@@ -13,7 +13,7 @@
 
 namespace hapnet::ctl {
 
-/// What the command line asks for. The program behind the socket judges most of it.
+/// The options of the command line. The program behind the socket checks most values.
 struct Options {
     std::string socket;
     std::string command; // "show", "set", ...

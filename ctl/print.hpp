@@ -21,7 +21,7 @@ class WatchPrinter {
 public:
     explicit WatchPrinter(bool is_terminal) : is_terminal_{is_terminal} {}
 
-    /// What to print for the next answer: on a terminal a table that takes the place of the last
+    /// Returns the text that shows the next answer: on a terminal a table that replaces the last
     /// one, otherwise a line of key=value.
     [[nodiscard]] std::string next(const nlohmann::ordered_json& reply);
 

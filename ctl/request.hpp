@@ -9,7 +9,8 @@
 
 namespace hapnet::ctl {
 
-/// What is asked of the program behind the socket. Reads the profile that the options name.
+/// Returns the request for the program behind the socket. Reads the profile that the options name.
+/// The error names the option and the cure.
 [[nodiscard]] base::Result<nlohmann::ordered_json> make_request(const Options& options);
 
 } // namespace hapnet::ctl

@@ -37,8 +37,8 @@ struct Sample {
         0; // grows with every report from the device: otherwise this one is old
 };
 
-/// Whether a hand holds the stylus at the sample's place. An uncalibrated device, a stylus in its
-/// holder and a device at fault do not tell.
+/// True if a hand holds the stylus at the sample's place. False for an uncalibrated device, a
+/// stylus in its holder and a device with a fault, because these tell nothing about the hand.
 [[nodiscard]] constexpr bool is_in_hand(const Sample& sample)
 {
     return sample.calibrated && !sample.docked && sample.fault == Fault::none;

@@ -42,7 +42,7 @@ using base::name_of;
 /// The fault in words, with what to do about it: one sentence or two. "" for none.
 [[nodiscard]] std::string_view describe(Fault fault);
 
-/// What to do about a device that was not found.
+/// The cure for a device that was not found.
 inline constexpr std::string_view cure_of_not_found =
     "check its cable and power; hapnet-peer list-devices shows what is connected";
 

@@ -14,7 +14,7 @@ public:
 
     /// Newtons, in the device's own frame; zero when the motors are off.
     [[nodiscard]] constexpr const base::Force& force() const { return force_; }
-    /// Whether the motors are to be under power at all.
+    /// True if the motors are to have power.
     [[nodiscard]] constexpr bool motors_on() const { return motors_on_; }
 
 private:

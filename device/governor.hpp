@@ -145,7 +145,8 @@ public:
     [[nodiscard]] const Latched& fault() const { return latch_.cause(); }
     [[nodiscard]] const GovernorCounters& counters() const { return counters_; }
     [[nodiscard]] const GovernorLimits& limits() const { return limits_; }
-    /// Of the motors, by the forces until now: above 1 the limit goes down.
+    /// Heat of the motors by the forces so far, as a share of the limit. Above 1 the force limit
+    /// decreases.
     [[nodiscard]] double heat() const { return heat_.heat(); }
     /// The energy into the hand; nullptr where the limits have none for it.
     [[nodiscard]] const EnergyFigures* energy() const

@@ -36,8 +36,8 @@ public:
     [[nodiscard]] const Sample& read(base::TimePoint now);
     /// Governs the wanted force, applies the result and returns it, at the hand. Once per read().
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now);
-    /// The same, but the device is told zero: it was halted after read(), and a force for that
-    /// place may be long outdated. The governor itself notices in the next tick.
+    /// Governs the force like apply(), but tells the device zero: it was halted after read(), so a
+    /// force for that place may be outdated. The governor notices the halt in the next tick.
     base::Force withhold(const base::Force& wanted, bool permitted, base::TimePoint now);
 
     /// The start of a session, for the holder of the device.

@@ -18,7 +18,7 @@ struct Asset {
 /// All of them; a generated file has them.
 [[nodiscard]] std::span<const Asset> assets();
 
-/// What a browser is to take a file for, by its name's ending.
+/// Returns the media type for a file name, by its ending.
 [[nodiscard]] std::string_view media_type(std::string_view name);
 
 /// The page as it is served, and where its files are.
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] const std::string& index() const { return index_; }
     /// nullptr: no file is at this path.
     [[nodiscard]] const Asset* find(std::string_view path) const;
-    /// Of all files together, in hexadecimal digits: it is part of their paths.
+    /// A hash of all files together, in hexadecimal digits. It is part of their paths.
     [[nodiscard]] const std::string& hash() const { return hash_; }
 
 private:

@@ -19,12 +19,13 @@ public:
     /// A peer that leaves so many places unanswered is told no more until it answers.
     static constexpr std::size_t asked_max = 8;
 
-    /// What the page is told; empty: nothing new.
+    /// Handles a message of a page about the hand. Returns the text to tell that page; empty if
+    /// there is nothing new.
     [[nodiscard]] std::string on_message(std::uint64_t page, const HandMessage& message,
                                          Daemon& peer, base::TimePoint now);
 
-    /// Whether a page holds the hand, as of the last tick; tick() returns whether it has changed.
-    /// `peer` may be null: none has a hand that pages move.
+    /// True if a page held the hand in the last tick. tick() returns true if this has changed.
+    /// `peer` is null if no peer has a hand that pages move.
     [[nodiscard]] bool is_held() const { return is_held_; }
     [[nodiscard]] bool tick(Daemon* peer, base::TimePoint now);
 

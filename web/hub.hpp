@@ -68,7 +68,7 @@ public:
 
     explicit Hub(boost::asio::io_context& io);
 
-    /// What runs already; an empty path: none.
+    /// Attaches to programs that already run. An empty path means no such program.
     void attach(const std::string& emulator, const std::vector<std::string>& peers);
     /// The stage that pages may use.
     void offer(Stage::Setup setup, bool begins, bool is_virtual);
@@ -85,7 +85,7 @@ public:
     /// A page holds or lets go the hand, where a peer has one that pages move.
     void hand(std::uint64_t page, const HandMessage& message);
 
-    /// Of a request that the gate has let in. `path` is without query.
+    /// Answers a request that the gate has let in. `path` has no query.
     void answer(std::string_view path, const std::string& body, const OnReply& on_reply);
 
 private:

@@ -18,7 +18,7 @@ class MetricsPage {
 public:
     static constexpr base::Duration kept_for{std::chrono::seconds{1}};
 
-    /// Of those that are attached; `emulator` may be null.
+    /// Answers with the metrics of the attached daemons. `emulator` may be null.
     void answer(Daemon* emulator, const std::vector<Daemon*>& peers, const OnReply& on_reply);
 
 private:

@@ -12,7 +12,7 @@
 
 namespace hapnet::web {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct Options {
     std::string emulator;           // a control socket; empty: none
     std::vector<std::string> peers; // control sockets

@@ -24,10 +24,11 @@ struct RequestLimits {
 /// For a parser that has not seen a byte: beyond these lengths it refuses.
 void limit(RequestParser& parser, const RequestLimits& limits);
 
-/// Whether it asks for a WebSocket.
+/// True if the request asks for a WebSocket.
 [[nodiscard]] bool is_upgrade(const Request& request);
 
-/// What the gate decides by; refers into the request. A header that is there twice says nothing.
+/// Returns the properties that the gate decides by, as views into the request. A header that occurs
+/// twice counts as missing.
 [[nodiscard]] Asked asked_of(const Request& request);
 
 [[nodiscard]] inline std::string_view view(boost::string_view text)

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] bool is_idle() const { return children_.empty(); }
     [[nodiscard]] const Choice& choice() const { return choice_; }
     [[nodiscard]] const Choices& choices() const { return setup_.choices; }
-    /// Of what the daemons save of their last seconds, below `out`.
+    /// The folder, below `out`, for the last seconds that daemons save.
     static constexpr const char* kept_folder = "kept";
     [[nodiscard]] std::string kept() const { return setup_.out + "/" + kept_folder; }
     [[nodiscard]] int run() const { return run_; }

@@ -14,7 +14,7 @@
 
 namespace hapnet::web {
 
-/// A connection to a control socket: lines in and out. Connects again and again while nobody
+/// A connection to a control socket that passes lines both ways. It tries again until a program
 /// answers there.
 class Wire {
 public:
@@ -33,7 +33,7 @@ public:
     Wire(const Wire&) = delete;
     Wire& operator=(const Wire&) = delete;
 
-    /// Nothing is sent while nobody is connected.
+    /// Sends a line. Without a connection, the line is dropped.
     void send(const std::string& line);
     /// Breaks the connection; it begins again.
     void lose(const std::string& why);

@@ -15,8 +15,8 @@ namespace hapnet::device::dhd {
 /// Numbers a device that is open; -1: the default one, which this program never means.
 using Id = char;
 
-/// What a function returns below zero: see last_error(). Above it: harmless, such as a saturated
-/// motor.
+/// The result of a function that has failed: see last_error(). Results above 0 are harmless, such
+/// as a saturated motor.
 inline constexpr int failed = -1;
 
 /// Error codes.

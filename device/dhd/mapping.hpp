@@ -33,7 +33,7 @@ namespace hapnet::device::dhd {
 /// a cube of 80 mm around the device's origin.
 [[nodiscard]] Capabilities capabilities();
 
-/// What one round of calls gave.
+/// The results of one round of calls.
 struct Reading {
     int result = 0;          // of the first call that failed; 0 or more: all did their work
     int error = error::none; // what the library said then
@@ -59,7 +59,7 @@ private:
     bool had_force_ = false; // the motors were on in the last round, and asked for
 };
 
-/// What to say of a device that does not open, with the cure.
+/// Returns the message about a device that does not open, with the cure.
 [[nodiscard]] std::string describe_error(const std::string& serial, int code);
 
 } // namespace hapnet::device::dhd

@@ -16,21 +16,21 @@
 
 namespace hapnet::device::falcon {
 
-/// Motor counts for a newton metre at a leg's arm. libnifalcon's factor
-/// (src/kinematic/FalconKinematicStamper.cpp), which gives no source for it: nobody is known to
-/// have measured one. It makes the most that the motors take 7.4 N sideways at the middle of the
-/// workspace (computed), near the 8 N that CHAI3D states; but a newton here is one in name only.
+/// Motor counts per newton metre at a leg's arm. This is libnifalcon's factor
+/// (src/kinematic/FalconKinematicStamper.cpp), which names no source; no measurement is known. With
+/// it, the largest motor force is 7.4 N sideways at the middle of the workspace (computed), near
+/// the 8 N that CHAI3D states. Forces in newtons are therefore nominal.
 inline constexpr double counts_per_newton_metre = 10000.0;
 
 /// As the catalogue shows it; "" for a serial that it does not tell.
 [[nodiscard]] Identity identity_of(std::string serial);
 
-/// A Novint Falcon whose firmware runs. Its positions mean nothing until its three legs have been
-/// at their stops once: calibrate() asks the person for that, and the device's light is red so
-/// long. It answers each packet with one, so the host sets the rate.
+/// A Novint Falcon whose firmware runs. Positions are meaningless until its three legs have touched
+/// their stops once: calibrate() asks the person to do this, and the device's light is red until
+/// then. The device answers each packet with one packet, so the host sets the rate.
 ///
-/// When the program is killed, the motors keep the last torque they were told, as far as is known:
-/// nobody has described a watchdog in the firmware. Pulling its power plug ends it.
+/// When the program is killed, the motors probably keep the last torque: no watchdog in the
+/// firmware is documented. Unplugging the power supply stops them.
 class Falcon final : public Device {
 public:
     Falcon(std::unique_ptr<Link> link, std::string serial);

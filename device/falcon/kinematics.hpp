@@ -27,8 +27,9 @@ inline constexpr double origin_z_m = 0.115;
 /// degrees (computed); CHAI3D gives the Falcon the same for its radius.
 inline constexpr double reach_m = 0.040;
 
-/// Of encoders that were homed: 1280 counts for a turn of the motor, whose shaft moves the arm by a
-/// cable, 14.25 mm to 110 mm; they are zero at about 35 degrees.
+/// Returns the angles of the arms from encoders that were homed. One turn of a motor is 1280
+/// counts; a cable drives the arm (110 mm) from the motor's shaft (14.25 mm). Counts are zero at
+/// about 35 degrees.
 [[nodiscard]] Angles angles_of(const Counts& encoders);
 /// The nearest counts; the angles are at most 20 rad.
 [[nodiscard]] Counts encoders_at(const Angles& angles);

@@ -26,7 +26,7 @@ public:
     /// The bytes since the last call, valid until the next one. Empty: none.
     [[nodiscard]] virtual std::span<const std::byte> receive(Wait wait) noexcept = 0;
 
-    /// Whether the device has been unplugged; it does not come back.
+    /// True once the device has been unplugged. It does not return to false.
     [[nodiscard]] virtual bool is_gone() const noexcept = 0;
 
     /// Sends behind whatever is on its way; from any thread. Nothing while the last one that was

@@ -12,7 +12,8 @@
 
 namespace hapnet::device {
 
-/// What a hand may get from its motors beyond what it puts in. Both above 0.
+/// Limits of the energy that the motors give to a hand beyond what the hand gives to them. Both are
+/// above 0.
 struct EnergyLimits {
     double power_max_w = 0.46;
     double work_max_j = 0.15; // in any 5 s, and so on average 30 mW
@@ -66,7 +67,7 @@ public:
     /// The device does not tell where the hand is: the next place is not compared with the last.
     void lose_place() { placed_ = false; }
 
-    /// What may be left of the next force while the device reports this velocity.
+    /// Returns the permitted part of the next force while the device reports this velocity.
     [[nodiscard]] base::Force allow(const base::Force& wanted, const base::Velocity& reported);
 
     [[nodiscard]] const EnergyFigures& figures() const { return figures_; }

@@ -31,8 +31,9 @@ struct GovernorLimits {
     double slew_ramping_n_per_s = 100.0; // of a force that grows while it ramps in from zero
     base::Duration heat_time{std::chrono::seconds{15}}; // that motors take to warm up
     double heat_start = 0.0;                            // of the motors when the program started
-    /// Whether the motion has to fit the force: an encoder that stands still or motors that push
-    /// the wrong way are faults. For real devices; a simulated or replayed hand knows better.
+    /// True to compare motion and force: an encoder that stands still, or motors that push the
+    /// wrong way, are then faults. For real devices only; simulated and replayed hands are
+    /// consistent.
     bool checks_motion = false;
 
     // Of the device, in its own frame.
@@ -43,12 +44,13 @@ struct GovernorLimits {
     base::Position workspace_max{glm::dvec3{std::numeric_limits<double>::infinity()}};
     std::optional<JointLimits> joints{};
 
-    /// Of what the other side may do to a hand. nullopt: it is neither observed nor limited.
+    /// Limits of the energy that the other side gives to a hand. nullopt: the energy is neither
+    /// observed nor limited.
     std::optional<EnergyLimits> energy{};
 };
 
-/// Of the first part. Outside of these ranges a rule would never act, act always, or do harm: a
-/// slow slew, for one, holds a force that should go. Zero force is possible.
+/// The fields of the first part. Outside these ranges a rule would never act, always act, or do
+/// harm: a slow slew, for example, keeps a force that should end. Zero force is possible.
 constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
 {
     using namespace std::chrono_literals;

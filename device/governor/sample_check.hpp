@@ -11,7 +11,7 @@
 
 namespace hapnet::device {
 
-/// Whether a force may follow from what a device says.
+/// The result of checking a sample: whether a force may follow from it, and the reason if not.
 enum class Finding : std::uint8_t {
     usable,
     unheard,      // no report from it yet
@@ -30,13 +30,14 @@ public:
         Latched fault{}; // where it is tripped
     };
 
-    /// What the device gives until this sample.
+    /// The force that the device gives until this sample.
     struct Push {
         bool may_be_felt = false;
         base::Force force{};
     };
 
-    /// `passed` since the last sample, and zero after a stall of the loop: nobody asked the device.
+    /// Checks one sample. `passed` is the time since the last sample, or zero after a stall of the
+    /// loop, in which the device was not asked.
     [[nodiscard]] Result look(const GovernorLimits& limits, const Sample& sample,
                               base::Duration passed, const Push& push);
 

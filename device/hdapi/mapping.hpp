@@ -36,8 +36,8 @@ struct Properties {
     int calibration_styles = 0;
 };
 
-/// The same in ours. Where the library says nothing sensible, an Omni's data sheet does; but no
-/// more force than an Omni bears for ever.
+/// Returns the abilities in SI units. Values from data sheets of the Omni and the Touch replace
+/// those that make no sense; the peak force is then only an Omni's continuous force.
 [[nodiscard]] Capabilities capabilities_of(const Properties& properties);
 
 inline constexpr std::size_t text_bytes_max = 200;

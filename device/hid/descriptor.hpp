@@ -46,9 +46,9 @@ struct Field {
     friend bool operator==(const Field&, const Field&) = default;
 };
 
-/// Whether the field is a variable of this usage.
+/// True if the field is a variable with this usage.
 [[nodiscard]] bool is_variable_of(const Field& field, Usage usage);
-/// Whether one of the collections around the field is of this usage.
+/// True if a collection around the field has this usage.
 [[nodiscard]] bool lies_in(const Field& field, Usage collection);
 /// The value by which an array field says `usage`; nullopt where it cannot.
 [[nodiscard]] std::optional<std::int64_t> value_of(const Field& array, Usage usage);

@@ -9,7 +9,8 @@
 
 namespace hapnet::device::hid {
 
-/// What an item's value is depends on what it is for.
+/// The value of an item, read as signed and as unsigned: the item's tag decides which reading
+/// holds.
 struct ItemValue {
     std::int64_t as_signed = 0;
     std::int64_t as_unsigned = 0;
@@ -34,7 +35,7 @@ public:
 
     /// nullopt at the end, or where an item is cut off.
     [[nodiscard]] std::optional<Item> next();
-    /// Whether the last next() came to the end, and not upon an item that is cut off.
+    /// True if the last next() reached the end of the descriptor, not an item that is cut off.
     [[nodiscard]] bool is_complete() const { return position_ == bytes_.size(); }
 
 private:

@@ -11,8 +11,8 @@ struct Options {
     /// Newtons at the grip when the device pushes with all it has, measured; negative where it
     /// pushes the other way. Without it there is no force.
     std::optional<double> force_full_n{};
-    /// What a hand is given at most, whatever full scale is: a base made for steering wheels can
-    /// break a wrist. The default is the peak of a PHANToM Omni.
+    /// Largest force for the hand, N, whatever the device's full scale is: a wheel base can break a
+    /// wrist. The default is the peak of a PHANToM Omni.
     double force_cap_n = 3.3;
     /// Half of the way between the stops of an axis, at the grip, in metres. The default is half
     /// the width of a PHANToM Omni's workspace, so that the paper's scene fits.

@@ -15,7 +15,7 @@
 
 namespace hapnet::device::hid {
 
-/// What a PID device is made of, once it has been opened.
+/// The parts of an opened PID device.
 struct PidParts {
     Identity identity{};
     InputLayout input{};

@@ -81,7 +81,7 @@ struct ForceLayout {
 /// Reports that a full-speed interrupt pipe takes in one go are no longer than this, ID included.
 inline constexpr std::size_t report_bytes_max = 64;
 
-/// Whether the device is of page 0x0f at all: it knows a Set Effect report.
+/// True if the device supports usage page 0x0f: it has a Set Effect report.
 [[nodiscard]] bool is_force_device(const Descriptor& descriptor);
 /// The report with the axis X, or why there is none that serves. An axis Y counts where effects
 /// can be played on it: that of a steering wheel is a pedal.

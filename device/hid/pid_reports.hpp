@@ -40,7 +40,7 @@ enum class Axis : std::uint8_t { right, away };
 
 enum class Load : std::uint8_t { success, full, error };
 
-/// What a Block Load report says of the effect that was asked for last.
+/// The answer in a Block Load report to the last request for an effect.
 struct BlockLoadResult {
     Load load = Load::error;
     std::uint32_t block = 0; // its place, where there was success

@@ -13,12 +13,12 @@
 
 namespace hapnet::device::hid {
 
-/// A SpaceMouse: a cap to push and pull, without motors. How far it is pushed is how fast the
-/// position goes, inside a box of a PHANToM Omni's workspace, from whose middle it starts. Only
-/// translation counts. Its left button grips.
+/// A SpaceMouse: a cap to push and pull, without motors. The displacement of the cap sets the
+/// velocity of the position, inside a box of a PHANToM Omni's workspace, from the middle of the
+/// box. Only translation counts. The left button grips.
 ///
-/// It is silent while nobody touches it, so that silence is no fault; but a deflection that it has
-/// not repeated for 200 ms counts no more, as a cap that has been let go might.
+/// The device is silent while its cap rests, so silence is no fault. A displacement that the device
+/// does not repeat within 200 ms ends, as if the cap had been let go.
 class SpaceMouse final : public Device {
 public:
     SpaceMouse(Identity identity, std::unique_ptr<Wire> wire);

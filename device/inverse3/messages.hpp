@@ -20,7 +20,7 @@ namespace hapnet::device::inverse3 {
 // them (docs.haply.co, WebSocket Protocol, 3.5): JSON, metres and newtons, one state for each
 // message that is sent. Its frame is right-handed: x right, y away from the user, z up.
 
-/// What a service says of one of its devices. In our frame.
+/// The state of one device in a message of the service, in the device frame of device.hpp.
 struct DeviceState {
     std::string id;
     base::Position hip{};

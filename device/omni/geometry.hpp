@@ -66,10 +66,11 @@ inline constexpr double damping_max_ns_per_m = 5.0;
 /// at the stylus.
 [[nodiscard]] glm::dmat3 jacobian(const Joints& joints);
 
-/// The same from where the stylus is, by square roots alone; finite for every finite position.
+/// The Jacobian from the position of the stylus, computed by square roots only. Finite for every
+/// finite position.
 [[nodiscard]] glm::dmat3 jacobian_at(const base::Position& position);
 
-/// Whether the mechanism gets there, give or take `slack` radians.
+/// True if the mechanism reaches these angles, with a tolerance of `slack` radians.
 [[nodiscard]] bool is_reachable(const Joints& joints, double slack = 0.0);
 
 inline constexpr Mechanism mechanism{"omni_torque_max", jacobian_at};

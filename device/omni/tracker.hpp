@@ -33,8 +33,8 @@ public:
     void on_report(const Report& report, base::TimePoint now);
     /// A report came that makes no sense.
     void on_nonsense() { heard_nonsense_ = true; }
-    /// Something happened in which the encoders may have begun to count anew, and the arm may have
-    /// moved meanwhile: that counts look as if they went on proves nothing.
+    /// An event after which the encoders may have restarted and the arm may have moved. Continuous
+    /// counts prove nothing then, so the calibration is lost.
     void on_break() { lose(); }
     /// It is disconnected, for good.
     void on_gone() { gone_ = true; }
@@ -42,7 +42,8 @@ public:
     /// The state at `now`; the last position where no newer one is known.
     [[nodiscard]] const Sample& at(base::TimePoint now);
     [[nodiscard]] CalibrationStep calibration() const;
-    /// Whether forces mean something where it is: calibrated, out of its inkwell, nothing wrong.
+    /// True if forces are meaningful: the device is calibrated, out of its inkwell and without
+    /// fault.
     [[nodiscard]] bool may_push() const;
 
     /// No hand moves farther than this in one report: 5 m/s at 1000 reports per second.

@@ -18,7 +18,7 @@ namespace hapnet::device::omni1394 {
 
 /// A packet from the computer to the device.
 struct HostPacket {
-    /// Of the motors, -2047 to 2047: 12 bits about 0x07ff on the wire.
+    /// Motor values, -2047 to 2047. On the wire each has 12 bits around 0x07ff.
     glm::ivec3 motors{0};
     bool motors_on = false;
     bool dock_light_flashes = false;

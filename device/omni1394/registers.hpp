@@ -17,8 +17,8 @@ inline constexpr std::uint64_t to_host_channel_register = 0x1001;   // 1 byte
 /// 1 byte; bit 3: it sends and listens.
 inline constexpr std::uint64_t control_register = 0x1087;
 inline constexpr std::byte control_streaming_bit{0x08};
-/// 4 bytes. One program cannot do without writing them, with another two devices at once worked
-/// only without. Nobody knows what for.
+/// 4 bytes of unknown purpose. One of the open programs needs to write them; with another, two
+/// devices at once worked only without.
 inline constexpr std::uint64_t dubious_register = 0x20010;
 inline constexpr std::array<std::byte, 4> dubious_value{std::byte{0x00}, std::byte{0x00},
                                                         std::byte{0x0f}, std::byte{0xf8}};

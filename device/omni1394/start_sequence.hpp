@@ -37,7 +37,8 @@ public:
 
     /// nullopt: it is over, well or not.
     [[nodiscard]] std::optional<RegisterAccess> next() const;
-    /// Of the access last given: what was read, nothing of a write.
+    /// Takes the answer to the access that next() returned: the bytes that were read, or none after
+    /// a write.
     void on_answer(std::span<const std::byte> bytes);
 
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }

@@ -13,7 +13,7 @@
 
 namespace hapnet::device {
 
-/// What a visitor of the page makes their hand do.
+/// A visitor's request for the hand of the page.
 struct HandWish {
     base::Position place;
     bool grips = false; // what is within reach of the hand

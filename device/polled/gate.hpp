@@ -10,9 +10,9 @@
 
 namespace hapnet::device::polled {
 
-/// Decides what force goes out in each exchange. In doubt zero, with the motors off: before the
-/// first answer, after an exchange without one, while the device is at fault or not calibrated, for
-/// a force that is not finite, and for one that is not given anew for 20 ms.
+/// Decides which force each exchange sends. The force is zero and the motors are off before the
+/// first answer, after an exchange without an answer, while the device has a fault or is not
+/// calibrated, and for a force that is not finite or older than 20 ms.
 class Gate {
 public:
     /// The command to send at `now`. `newest` is the latest one, `is_new` since the last call.

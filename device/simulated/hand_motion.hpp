@@ -45,7 +45,7 @@ public:
     void advance(HandAxis& axis, const HandDrive& drive) const;
 
 private:
-    /// What drives an axis whose friction has one sign, at the start of a step.
+    /// The acceleration of an axis whose friction keeps its sign, at the start of a step.
     struct Pull {
         double acceleration = 0.0; // by spring, force and friction
         double jerk = 0.0;         // by the target's motion

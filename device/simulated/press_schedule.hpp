@@ -27,8 +27,8 @@ inline constexpr std::array<PressInterval, 6> press_schedule{{{2.0, 8.0, true, 0
                                                               {20.75, 24.75, false, 1.0},
                                                               {24.75, 26.75, false, 2.0}}};
 
-/// The same with what the options change of it: all at one frequency, each interval cut to whole
-/// cycles, maybe none.
+/// Returns the schedule under the options: all intervals at one frequency, each cut to whole
+/// cycles, which may be none.
 [[nodiscard]] inline std::array<PressInterval, 6> press_schedule_of(const TaskOptions& options)
 {
     std::array<PressInterval, 6> schedule = press_schedule;

@@ -30,7 +30,7 @@ struct Emulation {
     OpenFile folder{};
     /// The text of a built-in profile.
     std::function<base::Result<std::string>(const std::string& name)> preset{};
-    /// What a sentence of tc-netem asks for.
+    /// Translates a command line of tc-netem into a profile.
     std::function<base::Result<TranslatedProfile>(const std::string& sentence)> netem{};
     /// How much of the last packets is held in memory; nullopt: none.
     std::optional<base::Duration> held{};

@@ -36,7 +36,7 @@ namespace hapnet::emulator {
 /// The metrics in the statistics of a run. Of several links each has its own.
 [[nodiscard]] output::Metrics metrics_of(nlohmann::ordered_json statistics);
 
-/// What becomes of a request.
+/// Returns the answer to a request, or the condition or interval that the client waits for.
 [[nodiscard]] control::Answer answer_to(std::string_view line, Emulation& emulation,
                                         base::TimePoint now);
 

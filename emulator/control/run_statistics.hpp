@@ -68,7 +68,7 @@ constexpr auto fields_of(base::Tag<ChangeReport>)
                      "(`up.delay`); empty where another profile changed none."));
 }
 
-/// What held on a path, and how it changed.
+/// The conditions of a path during a run, and their changes.
 struct CourseReport {
     Configuration at_start;
     std::optional<Configuration> at_end;
@@ -160,7 +160,7 @@ constexpr auto fields_of(base::Tag<LinkReport>)
             .left_out_if_none());
 }
 
-/// What a network interface passed on, apart from what its path did.
+/// Counters of a network interface, apart from those of its path.
 struct InterfaceReport {
     std::string interface;
     std::uint64_t undisturbed = 0;
@@ -195,7 +195,7 @@ constexpr auto fields_of(base::Tag<InterfaceReports>)
                         base::member("b", &InterfaceReports::b));
 }
 
-/// What the system granted of what punctuality wants.
+/// The privileges for punctual sending that the system granted.
 struct RealTimeReport {
     bool fifo = false;
     bool locked_memory = false;
@@ -209,7 +209,7 @@ constexpr auto fields_of(base::Tag<RealTimeReport>)
                      "Whether it granted locked memory."));
 }
 
-/// What became of a check.
+/// The result of a check.
 struct CheckReport {
     std::string require;
     std::optional<double> value;
@@ -249,7 +249,7 @@ constexpr auto fields_of(base::Tag<ProgramReport>)
                         base::member("real_time", &P::real_time));
 }
 
-/// What a run stands between.
+/// The two ends of a run: commands, interfaces or addresses.
 struct EndsReport {
     std::optional<std::string> command{};
     std::optional<std::string> through{};

@@ -22,14 +22,15 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<std::vector<Setting>>
 settings_of(const SetRequest& request, const OpenFile& open, const PathNames& names);
 
-/// What settings mean for the path called `name` while `path` holds on it: burst_loss changes the
-/// list of losses that holds. Of those that contradict each other wins the one that with_settings()
-/// says.
+/// Returns the effect of settings on the path called `name`, whose present state is `path`:
+/// burst_loss, for example, changes the present list of losses. Where settings contradict each
+/// other, the order of with_settings() decides.
 [[nodiscard]] base::Result<Set> set_of(std::span<const Setting> settings,
                                        std::optional<base::Duration> lasting, std::string_view name,
                                        const Path& path);
 
-/// What a patch sets one way: {"up.delay", "80ms"}, ...; a value is what parse_setting() reads.
+/// Returns the settings of a patch for one direction as texts: {"up.delay", "80ms"}, ...
+/// parse_setting() reads the values.
 [[nodiscard]] std::vector<SettingText> texts_of(Direction direction, const Patch& patch,
                                                 std::string_view path = {});
 

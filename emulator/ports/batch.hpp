@@ -38,8 +38,8 @@ struct Entrance {
     const net::Endpoint& local; // of the socket
 };
 
-/// What a filter of flows may know of a datagram on its way between two ends. Where the other end
-/// is not known, it has neither an address nor a port.
+/// Returns the properties of a datagram that filters of flows can match. A destination that is not
+/// known has neither address nor port.
 [[nodiscard]] PacketFacts facts_of(const net::Received& datagram,
                                    const std::optional<net::Endpoint>& destination);
 
@@ -51,8 +51,8 @@ struct Exit {
     const std::optional<net::Endpoint>& destination;
 };
 
-/// What leaves in one direction, of a path and its flows: gathered and sent together. Flush it
-/// before the bytes go.
+/// Datagrams that leave in one direction, from a path and its flows, gathered and sent together.
+/// Call flush() before their bytes become invalid.
 class Batch {
 public:
     Batch(const Way& way, const Exit& exit) : way_{way}, exit_{exit} {}

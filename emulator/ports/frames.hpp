@@ -75,7 +75,7 @@ public:
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
-    /// What leaves on one side, gathered and sent together.
+    /// Frames that leave on one side, gathered and sent together.
     class Outgoing;
 
     void pass(Side& from, Side& to);

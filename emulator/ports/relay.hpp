@@ -24,8 +24,8 @@ namespace hapnet::emulator::ports {
 /// every decision.
 class Relay {
 public:
-    /// What it has among the relays of a run: a name, unless it is the only one, all sockets, its
-    /// place among them and in the fates, and the lane to the records.
+    /// The place of a relay among the relays of a run: its name (empty for a single relay), all
+    /// sockets, its number, its number in the fates, and its lane to the records.
     struct Among {
         std::string name;
         OwnSockets& own;
@@ -45,7 +45,7 @@ public:
     /// due, and sends on at once what is not delayed. Conditions that change in the meantime hold
     /// from the first datagram that arrived after their time.
     void receive();
-    /// The same of one side.
+    /// Takes what has arrived on one side, like receive().
     void receive_from_a() { pass(a_, b_); }
     void receive_from_b() { pass(b_, a_); }
 
@@ -86,8 +86,8 @@ public:
         void on_stranger(const net::Received& datagram, Refusal why);
     };
 
-    /// What somebody should be told: who is on which side now, or of a stranger, once of each;
-    /// nullopt: there is nothing. After a stranger no other of its side is named for a while.
+    /// Returns the next message for the user: a side's new peer or a stranger, each once. nullopt:
+    /// no message. After a stranger, the next stranger of that side is named only after a pause.
     [[nodiscard]] std::optional<std::string> next_notice();
 
     [[nodiscard]] const std::string& name() const { return name_; }

@@ -55,13 +55,13 @@ public:
         std::uint64_t strangers = 0; // datagrams to its socket that are not the server's
     };
 
-    /// Of one flow.
+    /// The statistics of one flow.
     struct FlowSums {
         Statistics up;
         Statistics down;
     };
 
-    /// Of clients that have been forgotten.
+    /// Sums over the clients that have been forgotten.
     struct Departed {
         Statistics up; // of those that belong to no flow
         Statistics down;
@@ -100,7 +100,7 @@ public:
     [[nodiscard]] std::uint64_t unreachable() const;
 
 private:
-    /// What the parts have in common.
+    /// Data that all parts share.
     struct Common {
         ServerAndClients places;
         Setup setup;
@@ -118,7 +118,7 @@ private:
 /// Some of the clients: those whose datagrams come to its socket.
 class Upstream::Part {
 public:
-    /// What it shares, the paths and the lane outlive it.
+    /// `common`, `paths` and `recorder` have to outlive the part.
     Part(Common& common, net::UdpSocket listening, Paths& paths, Recorder::Lane& recorder);
 
     /// Takes what has arrived, at most one batch of each socket, and sends on at once what is not

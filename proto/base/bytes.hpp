@@ -54,11 +54,11 @@ public:
         return taken;
     }
 
-    /// Whether so many bytes are left.
+    /// True if at least `count` bytes are left.
     [[nodiscard]] bool holds(std::size_t count) const { return left_.size() >= count; }
-    /// Whether every read was served.
+    /// True if no read has run short.
     [[nodiscard]] bool ok() const { return !short_; }
-    /// Whether every read was served and nothing is left over.
+    /// True if no read has run short and no byte is left over.
     [[nodiscard]] bool complete() const { return !short_ && left_.empty(); }
 
 private:

@@ -8,13 +8,13 @@
 
 namespace hapnet::base {
 
-/// What stamps of one clock may differ by besides the way that a message takes: they are converted
-/// from the wall clock, and taken a little late.
+/// Largest difference between stamps of one clock, apart from the travel time of a message: stamps
+/// are converted from the wall clock, and taken a little late.
 inline constexpr Duration stamps_differ_by{std::chrono::milliseconds{1}};
 
-/// Whether an offset that is known to `uncertainty` shows that two clocks are not one, although
-/// both sides name the same boot: they are in two time namespaces, or in two virtual machines that
-/// were made of one snapshot.
+/// True if an offset, known to `uncertainty`, shows that two clocks differ although both sides
+/// report the same boot. This happens with two time namespaces, or with two virtual machines from
+/// one snapshot.
 [[nodiscard]] constexpr bool are_two_clocks(Duration offset, Duration uncertainty)
 {
     const Duration most = uncertainty + stamps_differ_by;

@@ -28,7 +28,7 @@ struct Condition {
                                                 std::string_view example = "up.received>1000");
 [[nodiscard]] std::string to_text(const Condition& condition);
 
-/// Whether a value meets the condition.
+/// True if a value meets the condition.
 [[nodiscard]] bool holds(const Condition& condition, double value);
 
 } // namespace hapnet::base

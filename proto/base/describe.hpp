@@ -60,7 +60,7 @@ struct Told {
     {
         return with([&](Telling& t) { t.words = words; });
     }
-    /// Likewise, also where it is 0.
+    /// Like told(), and printed even if the count is 0.
     [[nodiscard]] constexpr Self always_told(std::string_view words) const
     {
         return with([&](Telling& t) { t.words = words, t.is_told_always = true; });
@@ -75,8 +75,8 @@ struct Told {
     {
         return with([&](Telling& t) { t.metric = {name, false, {}}; });
     }
-    /// What stands below it are metrics, which are told apart by this label: the key, or of a map
-    /// the names.
+    /// The fields below this one are metrics with this label. The label's value is the field's key,
+    /// or the names of a map.
     [[nodiscard]] constexpr Self label(std::string_view label) const
     {
         return with([&](Telling& t) { t.metric = {{}, false, label}; });
@@ -123,28 +123,28 @@ struct Field : Told<Field<Struct, Value, Format>> {
         : key{its_key}, member{its_member}, format{its_format}, about{its_about}
     {}
 
-    /// The same field, which has to be written.
+    /// This field, as one that a text has to contain.
     [[nodiscard]] constexpr Field required() const
     {
         Field copy = *this;
         copy.is_required = true;
         return copy.always();
     }
-    /// The same field, which is printed even if it has its default.
+    /// This field, printed even if it has its default.
     [[nodiscard]] constexpr Field always() const
     {
         Field copy = *this;
         copy.is_always_printed = true;
         return copy;
     }
-    /// The same field, which is printed even if it has its default where another member is set.
+    /// This field, printed even if it has its default when the bool member `other` is set.
     [[nodiscard]] constexpr Field if_set(bool Struct::*other) const
     {
         Field copy = *this;
         copy.printed_if = other;
         return copy;
     }
-    /// The same field, whose missing value is written as a word: "never".
+    /// This field, whose missing value is written as a word such as "never".
     [[nodiscard]] constexpr Field absent_as(std::string_view word) const
     {
         Field copy = *this;

@@ -28,7 +28,7 @@ struct WrittenAs {
     std::string (*example)(const void* format); // empty: the format has none
 };
 
-/// What is done with a value that is there for the moment.
+/// Uses a value that exists only during the call.
 using UseValue = std::function<void(const void* value)>;
 
 /// A member of a struct, or a figure that is computed of it, as describe.hpp describes it.
@@ -67,7 +67,7 @@ struct FieldTable {
 /// The nanoseconds of the unit of time that a key ends with: 1000 of "late_us"; nullopt: of none.
 [[nodiscard]] std::optional<double> time_unit_of(std::string_view key);
 
-/// What may be written into a field, for people: "a time from 0ms to 10s".
+/// Returns a description of the values that a field accepts, for people: "a time from 0ms to 10s".
 [[nodiscard]] std::string allowed(const FieldRow& row);
 
 /// One member from its value in a text.

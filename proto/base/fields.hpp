@@ -42,7 +42,8 @@ template <Described T>
     return field_texts(field_table<T>(), &value, print);
 }
 
-/// The same, a line each; those of a struct in the struct have dotted keys: `reflex.gain = 0.5`.
+/// Returns the texts of field_texts(), one per line. Fields of nested structs have dotted keys:
+/// `reflex.gain = 0.5`.
 template <Described T>
 [[nodiscard]] std::string field_lines(const T& value, const std::string& prefix = {})
 {
@@ -121,7 +122,7 @@ void add_row(std::vector<FieldRow>& rows, const void* root,
 template <typename Struct>
 void add_rows(std::vector<FieldRow>& rows, const void* root, const Struct& owner);
 
-/// What the lambda of a description gives for a Struct.
+/// The type that the lambda of a description returns for a Struct.
 template <typename Struct, typename Compute>
 using ComputedBy = std::remove_cvref_t<std::invoke_result_t<Compute, const Struct&>>;
 

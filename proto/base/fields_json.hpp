@@ -32,7 +32,7 @@ void add_json(nlohmann::ordered_json& object, const FieldTable& fields, const vo
 [[nodiscard]] Result<void> read_json(const FieldTable& fields, const nlohmann::json& json,
                                      const std::string& source, void* value);
 
-/// Of a struct: an object with the fields' keys, in their order.
+/// Returns a struct as an object, with the keys of its fields in their order.
 template <typename T>
 [[nodiscard]] nlohmann::ordered_json json_of(const T& value)
 {

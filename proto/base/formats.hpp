@@ -189,7 +189,7 @@ private:
     read_index(const Node& node, std::span<const std::string_view> names, Reading& reading);
 };
 
-/// The same for each element of a list, which has `least` at least.
+/// A format for a list, with a format for its elements. The list has at least `least` elements.
 template <typename Element>
 struct List {
     Element element;

@@ -81,7 +81,7 @@ private:
     std::uint64_t max_ = 0;
 };
 
-/// The same, copied by assign(): for who must not be kept waiting while it is copied.
+/// A histogram that is copied by assign(), so that its user does not wait for the copy.
 class SnapshotHistogram : public DurationHistogram {
 public:
     SnapshotHistogram() = default;

@@ -6,7 +6,7 @@
 
 namespace hapnet::base {
 
-/// What an IP header says to the network besides its addresses.
+/// The traffic class and the hop limit of an IP header.
 struct IpMarks {
     std::uint8_t traffic_class = 0; // DSCP and ECN: TOS of IPv4 (RFC 2474, RFC 3168)
     std::uint8_t hop_limit = 0;     // TTL of IPv4; 0: not known
@@ -15,13 +15,14 @@ struct IpMarks {
     static constexpr std::uint8_t ecn_bits = 0b11;
     static constexpr std::uint8_t congestion_experienced = 0b11;
 
-    /// Whether the sender understands marks instead of losses: ECT(0), ECT(1), or marked already.
+    /// True if the sender understands congestion marks in place of losses: ECT(0), ECT(1), or
+    /// already CE.
     [[nodiscard]] constexpr bool is_ecn_capable() const { return (traffic_class & ecn_bits) != 0; }
     [[nodiscard]] constexpr bool is_congested() const
     {
         return (traffic_class & ecn_bits) == congestion_experienced;
     }
-    /// The same, marked CE.
+    /// Returns these marks with CE set.
     [[nodiscard]] constexpr IpMarks with_congestion() const
     {
         return {static_cast<std::uint8_t>(traffic_class | congestion_experienced), hop_limit};

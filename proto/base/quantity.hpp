@@ -81,7 +81,7 @@ inline constexpr QuantityKind turn_kind{
 /// that a bare 0 is zero. The error says what to write.
 [[nodiscard]] Result<double> parse_quantity(std::string_view text, const QuantityKind& kind);
 
-/// Whether this is a unit of anything that people type: "ms", "%", "Mbit/s", "mm".
+/// True if the word is a unit that people type: "ms", "%", "Mbit/s", "mm".
 [[nodiscard]] bool is_unit(std::string_view word);
 
 /// A finite value with the largest unit of which it is at least 1. Reads back as the same bits.

@@ -46,7 +46,7 @@ template <Whole T>
     return static_cast<T>(std::llround(from + (static_cast<double>(b) - from) * progress));
 }
 
-/// What has nothing in between goes only from itself to itself.
+/// A ramp of values that have nothing in between exists only between equal values.
 template <typename T>
 requires(!Described<T> && !Whole<T>)
     [[nodiscard]] std::optional<T> between(const T& a, const T& b, double /*progress*/)

@@ -30,7 +30,8 @@ public:
     OpenFile(Open open) : open_{std::move(open)} // NOLINT(google-explicit-constructor)
     {}
 
-    /// The same files for whoever may name them but not read them: nothing quotes what is in them.
+    /// Returns the same files for a client that may name them but not read them: error messages
+    /// quote none of their content.
     [[nodiscard]] OpenFile unquoted() const
     {
         OpenFile copy = *this;
@@ -55,8 +56,8 @@ private:
 /// value: `40`, `true`.
 [[nodiscard]] tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_bare);
 
-/// What to write instead of a key that its table does not have, for a text of one kind: "write it
-/// below [both], [up] or [down]". Empty: no better advice than the keys of the table.
+/// Returns advice on a key that its table does not have, for one kind of text: "write it below
+/// [both], [up] or [down]". Empty: the list of the table's keys is the best advice.
 using AdviseOnKey = std::function<std::string(std::string_view key)>;
 
 /// The reading of one text: keeps the first complaint about it.
@@ -82,8 +83,8 @@ public:
     }
 
     [[nodiscard]] Result<std::string> open(const std::string& name) const;
-    /// What is wrong in a file that was opened: "FILE: line 3: ..."; only the line, if the file is
-    /// not to be quoted. `what` begins with the line, if there is one to name.
+    /// Returns the error for a file that was opened: "FILE: line 3: ...". If the file is not to be
+    /// quoted, the error has only the line number. `what` begins with the line, if there is one.
     [[nodiscard]] Error trouble_in(const std::string& file, std::string_view what) const;
 
 private:
@@ -102,7 +103,7 @@ private:
 [[nodiscard]] std::string suggestion(std::string_view word,
                                      std::span<const std::string_view> possible);
 
-/// Reads the entries of a table by their keys and complains of those that nobody asked for.
+/// Reads the entries of a table by their keys, and reports entries that were not read.
 class TableReader {
 public:
     TableReader(const Node::Table& table, Place place, Reading& reading)
@@ -128,8 +129,8 @@ private:
     bool is_missing_told_ = false;
 };
 
-/// What `read(document, reading)` makes of a whole text, or the first complaint about it. `source`
-/// names the text in complaints.
+/// Returns the result of `read(document, reading)` for a whole text, or the first complaint about
+/// the text. `source` names the text in complaints.
 template <typename Read>
 [[nodiscard]] auto parse_text(std::string_view text, const std::string& source, const Read& read)
     -> Result<std::invoke_result_t<const Read&, const Node&, Reading&>>
@@ -151,7 +152,7 @@ void complain_of(const Node& node, std::string_view expected, Reading& reading);
 /// The text of a quantity with a unit; a bare 0 needs none.
 [[nodiscard]] std::optional<std::string_view> quantity(const Node& node);
 
-/// What a value is, in words that a complaint can quote.
+/// Returns the type of a value, in words for a complaint.
 [[nodiscard]] std::string what_it_is(const Node& node);
 
 /// A whole number from 0 to `most`; nullopt when it is something else.

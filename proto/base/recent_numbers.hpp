@@ -10,7 +10,7 @@
 
 namespace hapnet::base {
 
-/// Whether a number was seen before.
+/// The answer to the question whether a number was seen before.
 enum class Seen : std::uint8_t { no, yes, too_old_to_tell };
 
 /// Remembers which numbers have been seen, of the highest and the `looks_back - 1` below it. The

@@ -21,7 +21,7 @@ namespace hapnet::base {
 /// The end of a range in an error: 24h, where to_text() prints 86400s.
 [[nodiscard]] std::string bound_text(Duration bound);
 
-/// The same with an optional sign: "-5ms".
+/// Parses a duration with an optional sign: "-5ms".
 [[nodiscard]] Result<Duration> parse_signed_duration(std::string_view text);
 
 /// "93%", "0.5%"; from 0% to 100%.

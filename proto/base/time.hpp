@@ -20,7 +20,8 @@ struct Timeline {
 using Duration = Timeline::duration;
 using TimePoint = Timeline::time_point;
 
-/// Whether there is a deadline and it has come. `std::nullopt <= now` would be true: hence this.
+/// True if there is a deadline and it has come. A plain comparison is wrong: `std::nullopt <= now`
+/// is true.
 [[nodiscard]] constexpr bool is_due(std::optional<TimePoint> deadline, TimePoint now)
 {
     return deadline.has_value() && *deadline <= now;

@@ -48,8 +48,8 @@ using Entries = std::vector<std::pair<std::string, T>>;
 /// A value without parts, as JSON and cells of CSV know it.
 using Leaf = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
 
-/// What code that does not know a type can do with its values. `void` pointers are to values of
-/// that type. One constant for each type, however many fields are of it.
+/// Operations on values for code that does not know their type. The `void` pointers point to values
+/// of that type. Each type has one constant, however many fields have the type.
 struct ValueKind {
     enum class Shape : std::uint8_t {
         opaque, // only a format of its own reads and prints it
@@ -67,7 +67,7 @@ struct ValueKind {
 
     Shape shape = Shape::opaque;
     bool is_signed = false; // a whole number that may be negative
-    /// Of a choice, and of a map whose elements are the same ones always.
+    /// The names of a choice, or of a map whose elements are always the same.
     std::span<const std::string_view> names{};
 
     // flag, whole, number, time, text and choice
@@ -97,7 +97,7 @@ struct ValueKind {
     {
         return at(const_cast<void*>(value), index); // NOLINT(*-const-cast): it is only looked up
     }
-    /// Of the value itself, or of the one that it may hold.
+    /// Returns the kind of the value itself, or of the value that a maybe can hold.
     [[nodiscard]] const ValueKind& plain() const
     {
         return shape == Shape::maybe ? *element : *this;
@@ -129,7 +129,7 @@ struct Kind {
     static constexpr ValueKind kind{};
 };
 
-/// What a leaf gives for a T.
+/// Returns the T in a leaf, or nullopt if the leaf holds none.
 template <typename T>
 [[nodiscard]] std::optional<T> value_from(const Leaf& leaf)
 {
@@ -239,7 +239,7 @@ struct Kind<std::optional<T>> {
         .add = [](void* value) -> void* { return &static_cast<Maybe*>(value)->emplace(T{}); }};
 };
 
-/// What a pointer points to, if it does.
+/// The kind of a pointer: a maybe with the value that it points to.
 template <typename T>
 struct Kind<const T*> {
     static constexpr ValueKind kind{
@@ -282,7 +282,7 @@ struct Kind<Entries<T>> {
         }};
 };
 
-/// Of a container whose elements have addresses.
+/// Returns the kind of a container whose elements have addresses.
 template <typename List>
 [[nodiscard]] constexpr ValueKind list_kind()
 {

@@ -14,7 +14,7 @@ namespace hapnet::base {
 [[nodiscard]] std::string_view commit();
 /// "GCC 12.2.0"
 [[nodiscard]] std::string_view compiler();
-/// What `--version` prints: "hapnet-peer 1.2.3 (commit abc, GCC 12.2.0)".
+/// Returns the output of `--version`: "hapnet-peer 1.2.3 (commit abc, GCC 12.2.0)".
 [[nodiscard]] std::string version_line(std::string_view program);
 
 } // namespace hapnet::base

@@ -26,14 +26,15 @@ public:
     /// --help beside the name.
     explicit Command(std::string name, std::string summary = "");
 
-    /// What its own --help says besides, above and below the options. Lines are filled up to the
-    /// width of the terminal; those that begin with a space stay as they are.
+    /// Sets the text of its --help above the options. Lines are filled to the width of the
+    /// terminal, except those that begin with a space. add_footer() sets the text below the
+    /// options.
     void describe(std::string text) { description_ = std::move(text); }
     void add_footer(std::string text) { footer_ = std::move(text); }
     /// A line each, "  0  done". Those of the program hold for commands that have none of their
     /// own.
     void add_exit_codes(std::string text) { exit_codes_ = std::move(text); }
-    /// What its usage line ends with: "-- COMMAND [ARGUMENT ...]", words that parse() never sees.
+    /// Sets the end of its usage line: "-- COMMAND [ARGUMENT ...]", words that parse() never sees.
     void add_usage(std::string words) { usage_end_ = std::move(words); }
 
     Option& option(std::string names, std::string value, std::string help, Take take);

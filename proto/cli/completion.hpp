@@ -11,8 +11,8 @@ namespace hapnet::cli {
 
 enum class Shell : std::uint8_t { bash, zsh, fish };
 
-/// What completes a program's command line in a shell: its commands, its options, the words that
-/// an option can take, and files where it takes any other.
+/// Returns the script that completes a program's command line in a shell: its commands, its
+/// options, the words that an option takes, and files where an option takes other values.
 [[nodiscard]] std::string completion(const Command& program, Shell shell);
 
 } // namespace hapnet::cli

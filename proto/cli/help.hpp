@@ -13,11 +13,11 @@ namespace hapnet::cli {
 /// How wide --help is: the terminal on stdout, or 80 columns where there is none.
 [[nodiscard]] std::size_t help_columns();
 
-/// What a program prints for packages, as the first word and its values.
+/// The option that prints files for packages, and its values.
 inline constexpr std::string_view generate_word = "--generate";
 inline constexpr std::string_view generate_values = "man|bash|zsh|fish";
 
-/// What `--help` of a command prints.
+/// Returns the output of a command's `--help`.
 [[nodiscard]] std::string help_text(const Command& command, std::size_t columns);
 
 /// How an option stands in a usage line: "[--for TIME]".

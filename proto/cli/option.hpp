@@ -31,7 +31,8 @@ template <typename Target, typename Parse>
     };
 }
 
-/// What a text says by a format (proto/base/formats.hpp). The error says what the format takes.
+/// Parses a text by a format (proto/base/formats.hpp). The error names the values that the format
+/// accepts.
 template <typename T, base::FormatOf<T> Format>
 [[nodiscard]] base::Result<T> value_of(const Format& format, const std::string& text)
 {

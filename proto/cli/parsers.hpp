@@ -20,7 +20,7 @@ using Parser = std::function<base::Result<T>(const std::string& text)>;
 /// Any whole number of 64 bits.
 [[nodiscard]] base::Result<base::Seed> seed(const std::string& text);
 
-/// One of some words, small or capital letters alike.
+/// Parses one of some words, in small or capital letters.
 [[nodiscard]] Parser<std::string> one_of(std::vector<std::string> words);
 
 } // namespace hapnet::cli

@@ -33,7 +33,7 @@ public:
     ~SchemaCommand() = default;
 
     [[nodiscard]] bool is_chosen() const { return command_->is_chosen(); }
-    /// What it prints: the schema, or names and titles of all.
+    /// Returns the text to print: the schema, or the names and titles of all.
     [[nodiscard]] std::string text() const;
 
 private:

@@ -21,11 +21,12 @@ namespace hapnet::cli {
 /// close.
 [[nodiscard]] std::string command_meant(const Command& program, std::string_view word);
 
-/// What is wrong with a word that is none of the program's commands.
+/// Returns the error for a word that is not a command of the program.
 [[nodiscard]] std::string unknown_command(const Command& program, std::string_view word);
 
-/// What a value of an option is called here; the value itself where it is no near miss. The error:
-/// there is nothing of that name here, and what comes closest. `option` is "--task".
+/// Returns the name that this program uses for a value of an option, or the value itself if it is
+/// no near miss. The error says that the name does not exist, and names the closest one. `option`
+/// is "--task".
 [[nodiscard]] base::Result<std::string> meant_value(std::string_view option,
                                                     const std::string& value);
 

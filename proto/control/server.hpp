@@ -25,7 +25,7 @@ public:
     /// still done, a little at a time; beyond that the oldest requests are given up.
     static constexpr std::size_t departed_max = 16;
 
-    /// What its clients may cost whoever serves them.
+    /// Limits of the work that clients cause.
     struct Limits {
         std::size_t line_bytes = Conversation::line_bytes_max;
         int answers = 1; // in one serve()

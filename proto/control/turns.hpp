@@ -13,7 +13,7 @@
 
 namespace hapnet::control {
 
-/// What run() throws when the loop has ended before the work was done.
+/// Thrown by run() when the loop has ended before the work was done.
 class LoopHasEnded : public std::exception {
 public:
     [[nodiscard]] const char* what() const noexcept override { return "the loop has ended"; }
@@ -25,7 +25,7 @@ public:
 class Turns {
 public:
     static constexpr base::Duration pause = std::chrono::microseconds{200};
-    /// What a step takes at most, and how long it may be put off for the sake of what is due.
+    /// Largest duration of a step, and longest delay of a step while departures are due.
     static constexpr base::Duration step_takes = std::chrono::microseconds{100};
     static constexpr base::Duration put_off_max = std::chrono::milliseconds{20};
 
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] int descriptor() const { return ordered_.descriptor(); }
     /// When the next step may be done; nullopt: there is no work.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
-    /// Whether there is a step to be done now.
+    /// True if a step can be done now.
     [[nodiscard]] bool is_due(base::TimePoint now,
                               std::optional<base::TimePoint> next_departure) const;
     /// Does it.

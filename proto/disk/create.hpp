@@ -16,7 +16,7 @@ namespace hapnet::disk {
 
 /// Makes a file that was not there. The error is EEXIST if anything is, a link included.
 [[nodiscard]] Outcome<Descriptor> create(const Place& place, int flags, mode_t mode);
-/// The same under another name in the folder of that place.
+/// Makes a new file like create(), under another name in the folder of `place`.
 [[nodiscard]] Outcome<Descriptor> create_beside(const Place& place, const std::string& name,
                                                 int flags, mode_t mode);
 

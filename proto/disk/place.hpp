@@ -17,8 +17,8 @@ namespace hapnet::disk {
 template <typename Value>
 using Outcome = tl::expected<Value, std::error_code>;
 
-/// What may be written to although it is there, and which links are followed: the rules against
-/// other users of the machine, who can put files and links into a shared folder such as /tmp.
+/// Rules against other users of the machine, who can put files and links into a shared folder such
+/// as /tmp: which existing files may be written to, and which links are followed.
 enum class Refusal : std::uint8_t {
     link_of_another_user = 1,
     file_of_another_user,

@@ -11,7 +11,8 @@
 
 namespace hapnet::disk {
 
-/// What a file with a secret is called, and what it may be.
+/// The kind of a file with a secret: its name in messages, its largest size, and its rule for
+/// links.
 struct PrivateKind {
     enum class Links : std::uint8_t { refused, followed };
 

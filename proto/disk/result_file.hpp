@@ -41,8 +41,8 @@ public:
     /// std::system_error.
     void commit(std::string_view text);
 
-    /// The same, once all of it is on the disk: a machine that fails meanwhile has the old file or
-    /// the new one.
+    /// Commits like commit(), and returns once the whole file is on the disk. If the machine fails
+    /// meanwhile, it has the old file or the new one.
     void commit_to_disk(std::string_view text);
 
 private:

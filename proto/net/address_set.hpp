@@ -41,7 +41,7 @@ public:
     [[nodiscard]] bool contains(const Endpoint& endpoint) const;
     [[nodiscard]] bool empty() const { return members_.empty(); }
 
-    /// Whether all of it is on this machine.
+    /// True if every address is on this machine.
     [[nodiscard]] bool is_loopback() const;
 
 private:

@@ -26,7 +26,7 @@ public:
         Endpoint local; // the first of the sockets that have that address
         bool is_lost = false;
     };
-    /// What has changed since the last call. Never blocks.
+    /// Returns the changes since the last call. Never blocks.
     [[nodiscard]] std::vector<News> news();
 
 private:

@@ -36,8 +36,9 @@ public:
     /// send_one().
     explicit BatchSender(base::IpMarks usual = {}, ErrorQueue* answers = nullptr);
 
-    /// What became of each, in their order; valid until the next send(). Ensures that there are at
-    /// most batch_max. Never blocks. `marks`: those of each datagram, or empty: the socket's own.
+    /// Sends datagrams and returns their outcomes in order, valid until the next send(). Ensures
+    /// that there are at most batch_max. Never blocks. `marks` has the marks of each datagram; if
+    /// it is empty, the marks of the socket hold.
     std::span<const SendOutcome> send(int descriptor, const Endpoint& to,
                                       std::span<const std::span<const std::byte>> datagrams,
                                       std::span<const base::IpMarks> marks = {});
@@ -48,7 +49,7 @@ private:
         std::size_t first = 0;
         std::size_t count = 0;
     };
-    /// What stands beside a message: the size of its segments, and its two marks.
+    /// Control data of a message: the size of its segments, and its two marks.
     struct alignas(cmsghdr) Control {
         std::array<std::byte, CMSG_SPACE(sizeof(std::uint16_t)) + 2 * CMSG_SPACE(sizeof(int))>
             bytes{};

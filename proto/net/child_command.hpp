@@ -30,7 +30,7 @@ public:
         std::vector<std::string> environment{}; // "NAME=value", besides the environment of this one
         std::string hosts{};                    // lines that it reads after those of /etc/hosts
         std::string name_servers{};             // the text of its /etc/resolv.conf; "": as it is
-        /// What it does in its network once prepare() says so, before it runs the command. Throws
+        /// Runs in the command's network when prepare() is called, before the command runs. Throws
         /// std::system_error.
         std::function<void()> prepare{};
     };

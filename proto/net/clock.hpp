@@ -17,7 +17,7 @@ namespace hapnet::net {
 /// The processor time that the calling thread has used, in the kernel and out of it. A system call.
 [[nodiscard]] base::Duration thread_processor_time();
 
-/// The processor time that all threads of this program have used so far, likewise.
+/// The processor time that all threads of this program have used so far. A system call.
 [[nodiscard]] base::Duration program_processor_time();
 
 /// The time of day in seconds since 1970, for manifests, file names, captures

@@ -33,7 +33,7 @@ struct InitReport {
     std::array<char, 512> what{}; // a text that ends with zero
 };
 
-/// What the init of a command shares with the program that has started it.
+/// Descriptors that the init of a command shares with the program that started it.
 struct InitEnds {
     int orders = -1; // a socket of messages
     int ended = -1;  // takes the exit code of the command, an int

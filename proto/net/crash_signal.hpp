@@ -25,7 +25,7 @@ public:
 
     /// Readable once the program is dying, and from then on.
     [[nodiscard]] int descriptor() const { return dying_; }
-    /// Whether it is readable: for a loop that looks and does not wait.
+    /// True if the signal's descriptor is readable, for a loop that checks without waiting.
     [[nodiscard]] static bool has_come() noexcept;
     /// All is in order: let it die.
     void acknowledge() const;

@@ -7,17 +7,17 @@
 
 namespace hapnet::net {
 
-/// What the system refused to do with an address. A cure depends on it: a port that may not be
-/// bound to needs another one than a file that may not be written, for the same number of an error.
+/// The operation on an address that the system refused. One error number has different cures: for a
+/// port that may not be bound, and for a file that may not be written.
 enum class AddressUse { bind, reach };
 
 /// The errors of the system about addresses. All others are taken to be about files and rights.
 [[nodiscard]] const std::error_category& errors_of(AddressUse use);
 
-/// What the system refused, and what a person can do about it.
+/// Returns the refusal of the system, and what a person can do about it.
 [[nodiscard]] std::string explained(const std::system_error& error);
 
-/// The same of a control socket that a client could not connect to.
+/// Returns the refusal of a connection to a control socket, and what a person can do about it.
 [[nodiscard]] std::string explained_connection(const std::system_error& error);
 
 } // namespace hapnet::net

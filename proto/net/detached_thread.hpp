@@ -6,8 +6,8 @@
 
 namespace hapnet::net {
 
-/// Starts a thread that nobody waits for: for work that may block for ever, such as writing to a
-/// pipe that is not read. It may go on until the process ends, so that it owns all that it uses.
+/// Starts a thread that is never joined, for work that may block for ever, such as writing to a
+/// pipe that is not read. The thread may run until the process ends, so it owns all that it uses.
 /// Its stack is small, as it may be locked into memory. Throws std::system_error.
 void start_detached(std::function<void()> work);
 

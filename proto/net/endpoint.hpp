@@ -27,10 +27,12 @@ public:
     [[nodiscard]] Endpoint with_port(std::uint16_t port) const;
     [[nodiscard]] bool is_loopback() const;
     [[nodiscard]] bool is_any() const;
-    /// Whether one host can answer from it: no group of hosts, no broadcast, and not any address.
+    /// True if exactly one host can answer from this address: it is no multicast, broadcast or
+    /// wildcard address.
     [[nodiscard]] bool is_one_host() const;
 
-    /// Whether what is sent here arrives at a socket of this machine that listens at `listen`.
+    /// True if a datagram to this endpoint reaches a socket of this machine that listens at
+    /// `listen`.
     [[nodiscard]] bool reaches(const Endpoint& listen) const;
 
     /// Address and port in a fixed number of bytes, which compare as endpoints do.
@@ -56,7 +58,7 @@ struct HostPort {
 };
 [[nodiscard]] base::Result<HostPort> parse_host_port(std::string_view text);
 
-/// The same of an address to listen on: ":7001" and "7001" are ports of loopback.
+/// Parses an address to listen on: ":7001" and "7001" are ports of loopback.
 [[nodiscard]] base::Result<HostPort> parse_listen_address(std::string_view text);
 
 /// Looks up the addresses of a host that have the family asked for, without doublets, in the order

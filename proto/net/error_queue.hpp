@@ -6,9 +6,8 @@
 
 namespace hapnet::net {
 
-/// What other hosts answer by ICMP to datagrams that a socket has sent. The kernel hands such an
-/// answer to the next call of the socket, in place of what that call was for, and keeps it in a
-/// queue of its own.
+/// The ICMP answers of other hosts to datagrams of a socket. The kernel returns such an answer as
+/// the error of the socket's next call, and also keeps it in a queue of its own.
 class ErrorQueue {
 public:
     /// Has the kernel keep the answers to what this socket sends from now on.

@@ -12,9 +12,9 @@
 
 namespace hapnet::net {
 
-/// Between the thread that is asked to save the last seconds and the one that writes files:
-/// nobody who asks waits for a disk. Clients choose names only within its folder; nothing there is
-/// ever overwritten, and the number of files has a bound.
+/// Passes orders to save the last seconds to the thread that writes files, so that a client never
+/// waits for a disk. Clients choose only names within the folder; existing files are never
+/// overwritten, and the number of files is limited.
 class Keeper {
 public:
     static constexpr int files_max = 100;

@@ -23,7 +23,7 @@
 
 namespace hapnet::net {
 
-/// What a program tells whoever started it, the same in all programs.
+/// Exit codes, the same in all programs.
 inline constexpr int exit_failed = 1;      // it ran, and the run failed
 inline constexpr int exit_usage = 2;       // bad usage or bad input
 inline constexpr int exit_environment = 3; // the system refused
@@ -37,7 +37,7 @@ struct Answer {
 template <typename Options>
 using CommandLine = base::Result<std::variant<Options, Answer>>;
 
-/// What a program does that is not to run: what `said`, a text to print or an error, calls for.
+/// Returns the answer for `said`, a text to print or an error, when the program does not run.
 [[nodiscard]] inline tl::expected<Answer, base::Error>
 answer_of(base::Result<std::optional<std::string>> said)
 {
@@ -45,8 +45,8 @@ answer_of(base::Result<std::optional<std::string>> said)
     return Answer{**std::move(said)};
 }
 
-/// Text for a person, on stderr. What nobody can read is not an error: a closed or full stderr
-/// must not end a session.
+/// Writes text for a person to stderr. A closed or full stderr is not an error: it must not end a
+/// session.
 inline void tell(const std::string& text)
 {
     std::ignore = std::fwrite(text.data(), 1, text.size(), stderr);

@@ -9,7 +9,7 @@
 
 namespace hapnet::net {
 
-/// What the system granted of what a 1 kHz loop wants.
+/// The privileges of a 1 kHz loop that the system granted.
 struct RealTime {
     bool fifo = false;          // SCHED_FIFO
     bool locked_memory = false; // mlockall

@@ -11,9 +11,9 @@
 
 namespace hapnet::net {
 
-/// Tells the service manager that started this program how it goes, as sd_notify(3) has it: systemd
-/// does with Type=notify and WatchdogSec=. Tells nobody where the environment names none. Never
-/// blocks: a message that the manager has no room for is lost.
+/// Reports the state of the program to the service manager that started it, by sd_notify(3):
+/// systemd asks for this with Type=notify and WatchdogSec=. Does nothing if the environment names
+/// no manager. Never blocks: a message that the manager has no room for is lost.
 class ServiceManager {
 public:
     /// Before any thread. Takes what it reads out of the environment: the programs that this one

@@ -15,12 +15,12 @@ namespace hapnet::net {
 /// has ended, whatever ended it.
 inline constexpr const char* lifeline_variable = "HAPNET_LIFELINE";
 
-/// The name of the environment variable for the folder that the holder of the lifeline has made for
-/// this program, with its control socket, say. When the lifeline has hung up, nobody is left to
-/// remove that folder: the program does so at its end, if the folder is empty then.
+/// The environment variable for the folder, such as that of the control socket, that the holder of
+/// the lifeline has made for this program. If the lifeline hangs up, the program removes the folder
+/// at its end, provided that it is empty.
 inline constexpr const char* lifeline_folder_variable = "HAPNET_LIFELINE_FOLDER";
 
-/// What SIGHUP means: that the terminal has gone, or that a file is to be read again.
+/// The meaning of SIGHUP: the terminal has gone, or a file is to be read again.
 enum class Hangup : std::uint8_t { stop, reload };
 
 /// SIGINT, SIGTERM and SIGHUP as something to wait for. Construct one, first thing in main and
@@ -38,8 +38,8 @@ public:
     /// Readable once a signal has come, until one of the functions below was called.
     [[nodiscard]] int descriptor() const;
 
-    /// Whether one that means stop has come since construction; stays true. From any thread: each
-    /// one that asks learns of a signal by itself, whatever the others are doing. Never blocks.
+    /// True once a signal that means stop has come; stays true. May be called from any thread: each
+    /// thread learns of the signal independently. Never blocks.
     [[nodiscard]] bool requested() const;
 
     /// For how long a stop has been asked for; 0: it has not.
@@ -49,13 +49,14 @@ public:
     /// before any.
     [[nodiscard]] int number() const;
 
-    /// Whether a key of the terminal or its hangup sent it: to all programs of its group.
+    /// True if a key of the terminal, or its hangup, sent the signal to all programs of the
+    /// terminal's group.
     [[nodiscard]] bool came_to_group() const;
 
     /// From any thread: as if such a signal had come.
     void request() const;
 
-    /// Whether one that means reload has come since the last call.
+    /// True if a signal that means reload has come since the last call.
     [[nodiscard]] bool reload_requested() const;
 
     /// From now on, until the process has gone: when it is still there `patience` after a stop was

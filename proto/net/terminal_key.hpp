@@ -10,7 +10,7 @@ class TerminalKey {
 public:
     explicit TerminalKey(int descriptor = 0);
 
-    /// Whether it was pressed since the last call. Never blocks.
+    /// True if the key was pressed since the last call. Never blocks.
     [[nodiscard]] bool was_pressed() const;
 
 private:

@@ -20,7 +20,7 @@ public:
     /// that is folded cannot be written over.
     [[nodiscard]] std::string shown(std::string_view text);
 
-    /// What to write before other text: takes the line away, if there is one.
+    /// Returns the bytes to write before other text: they remove the line, if there is one.
     [[nodiscard]] std::string room();
 
     /// Leaves the line as it is, if there is one, and begins a new one.

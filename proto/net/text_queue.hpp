@@ -27,7 +27,7 @@ public:
     /// From any thread.
     void put(std::string_view text);
 
-    /// Whether all text was written, dropped or refused.
+    /// True if all text was written, dropped or refused.
     [[nodiscard]] bool is_done() const;
     /// Bytes that were written, ever: it grows as long as somebody takes them.
     [[nodiscard]] std::uint64_t written() const;

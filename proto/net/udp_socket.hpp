@@ -22,7 +22,7 @@ struct Received {
     base::IpMarks marks{}; // of Load::bulk; with Load::stream they are not asked for
 };
 
-/// What a socket is for.
+/// The expected load of a socket.
 enum class Load : std::uint8_t {
     stream, // one sender at a few thousand datagrams a second
     bulk,   // as many as it can take: the kernel may hand over neighbours of one size together
@@ -41,8 +41,8 @@ public:
 
     /// Binds to `local` (port 0: any free port). Throws std::system_error naming the address.
     explicit UdpSocket(const Endpoint& local, Load load = Load::stream);
-    /// Another one at the place of `first`: all datagrams of one sender come to the same of them.
-    /// Nobody else has it, as the first was bound alone.
+    /// Binds another socket to the place of `first`. All datagrams of one sender arrive at the same
+    /// socket of the two. No other program can share the place, as `first` was bound alone.
     [[nodiscard]] static UdpSocket beside(UdpSocket& first, Load load);
     ~UdpSocket();
     UdpSocket(UdpSocket&& other) noexcept;

@@ -11,7 +11,7 @@
 
 namespace hapnet::net {
 
-/// What became of an attempt to move bytes.
+/// The result of an attempt to move bytes.
 struct Transfer {
     enum class State : std::uint8_t {
         moved,
@@ -51,9 +51,9 @@ private:
 /// A Unix socket in the file system that only its owner may open (mode 0600). Never blocks.
 class UnixListener {
 public:
-    /// Takes the place of a socket on which nobody answers any more, and of nothing else. Throws
-    /// std::system_error naming the path, EADDRINUSE when somebody answers there or it is no
-    /// socket.
+    /// Takes the place of a socket on which no program answers any more, and of nothing else.
+    /// Throws std::system_error naming the path: EADDRINUSE if a program answers there or the file
+    /// is not a socket.
     explicit UnixListener(std::string path);
     /// Removes the socket, if it is still this one.
     ~UnixListener();

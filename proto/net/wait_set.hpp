@@ -9,7 +9,7 @@
 
 namespace hapnet::net {
 
-/// What a descriptor is ready for.
+/// The operations that a descriptor is ready for.
 struct Ready {
     std::uint64_t key = 0; // as it was added
     bool is_readable = false;

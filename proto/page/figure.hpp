@@ -17,7 +17,7 @@ namespace hapnet::page {
 
 // Figures as data; web/page/figures draws them. Colours are names of palette.css: "left".
 
-/// What values span; empty until one is included.
+/// The range of some values; empty until one is included.
 struct Range {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ struct Range {
 
 enum class Scale : std::uint8_t { linear, logarithmic };
 
-/// What stands along a side of a figure.
+/// One axis of a figure.
 struct Axis {
     std::string label;
     std::string unit{};
@@ -42,7 +42,7 @@ struct Point {
     double y = 0.0;
 };
 
-/// What a curve may be at x.
+/// The range of a curve at x.
 struct BandPoint {
     double x = 0.0;
     Range y;

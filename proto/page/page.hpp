@@ -18,7 +18,8 @@ struct Asset {
     std::string_view packed; // by gzip; empty: of web/page
 };
 
-/// What each page carries: the modules that draw it, and its style sheets. A generated file has it.
+/// The files that each page carries: the modules that draw it, and its style sheets. The build
+/// generates the file that defines them.
 [[nodiscard]] std::span<const Asset> page_assets();
 
 /// A part of a page, with a line in its contents.

@@ -17,7 +17,7 @@ namespace hapnet::record {
 inline constexpr std::size_t row_bytes = 216;
 /// A row of a body takes this many, since version 5.
 inline constexpr std::size_t body_row_bytes = 117;
-/// Of a row of a message, those before the message.
+/// Bytes of a message row before the message.
 inline constexpr std::size_t message_head_bytes = 21;
 
 /// How the rows of a file are laid out: all rows of one kind have one length.
@@ -35,7 +35,7 @@ struct Layout {
     {
         return {.message_row_bytes = message_head_bytes + bytes};
     }
-    /// The same with rows of bodies.
+    /// Returns the layout that also has rows of bodies, with messages of the same length.
     [[nodiscard]] constexpr Layout with_bodies() const
     {
         return {.version = 5, .message_row_bytes = message_row_bytes};
@@ -45,7 +45,8 @@ struct Layout {
     {
         return version >= 5 ? body_row_bytes : body_row_bytes - sizeof(BodyRow::owner);
     }
-    /// Whether its rows have the field of this name, which some row of the newest version has.
+    /// True if its rows have the field of this name, which is a field of some row in the newest
+    /// version.
     [[nodiscard]] bool has_field(std::string_view name) const;
     [[nodiscard]] static constexpr Layout of_version_2()
     {

@@ -46,7 +46,7 @@ struct TickRow {
     Phase phase = Phase::waiting;
     bool touching = false;
     bool remote_touching = false;
-    /// Whether the remote state is young enough to be used.
+    /// True if the remote state was young enough to be used.
     bool remote_fresh = false;
     base::Position hip;
     base::Velocity hip_velocity;
@@ -93,7 +93,7 @@ struct MessageRow {
     friend bool operator==(const MessageRow&, const MessageRow&) = default;
 };
 
-/// What this peer and another have agreed on; written when the start is agreed, whenever any of it
+/// The agreement between this peer and another. Written when the start is agreed, whenever a value
 /// changes, and every second.
 struct SessionRow {
     /// T0 on this peer's clock.

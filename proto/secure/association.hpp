@@ -28,21 +28,21 @@ struct Moment {
     std::int64_t unix_ns = 0;
 };
 
-/// What one peer and another seal their messages with: makes keys when the two meet, makes new ones
-/// every two minutes and after silence, opens what comes under them, and knows where the other side
-/// is. Does no I/O and reads no clock: feed with on_datagram() and tick(), drain with poll(). A
-/// call of tick() takes at most one multiplication on the curve. All memory is there from the
-/// beginning, whatever comes.
+/// The sealed connection between one peer and another. Makes keys when the two meet, makes new ones
+/// every two minutes and after silence, opens messages that come under them, and tracks the address
+/// of the other side. Does no I/O and reads no clock: feed with on_datagram() and tick(), drain
+/// with poll(). A call of tick() does at most one multiplication on the curve. All memory is
+/// allocated at construction.
 ///
-/// A message of a handshake that is refused ends nothing: the genuine message may still come. Those
-/// that have the right MAC wait to be read, an initiation for one tick and a response for two, and
-/// of more than `waiting_max` an unbiased choice does. With 1000 forged ones a second from a member
-/// of the circle, about one genuine message in four is read, and each is repeated 50 times a
-/// second.
+/// A handshake message that is refused ends nothing: the genuine message may still come. Messages
+/// with the right MAC wait to be read, an initiation for one tick and a response for two; if more
+/// than `waiting_max` wait, an unbiased choice of them is kept. With 1000 forged messages a second
+/// from a member of the circle, about one genuine message in four is read, and each is repeated 50
+/// times a second.
 ///
-/// The lower id wins when both begin at the same time. The responder goes on with the old key until
-/// something opens under the new one; the initiator says something under it until it is answered. A
-/// key is for one run of each side, so it names their session.
+/// The lower id wins when both begin at the same time. The responder uses the old key until a
+/// message opens under the new one; the initiator sends a message under the new key until it is
+/// answered. A key belongs to one run of each side, so it names their session.
 class Association {
 public:
     static constexpr base::Duration silence{std::chrono::seconds{1}};
@@ -74,8 +74,8 @@ public:
     Association& operator=(const Association&) = delete;
     ~Association() = default;
 
-    /// Whether a datagram says that it is for these two: it names a key or a handshake of theirs,
-    /// or is a handshake's beginning from the one to the other. Nothing is proved by that.
+    /// True if a datagram claims to be for these two: it names one of their keys or handshakes, or
+    /// begins a handshake from the other side. This proves nothing about its sender.
     [[nodiscard]] bool is_named_by(Bytes datagram) const;
 
     /// A message that was opened: the first bytes of the datagram are the plain message.
@@ -93,7 +93,7 @@ public:
         HandshakeFrame frame;
         Place to{};
     };
-    /// What a handshake has to send.
+    /// Returns the next message of a handshake to send.
     [[nodiscard]] std::optional<Outgoing> poll();
 
     /// Seals a plain message in place; its room has `control_overhead` bytes more. nullopt: there
@@ -101,7 +101,8 @@ public:
     [[nodiscard]] std::optional<std::size_t> seal(std::span<std::byte> room, std::size_t size,
                                                   base::TimePoint now);
     [[nodiscard]] bool has_key(base::TimePoint now) const;
-    /// Where to send; nullopt before the other side was heard, when nobody said it.
+    /// The address to send to. nullopt if no address was given and the other side has not been
+    /// heard yet.
     [[nodiscard]] const std::optional<Place>& place() const { return place_; }
     [[nodiscard]] std::optional<base::Duration> key_age(base::TimePoint now) const;
 
@@ -120,13 +121,13 @@ public:
         std::uint64_t not_sealed = 0;
         base::Duration last_handshake{}; // 0: this side has begun none that was finished
 
-        /// Of several associations together; of the times the longest.
+        /// Adds the counts of another association, and keeps the longer of the two times.
         Counts& operator+=(const Counts& other);
     };
     [[nodiscard]] const Counts& counts() const { return counts_; }
 
 private:
-    /// What one handshake made.
+    /// The keys that one handshake made, and their use.
     struct Epoch {
         Epoch(KeyIndex own_index, KeyIndex other_index, NoiseKk::TransportKeys keys,
               std::uint32_t run, std::uint32_t number, base::TimePoint now)
@@ -176,7 +177,7 @@ private:
         std::optional<KeyIndex> other; // while a response is read
         Place answered_from{};
 
-        /// Whether step_initiation() has something to do.
+        /// True if step_initiation() has work to do.
         [[nodiscard]] bool has_work() const { return !frame || other || !responses.is_empty(); }
     };
     struct Responding {

@@ -41,9 +41,9 @@ public:
 
     Door(const Hash& own_mac1_key, Secret seed);
 
-    /// Whether a handshake message's first MAC is the one for us. Ask this first.
+    /// True if the first MAC of a handshake message is valid for this peer. Check this first.
     [[nodiscard]] bool knows_us(Bytes covered, Bytes mac1) const;
-    /// Whether a genuine initiation gets in without a cookie, or has brought one.
+    /// True if a genuine initiation gets in without a cookie, or has brought one.
     [[nodiscard]] bool lets_in(const Initiation& initiation, const Place& from,
                                base::TimePoint now);
     /// The answer when it does not.

@@ -42,7 +42,7 @@ using KeyIndex = std::uint32_t;
 /// seal; to another message a number and the tag.
 inline constexpr std::size_t state_overhead = tag_bytes;
 inline constexpr std::size_t control_overhead = 4 + tag_bytes;
-/// What stays readable: magic, version, type, key, sequence, time of sending.
+/// The bytes of a message that stay readable: magic, version, type, key, sequence, time of sending.
 inline constexpr std::size_t state_head_bytes = 20;
 inline constexpr std::size_t control_head_bytes = 12;
 /// A plain hello that says nothing: sealed it shows that its sender has the key, as a side that has
@@ -124,8 +124,9 @@ public:
                                                Bytes sealed);
     /// A sealed hello that says nothing.
     [[nodiscard]] static HandshakeFrame confirmation(Bytes sealed);
-    /// Of an initiation or response: what proves that the sender knows whom it speaks to, and that
-    /// it can be reached where it says; zeros until they are set.
+    /// Sets the two MACs of an initiation or response. They prove that the sender knows its
+    /// receiver's key, and that it can be reached at its address. They are zeros until they are
+    /// set.
     void set_macs(Bytes key_of_mac1, const std::optional<Mac>& cookie);
     [[nodiscard]] Bytes mac1() const;
 

@@ -16,8 +16,8 @@
 
 namespace hapnet::secure {
 
-/// What a host has to have to play in a circle of peers: its own private key, everybody else's
-/// public one, and a key that all of them share. As text:
+/// The keys that a host needs in a circle of peers: its own private key, the public keys of all
+/// other members, and a key that all members share. As text:
 ///
 ///     name = "lab"                 # of the circle
 ///     id = 1
@@ -46,13 +46,14 @@ struct KeyFile {
     [[nodiscard]] bool has_pre_shared() const { return !is_zero(pre_shared.bytes()); }
     /// nullptr when no such peer is in the circle.
     [[nodiscard]] const Member* find(std::uint8_t peer) const;
-    /// What an association with that peer needs; the peer is in the circle.
+    /// Returns the keys for an association with that peer, which is a member of the circle.
     [[nodiscard]] StaticKeys keys_with(const Member& member) const;
     /// The circle's name as handshakes carry it.
     [[nodiscard]] std::array<std::byte, 8> circle() const;
-    /// Twelve groups of five decimal digits (199 bits), the same on every host of a circle whose
-    /// hosts hold the same keys: to be compared by telephone. Tells nothing of the keys. Who stands
-    /// between two hosts would have to try 2^99 keys to find two that look alike.
+    /// Twelve groups of five decimal digits (199 bits), to be compared by telephone. They are the
+    /// same on every host of a circle whose hosts hold the same keys, and reveal nothing of the
+    /// keys. An attacker between two hosts would have to try 2^99 keys to find two with similar
+    /// digits.
     [[nodiscard]] std::string fingerprint() const;
 };
 

@@ -12,7 +12,7 @@
 
 namespace hapnet::secure {
 
-/// What one side of a handshake has before it begins.
+/// The keys that one side has before a handshake begins.
 class StaticKeys {
 public:
     /// nullopt when nothing can be shared with that public key.
@@ -78,7 +78,7 @@ public:
 
     /// The message, when write() is done.
     [[nodiscard]] Bytes message() const { return Bytes{buffer_}.first(size_); }
-    /// What was in it, when read() is done.
+    /// The payload of the message, when read() is done.
     [[nodiscard]] Bytes payload() const;
 
     /// The keys for what follows, after both messages.

@@ -110,17 +110,17 @@ void seal(const Secret& key, std::uint64_t number, Bytes associated, std::span<s
 [[nodiscard]] bool open(const Secret& key, std::uint64_t number, Bytes associated,
                         std::span<std::byte> room);
 
-/// The same with XChaCha20-Poly1305, whose nonces may be drawn at random.
+/// Seals and opens with XChaCha20-Poly1305, whose nonces may be drawn at random.
 inline constexpr std::size_t wide_nonce_bytes = 24;
 using WideNonce = std::array<std::byte, wide_nonce_bytes>;
 void seal(const Secret& key, const WideNonce& nonce, Bytes associated, std::span<std::byte> room);
 [[nodiscard]] bool open(const Secret& key, const WideNonce& nonce, Bytes associated,
                         std::span<std::byte> room);
 
-/// Whether they are equal, in a time that does not tell where they differ.
+/// True if the two are equal. The time does not depend on where they differ.
 [[nodiscard]] bool are_equal(Bytes a, Bytes b);
 
-/// Whether all bytes are zero, in a time that does not depend on them.
+/// True if all bytes are zero. The time does not depend on the bytes.
 [[nodiscard]] bool is_zero(Bytes bytes);
 
 /// Base 64 (RFC 4648, with padding), in a time that does not depend on the bytes.

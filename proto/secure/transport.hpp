@@ -41,7 +41,7 @@ private:
 /// Opens what the Sealer of the other side sealed, each message once.
 class Opener {
 public:
-    /// Of the states, so many behind the newest may still come: 8 s at 1 kHz.
+    /// Number of states behind the newest one that may still come: 8 s at 1 kHz.
     static constexpr std::size_t state_window = 8192;
     static constexpr std::size_t control_window = 64;
 

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::optional<Frame> next(std::uint64_t left_out = 0);
 
 private:
-    /// Of another peer, beyond what its next frame says.
+    /// Data about another peer that its next frame does not contain.
     struct Other {
         std::uint32_t session = 0;
         std::uint32_t highest = 0;           // number in that session; 0: none came

@@ -85,7 +85,8 @@ constexpr auto fields_of(base::Tag<Range>)
 /// As JSON has it.
 [[nodiscard]] inline std::array<double, 3> list_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-/// What was heard of another peer. Counts and `delay_ms` are of the time since the frame before.
+/// Figures about another peer's messages. Counts and `delay_ms` cover the time since the last
+/// frame.
 struct HeardFrame {
     std::uint16_t from = 0;
     std::uint64_t messages = 0;           // states that arrived

@@ -95,7 +95,7 @@ struct Hello {
 class Orientation {
 public:
     Orientation() = default; // not turned
-    /// Of a quaternion of about unit length; ensures that it is not far from it.
+    /// Encodes a quaternion of about unit length. Ensures that its length is close to 1.
     [[nodiscard]] static Orientation from(const glm::dquat& orientation);
     /// nullopt for a code that no quaternion has.
     [[nodiscard]] static std::optional<Orientation> from_code(std::uint64_t code);
@@ -106,7 +106,7 @@ public:
     friend bool operator==(const Orientation&, const Orientation&) = default;
 
 private:
-    /// Of the quaternion 1: its first component is the largest, the others are zero.
+    /// The code of the quaternion 1: its first component is the largest, the others are zero.
     static constexpr std::uint64_t upright =
         std::uint64_t{0x8'0000} << 40 | std::uint64_t{0x8'0000} << 20 | 0x8'0000U;
 
@@ -118,7 +118,7 @@ private:
 /// Sums since the session began, modulo 2^32: a receiver subtracts the last that it read, with
 /// difference(). As running sums they survive loss, reordering and duplication.
 using Sums = std::array<std::uint32_t, 3>;
-/// What was added since, if it is less than 2^31 in size.
+/// Returns the change between two sums, which has to be smaller than 2^31 in size.
 [[nodiscard]] constexpr std::array<std::int32_t, 3> difference(const Sums& now, const Sums& before)
 {
     std::array<std::int32_t, 3> added{};
@@ -126,7 +126,7 @@ using Sums = std::array<std::uint32_t, 3>;
     return added;
 }
 
-/// What is said of a body that can turn, besides.
+/// The additional state of a body that can turn.
 struct Turning {
     Orientation orientation;
     glm::dvec3 angular_velocity{0.0}; // rad/s
@@ -164,7 +164,7 @@ public:
     {
         return add([&body] { return body; });
     }
-    /// The same for what make() returns, which is made in its place.
+    /// Adds the body that make() returns, built in place.
     template <std::invocable Make>
     BodyState& add(Make make)
     {
@@ -215,7 +215,7 @@ struct State {
     /// Where the hand wants to be, from the HIP; to 10 um, at most 0.327 m along an axis.
     base::Displacement intention;
     base::Velocity intention_velocity; // to 0.2 mm/s, at most 6.55 m/s along an axis
-    /// Of the hand on its device since the session began, in microjoules, modulo 2^32.
+    /// Work of the hand on its device since the session began, in microjoules, modulo 2^32.
     std::uint32_t work_uj = 0;
     BodyStates bodies; // that something touches or moves
 
@@ -288,7 +288,7 @@ private:
 /// three bytes are the same in every version.
 [[nodiscard]] std::optional<std::uint8_t> version_of(std::span<const std::byte> datagram);
 
-/// Whether it begins as a hello of this version does, whatever follows.
+/// True if the datagram begins like a hello of this version. The rest is not read.
 [[nodiscard]] bool is_hello(std::span<const std::byte> datagram);
 
 } // namespace hapnet::wire

@@ -29,11 +29,12 @@ public:
         friend bool operator==(const Source&, const Source&) = default;
     };
 
-    /// The peers, in the order of their ids. Other ones than before: all begins anew.
+    /// Sets the peers, in the order of their ids. If the list has changed, frames and history start
+    /// again.
     void set_peers(std::vector<Source> peers);
     [[nodiscard]] const std::vector<Source>& peers() const { return peers_; }
-    /// Whether two of them are on one clock: they name the same boot, and the offset that the first
-    /// has found does not rule it out.
+    /// True if two peers use one clock: they report the same boot id, and the offset that the first
+    /// peer has measured does not contradict it.
     [[nodiscard]] bool share_clock(std::size_t a, std::size_t b) const;
 
     /// `place` is that in peers().
@@ -42,7 +43,7 @@ public:
     /// Its frames have ended: live frames have null instead.
     void lose_peer(std::size_t place);
     void lose_emulator() { emulator_ = {}; }
-    /// Charts begin anew, as where virtual time goes back.
+    /// Empties the charts, for example when virtual time goes back.
     void forget();
 
     /// All but the beginning, which is each page's own: `,"at_s":...}`. nullopt: nothing is
@@ -52,7 +53,7 @@ public:
     /// The newest live frame once more, for a page that comes later: as `repeated`, without a row.
     [[nodiscard]] std::optional<std::string> newest(double at_s, base::TimePoint now) const;
 
-    /// Of the newest live frame.
+    /// The figures of the newest live frame.
     [[nodiscard]] const Figures& figures() const { return figures_; }
     [[nodiscard]] const History& history() const { return history_; }
     [[nodiscard]] std::optional<std::uint64_t> generation() const;
@@ -61,7 +62,7 @@ public:
     /// Grows with each frame that is of another time than the one before: virtual time may stand
     /// still.
     [[nodiscard]] std::uint64_t moves() const { return moves_; }
-    /// Of the emulator, or of the last that was attached.
+    /// The names of the emulator's paths, also after it has detached.
     [[nodiscard]] const std::vector<std::string>& paths() const { return known_paths_; }
 
     /// All names that figures() may have with these peers and paths.

@@ -16,8 +16,8 @@ namespace hapnet::web {
 /// A figure that is not known.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What the server needs of a peer's frame; the page gets its text. Figures that the frame does not
-/// have are NaN.
+/// The part of a peer's frame that the server uses; pages get the whole text. Figures that the
+/// frame does not have are NaN.
 struct PeerFrame {
     struct Heard {
         std::uint16_t from = 0;
@@ -39,7 +39,7 @@ struct PeerFrame {
     std::vector<Heard> heard;
 };
 
-/// What the server needs of an emulator's frame.
+/// The part of an emulator's frame that the server uses.
 struct EmulatorFrame {
     struct Way {
         double received = 0.0;

@@ -10,8 +10,8 @@
 
 namespace hapnet::web {
 
-/// What a request says of itself, as far as it decides whether it is let in. nullopt: the header
-/// is not there.
+/// The properties of a request that decide whether it is let in. nullopt: the request has no such
+/// header.
 struct Asked {
     std::string_view method; // "GET"
     std::string_view target; // "/api/state", with its query
@@ -45,7 +45,7 @@ public:
     /// nullopt: it is let in.
     [[nodiscard]] std::optional<Refusal> refuses(const Asked& asked) const;
 
-    /// Whether this is the token; takes as long for every text of its length.
+    /// True if the text is the token. The time of the comparison depends on the length alone.
     [[nodiscard]] bool is_token(std::string_view text) const;
 
 private:
@@ -56,7 +56,7 @@ private:
     Setup setup_;
 };
 
-/// What a path is: what may be done with it, and whether that needs the token.
+/// A path of the server, with its methods, and whether it needs the token.
 struct Route {
     std::string_view path;    // one that ends with '/' stands for all below
     std::string_view methods; // "GET, HEAD"
@@ -69,8 +69,8 @@ struct Route {
 /// A target without its query.
 [[nodiscard]] std::string_view path_of(std::string_view target);
 
-/// Whether "127.0.0.1", "[::1]" or "localhost", all without a port, is this machine itself. The
-/// whole of 127.0.0.0/8 is; nothing that merely begins so.
+/// True if the name means this machine: "localhost", "[::1]", or any address of 127.0.0.0/8, each
+/// without a port. A name that merely begins with such an address is not accepted.
 [[nodiscard]] bool is_loopback_name(std::string_view name);
 
 } // namespace hapnet::web

@@ -16,10 +16,10 @@ public:
     static constexpr std::size_t rows_max = 120UL * 60UL;
     static constexpr std::size_t every = 8;
     static constexpr std::size_t coarse_max = 20UL * 60UL * 60UL / every;
-    /// What does not fit is left out: 8 peers are 28 pairs and 28 links.
+    /// Largest number of columns; further columns are left out. 8 peers have 28 pairs and 28 links.
     static constexpr std::size_t columns_max = 256;
 
-    /// Other columns than before: it begins anew. The first is the time.
+    /// Sets the columns and empties the history if they have changed. The first column is the time.
     void set_columns(std::vector<std::string> columns);
     void clear();
 

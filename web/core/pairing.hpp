@@ -28,7 +28,7 @@ public:
     /// Across a longer gap nothing is known.
     static constexpr base::Duration gap_max{std::chrono::milliseconds{300}};
 
-    /// One that is not later than the one before begins the track anew.
+    /// Adds a sample. A sample that is not later than the last one empties the track first.
     void add(const Sample& sample);
     void clear() { samples_.clear(); }
 

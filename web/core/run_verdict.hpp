@@ -14,7 +14,7 @@ struct ProgramStatistics {
     std::string text; // of the file; empty: it wrote none
 };
 
-/// Whether a run of the stage counts as a measurement.
+/// The verdict on a run of the stage: whether it is a valid measurement.
 struct RunVerdict {
     int run = 0;
     std::vector<std::string> because; // it is not valid; empty: it is

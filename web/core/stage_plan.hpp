@@ -14,7 +14,7 @@
 
 namespace hapnet::web {
 
-/// What the stage is to play.
+/// A choice of what the stage plays.
 struct Choice {
     std::string mode = "live";
     std::string task = "P1";
@@ -58,7 +58,8 @@ struct Choices {
     [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// What a profile is, by the first sentence of its comments; at most 160 bytes of it.
+/// Returns the description of a profile: the first sentence of its comments, at most 160 bytes of
+/// it.
 [[nodiscard]] std::string about_profile(std::string_view text);
 
 /// The sets of this version.

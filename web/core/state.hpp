@@ -9,7 +9,7 @@
 
 namespace hapnet::web {
 
-/// What is known of an emulator.
+/// The known state of an emulator.
 struct EmulatorState {
     std::string socket; // empty: none is wanted
     bool is_attached = false;
@@ -17,11 +17,11 @@ struct EmulatorState {
     std::vector<std::string> paths{};
     std::string error{};
 
-    /// Whether it plays in virtual time.
+    /// True if the emulator runs in virtual time.
     [[nodiscard]] bool is_virtual() const { return shown.is_object() && shown.contains("pace"); }
 };
 
-/// What is known of a peer.
+/// The known state of a peer.
 struct PeerState {
     std::string socket;
     bool is_attached = false;
@@ -40,8 +40,8 @@ struct PeerState {
 /// "A" for the first place.
 [[nodiscard]] std::string capital_letter(std::size_t place);
 
-/// What people call the peer at that place: its letter, "A" for the lowest id; "peer 2" as long as
-/// the ids of some are not known, and so their order is not.
+/// Returns the name of the peer at that place for people: its letter, where "A" is the lowest id.
+/// While some ids are unknown, so that their order is unknown too, the name is "peer 2" and so on.
 [[nodiscard]] std::string name_of_peer(const std::vector<PeerState>& peers, std::size_t place);
 
 /// The state that pages get: docs/formats/live.md. `peers` are in the order of the live frames;
@@ -50,7 +50,7 @@ struct PeerState {
                                                 const std::vector<PeerState>& peers,
                                                 const nlohmann::ordered_json& others);
 
-/// What a person can do who sees nothing: null while something is attached.
+/// Returns advice for a person who sees nothing yet; null while something is attached.
 [[nodiscard]] nlohmann::ordered_json help_for(const EmulatorState& emulator,
                                               const std::vector<PeerState>& peers, bool has_stage);
 

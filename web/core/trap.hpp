@@ -30,7 +30,7 @@ public:
                                          std::span<const std::string> names);
     void disarm() { state_ = State::disarmed; }
 
-    /// What has happened in a step.
+    /// The event of one step.
     enum class News : std::uint8_t { none, fired, wants_keep, armed_again };
     /// The newest figures.
     [[nodiscard]] News step(const Figures& figures, base::TimePoint now);

@@ -33,7 +33,7 @@ private:
     std::uint64_t next_;
 };
 
-/// What has arrived of a numbered stream.
+/// Counts of what has arrived of a numbered stream.
 struct ArrivalCounts {
     std::uint64_t sent = 0;       // numbers up to the highest that has arrived
     std::uint64_t received = 0;   // different numbers

@@ -42,7 +42,8 @@ void add_counts(T& sum, const T& more)
         sum, more);
 }
 
-/// What was counted since `before`, which was not after. What may fall stays as it is now.
+/// Returns the counts since `before`, which is an earlier state. Values that can fall keep their
+/// present value.
 template <Described T>
 [[nodiscard]] T counted_since(T now, const T& before)
 {

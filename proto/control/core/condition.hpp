@@ -15,8 +15,8 @@ namespace hapnet::control {
 [[nodiscard]] base::Result<std::optional<double>> value_in(const nlohmann::ordered_json& statistics,
                                                            const base::Condition& condition);
 
-/// Whether the statistics meet the condition. What has no value yet meets none. The error is that
-/// of value_in().
+/// True if the statistics meet the condition. A figure without a value meets no condition. The
+/// error is the error of value_in().
 [[nodiscard]] base::Result<bool> is_met(const base::Condition& condition,
                                         const nlohmann::ordered_json& statistics);
 

@@ -17,7 +17,8 @@
 
 namespace hapnet::control {
 
-/// What becomes of a request: the line that answers it, without its newline, or what it waits for.
+/// The result of a request: the reply line, without its newline, or the event that the client waits
+/// for.
 using Answer = std::variant<std::string, WaitRequest, WatchRequest>;
 
 /// One watch of frames, which ends when this is destroyed. Appends the frame of all that has
@@ -53,13 +54,13 @@ public:
     /// How many bytes on_bytes() takes now.
     [[nodiscard]] std::size_t room() const;
 
-    /// What the client has sent; at most room() bytes.
+    /// Takes bytes that the client has sent, at most room() bytes.
     void on_bytes(std::string_view bytes);
 
     /// The client will send no more; what it has asked is still answered.
     void on_end() { has_ended_ = true; }
 
-    /// The client is no longer there: what it has asked is still done, but nobody is answered.
+    /// The client has disconnected. Its requests are still carried out, and no reply is sent.
     void on_gone();
     [[nodiscard]] bool is_gone() const { return is_gone_; }
 
@@ -70,7 +71,7 @@ public:
     /// When advance() is to be called again although nothing was received; nullopt: never.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
-    /// What is to be sent, and that `bytes` of it have been.
+    /// The bytes to send. on_written() says how many of them have been sent.
     [[nodiscard]] std::string_view output() const;
     void on_written(std::size_t bytes, base::TimePoint now);
 

@@ -21,7 +21,7 @@ namespace hapnet::control {
 /// {"ok":false,"error":"..."}; what is too long to be read is cut.
 [[nodiscard]] std::string refusal(std::string_view error);
 
-/// The same, to one client too many: {"ok":false,"busy":true,"error":"..."}.
+/// The refusal of a client beyond the limit: {"ok":false,"busy":true,"error":"..."}.
 [[nodiscard]] std::string busy_refusal();
 
 /// The answer to stats, and each line of a watch.
