@@ -16,7 +16,7 @@ namespace hapnet::device {
 /// The note on every device that this software knows from descriptions only.
 inline constexpr std::string_view never_run = "never run on the physical device";
 
-/// Which device it is.
+/// The identity of a device.
 struct Identity {
     std::string backend{}; // as in --device BACKEND:SERIAL
     std::string serial{};  // "": it has none

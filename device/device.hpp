@@ -92,8 +92,8 @@ public:
     [[nodiscard]] virtual Sample read(base::TimePoint now) = 0;
     /// Holds this force until the next call; only a Governor can make one.
     virtual void apply(const GovernedForce& force) = 0;
-    /// Zero force and motors off, at once, from any thread, whatever else is under way: for
-    /// watchdogs and ways out. The next apply() ends it.
+    /// Sets zero force and switches the motors off at once, from any thread and in any state: for
+    /// watchdogs and exits. The next apply() ends it.
     virtual void halt() noexcept = 0;
 
     /// The session's start became known, or changed.
@@ -110,7 +110,7 @@ public:
     virtual void pace(const std::function<bool()>& /*beat*/) {}
 };
 
-/// For logs and records, such as "falcon 12345: Novint Falcon".
+/// Returns a description for logs and records, such as "falcon 12345: Novint Falcon".
 [[nodiscard]] std::string description(const Device& device);
 
 } // namespace hapnet::device

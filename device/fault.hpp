@@ -31,7 +31,7 @@ enum class Fault : std::uint8_t {
     internal, // of a library, or of this program
 };
 
-/// In statistics.
+/// The names of faults in statistics.
 constexpr auto names_of(base::Tag<Fault> /*enum*/)
 {
     return base::names("none", "not-found", "permission", "in-use", "firmware-missing",

@@ -49,7 +49,7 @@ constexpr auto fields_of(base::Tag<FaultCounts>)
         base::member("runaway", &F::runaway, "It sped up against the force."));
 }
 
-/// How often each rule acted; in ticks, unless stated otherwise.
+/// The number of times that each rule acted; in ticks, unless stated otherwise.
 struct GovernorCounters {
     std::uint64_t not_finite = 0;
     std::uint64_t clamped = 0;
@@ -68,7 +68,7 @@ struct GovernorCounters {
     FaultCounts faults;
     std::uint64_t resets = 0;
 };
-/// All but the energy, which is told with its limits.
+/// The fields, except the energy, which is reported with its limits.
 constexpr auto fields_of(base::Tag<GovernorCounters>)
 {
     using C = GovernorCounters;
@@ -112,7 +112,7 @@ enum class GovernorState : std::uint8_t {
     withheld,
 };
 
-/// In statistics.
+/// The names of states in statistics.
 constexpr auto names_of(base::Tag<GovernorState> /*enum*/)
 {
     return base::names("off", "calibrating", "ready", "ramping", "active", "fault", "withheld");
@@ -134,8 +134,8 @@ public:
     [[nodiscard]] GovernedForce govern(const ForceRequest& request, const Sample& sample,
                                        base::TimePoint now);
 
-    /// For another party that found a reason to stop, such as a watchdog: zero from the next tick
-    /// on.
+    /// Latches a fault that another party, such as a watchdog, has found: the force is zero from
+    /// the next tick on.
     void latch(const Latched& cause);
     /// An operator ends the fault; it comes back if its cause remains.
     void reset();

@@ -14,7 +14,7 @@ enum class UsbNode : std::uint8_t { usb, hidraw, tty };
 
 enum class UsbKind : std::uint8_t { falcon, force_board, spacemouse, touch, force_dimension };
 
-/// In place of a product: all of the vendor's.
+/// Stands for all products of a vendor.
 inline constexpr std::uint16_t any_product = 0;
 
 /// A device that is known by its numbers. udev/60-hapnet.rules opens just these to their user.

@@ -15,7 +15,7 @@ struct Asset {
     std::string_view packed; // by gzip; empty: that would be no smaller
 };
 
-/// All of them; a generated file has them.
+/// All files of the page. The build generates the file that defines them.
 [[nodiscard]] std::span<const Asset> assets();
 
 /// Returns the media type for a file name, by its ending.

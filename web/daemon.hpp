@@ -19,7 +19,7 @@ namespace hapnet::web {
 class Daemon {
 public:
     using Json = nlohmann::ordered_json;
-    /// The reply, also one that refuses; an error: there is none.
+    /// Takes the reply, which may be a refusal; an error: there is no reply.
     using OnReply = std::function<void(const base::Result<Json>& reply)>;
     struct Handlers {
         std::function<void()> on_attached;

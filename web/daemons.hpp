@@ -51,11 +51,11 @@ public:
 
     /// null: it is not attached.
     [[nodiscard]] Daemon* emulator() const;
-    /// Those that are attached.
+    /// The peers that are attached.
     [[nodiscard]] std::vector<Daemon*> peers() const;
     /// The attached peer whose hand pages may move; null: none.
     [[nodiscard]] Daemon* peer_with_hand() const;
-    /// Its id; nullopt: none.
+    /// The id of the peer whose hand pages may move; nullopt: no peer.
     [[nodiscard]] std::optional<std::uint16_t> hand_id() const;
 
     /// The emulator has told its pace, in virtual time.

@@ -16,7 +16,7 @@ namespace hapnet::web {
 /// hand go when no page holds it any more.
 class HandDesk {
 public:
-    /// A peer that leaves so many places unanswered is told no more until it answers.
+    /// A peer with this many places unanswered is sent no more places until it answers.
     static constexpr std::size_t asked_max = 8;
 
     /// Handles a message of a page about the hand. Returns the text to tell that page; empty if

@@ -82,7 +82,7 @@ public:
     [[nodiscard]] std::optional<Membership> join(Viewer viewer);
     [[nodiscard]] bool is_full() const { return viewers_->size() >= viewers_max; }
 
-    /// A page holds or lets go the hand, where a peer has one that pages move.
+    /// A page takes or lets go of the hand, if a peer has a hand that pages move.
     void hand(std::uint64_t page, const HandMessage& message);
 
     /// Answers a request that the gate has let in. `path` has no query.

@@ -13,7 +13,7 @@ struct Preset {
     std::string_view text;
 };
 
-/// All of them, by name.
+/// All built-in presets, by name.
 [[nodiscard]] std::span<const Preset> presets_built_in();
 
 } // namespace hapnet::web

@@ -23,7 +23,7 @@ using OnReply = std::function<void(Reply)>;
 /// {"ok":true,key:value}
 [[nodiscard]] Reply fine_reply(const char* key, nlohmann::ordered_json value);
 
-/// On one line; what is no UTF-8 is replaced.
+/// Returns JSON on one line. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);
 
 } // namespace hapnet::web

@@ -15,13 +15,13 @@ namespace hapnet::web {
 using Request = boost::beast::http::request<boost::beast::http::string_body>;
 using RequestParser = boost::beast::http::request_parser<boost::beast::http::string_body>;
 
-/// How long a request may be.
+/// The largest lengths of a request.
 struct RequestLimits {
     std::uint32_t header_bytes = 8U << 10;
     std::uint32_t body_bytes = 64U << 10;
 };
 
-/// For a parser that has not seen a byte: beyond these lengths it refuses.
+/// Sets the limits of a parser that has not seen a byte yet. It refuses longer requests.
 void limit(RequestParser& parser, const RequestLimits& limits);
 
 /// True if the request asks for a WebSocket.

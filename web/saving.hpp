@@ -14,8 +14,7 @@
 
 namespace hapnet::web {
 
-/// Has several daemons save their last seconds under one name, and waits until the files are
-/// there.
+/// Makes several daemons save their last seconds under one name, and waits until the files exist.
 class Saving {
 public:
     /// The paths as the daemons name them; an error: none of them has saved anything.
@@ -24,7 +23,7 @@ public:
     /// A daemon on another machine has its files there: they are not waited for longer.
     static constexpr base::Duration patience{std::chrono::seconds{2}};
 
-    /// One at a time: another is refused by way of `on_saved`.
+    /// Begins to save. A second order meanwhile is refused through `on_saved`.
     void begin(const std::vector<Daemon*>& daemons, const std::string& name, base::Duration last,
                OnSaved on_saved);
 

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] base::Result<void> start(const Choice& choice);
     void restart(const Choice& choice);
     void stop();
-    /// Also the loop alone.
+    /// Sets whether the stage loops; nothing else changes.
     void set_loop(bool loops);
 
     /// Call it now and then.

@@ -24,7 +24,7 @@ public:
         std::function<void(const std::string& why)> on_lost; // also when it could not connect
     };
 
-    /// A longer line does not come from a daemon of ours.
+    /// Longest line of a daemon of this project; a longer line breaks the connection.
     static constexpr std::size_t line_bytes_max = std::size_t{1} << 20;
     static constexpr std::size_t unsent_bytes_max = std::size_t{1} << 20;
 

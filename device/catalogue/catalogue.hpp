@@ -30,7 +30,7 @@ struct DeviceOptions {
 struct Backend {
     std::string_view name; // as in --device NAME:SERIAL
     std::string_view what; // it is for
-    /// All its devices that can be seen without opening one.
+    /// Returns all devices of this kind that can be found without opening one.
     std::vector<Found> (*find)(const DeviceOptions& options);
     /// The one with this serial; "": the first that is usable.
     Opened<std::unique_ptr<Device>> (*open)(const std::string& serial,

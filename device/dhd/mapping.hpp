@@ -22,7 +22,7 @@ namespace hapnet::device::dhd {
 {
     return {it[1], it[2], it[0]};
 }
-/// A vector of ours in the library's frame.
+/// Returns a vector of the device frame in the library's frame.
 [[nodiscard]] constexpr std::array<double, 3> to_library(const glm::dvec3& it)
 {
     return {it.z, it.x, it.y};
@@ -49,7 +49,7 @@ public:
     /// `wants_force`: the motors were asked for in this round.
     [[nodiscard]] polled::Report report_of(const Reading& reading, bool wants_force);
 
-    /// So many rounds in a row with an error of the line mean that the device has gone.
+    /// After this many rounds in a row with a communication error, the device counts as gone.
     static constexpr int gone_after = 100;
 
 private:

@@ -22,7 +22,7 @@ namespace hapnet::device::falcon {
 /// the 8 N that CHAI3D states. Forces in newtons are therefore nominal.
 inline constexpr double counts_per_newton_metre = 10000.0;
 
-/// As the catalogue shows it; "" for a serial that it does not tell.
+/// Returns the identity that the catalogue shows; "" stands for an unknown serial.
 [[nodiscard]] Identity identity_of(std::string serial);
 
 /// A Novint Falcon whose firmware runs. Positions are meaningless until its three legs have touched

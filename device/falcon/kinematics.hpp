@@ -23,8 +23,8 @@ using Angles = glm::dvec3;
 /// the workspace, this far in front of the legs' own plane.
 inline constexpr double origin_z_m = 0.115;
 
-/// All of the cube from -this to +this on each axis can be reached, by angles from -57 to 92
-/// degrees (computed); CHAI3D gives the Falcon the same for its radius.
+/// Half edge of a cube around the origin, m, that can be reached completely, with angles from -57
+/// to 92 degrees (computed). CHAI3D states the same length as the Falcon's radius.
 inline constexpr double reach_m = 0.040;
 
 /// Returns the angles of the arms from encoders that were homed. One turn of a motor is 1280

@@ -22,7 +22,7 @@ using Counts = std::array<std::int16_t, 3>; // one for each leg
 /// The lights around the logo, as libnifalcon names them.
 enum class Lights : std::uint8_t { none = 0x0, green = 0x2, blue = 0x4, red = 0x8 };
 
-/// From the host.
+/// A packet from the host.
 struct Command {
     Counts motors{};
     Lights lights = Lights::none;
@@ -34,7 +34,7 @@ struct Command {
 /// The motors take no more than this, either way.
 inline constexpr int motor_max = 4096;
 
-/// From the device.
+/// A packet from the device.
 struct Report {
     Counts encoders{};
     std::uint8_t buttons = 0;    // bit 0 plus, 1 forward, 2 centre, 3 minus

@@ -33,7 +33,7 @@ struct Listen {
 };
 /// The Falcon's firmware runs and answers.
 struct Ready {};
-/// It will not be ready, and why.
+/// The device cannot start, for this reason.
 struct Refused {
     DeviceError error;
 };

@@ -62,7 +62,8 @@ public:
     /// `tick`: the usual time between two calls of pass().
     EnergyGuard(const EnergyLimits& limits, base::Duration tick);
 
-    /// This force was held for this time, and the hand is now here. In the device's frame.
+    /// Accounts for a force that was held for this time while the hand moved to `hip`. In the
+    /// device's frame.
     void pass(const base::Force& held, const base::Position& hip, base::Duration duration);
     /// The device does not tell where the hand is: the next place is not compared with the last.
     void lose_place() { placed_ = false; }

@@ -24,7 +24,7 @@ public:
           heat_{heat}
     {}
 
-    /// This force was held for this time.
+    /// Accounts for a force that was held for this time.
     void pass(const base::Force& force, base::Duration duration)
     {
         const glm::dvec3& f = force.value;

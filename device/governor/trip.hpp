@@ -9,7 +9,7 @@
 
 namespace hapnet::device {
 
-/// Which rule latched a fault.
+/// The rule that latched a fault.
 enum class Trip : std::uint8_t {
     none,
     device,   // it reported the fault itself
@@ -22,7 +22,7 @@ enum class Trip : std::uint8_t {
     runaway,  // it speeds up against the force: a sign is wrong
 };
 
-/// In statistics.
+/// The names of rules in statistics.
 constexpr auto names_of(base::Tag<Trip> /*enum*/)
 {
     return base::names("none", "device", "silence", "loop", "speed", "jump", "nonsense", "frozen",

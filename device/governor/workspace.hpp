@@ -40,7 +40,7 @@ with_outward_part_faded(const GovernorLimits& limits, const base::Position& hip,
     return force;
 }
 
-/// Nothing outward beyond the margin, however fast the hand came there.
+/// Removes the outward part of a force beyond the margin, at any speed of the hand.
 [[nodiscard]] inline base::Force with_outward_part_cut(const GovernorLimits& limits,
                                                        const base::Position& hip, base::Force force)
 {

@@ -70,7 +70,7 @@ private:
     std::optional<bool> motors_on_; // nullopt: the library has it its own way
 };
 
-/// So many errors of a cycle are looked at: a stack that refills itself is left alone.
+/// Largest number of errors that one cycle reads from the library's stack, which may refill itself.
 inline constexpr int errors_max = 64;
 
 /// Takes the errors off the library's stack: the first that came, as the others follow from it.

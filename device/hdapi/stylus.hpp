@@ -14,7 +14,7 @@ namespace hapnet::device::hdapi {
 /// The stylus according to the library's reports, and the faults that their absence means.
 class Stylus {
 public:
-    /// For a device that is calibrated in this style.
+    /// Makes the state of a device that is calibrated in this style.
     explicit Stylus(int style) : style_{style} { sample_.calibrated = false; }
 
     /// The stylus at `now` by the newest report there is, which may be an old one.

@@ -15,7 +15,7 @@ namespace hapnet::device::hid {
 /// The usage of an item: page << 16 | id, of the HID usage tables.
 using Usage = std::uint32_t;
 
-/// Which of a device's three sets of reports.
+/// The three sets of reports of a device.
 enum class ReportKind : std::uint8_t { input, output, feature };
 
 /// Consecutive usages, both ends included.
@@ -75,7 +75,8 @@ struct Descriptor {
     friend bool operator==(const Descriptor&, const Descriptor&) = default;
 };
 
-/// Longer ones are refused, as the kernel refuses them (HID_MAX_DESCRIPTOR_SIZE).
+/// Longest descriptor. Longer ones are refused, as the kernel refuses them
+/// (HID_MAX_DESCRIPTOR_SIZE).
 inline constexpr std::size_t descriptor_bytes_max = 4096;
 
 /// Reads a report descriptor: USB Device Class Definition for HID 1.11, section 6.2.2. Refuses

@@ -103,7 +103,7 @@ public:
     ReportSender& operator=(const ReportSender&) = delete;
 
     [[nodiscard]] virtual Mailbox& mailbox() = 0;
-    /// There is a new order. Never waits; from any thread.
+    /// Signals a new order. Never waits. May be called from any thread.
     virtual void wake() noexcept = 0;
 };
 

@@ -12,7 +12,7 @@
 
 namespace hapnet::device::hid {
 
-/// Where a report is and how long.
+/// The place and the length of a report.
 struct ReportPlace {
     std::uint8_t id = 0;   // 0: not numbered
     std::size_t bytes = 0; // without the ID
@@ -86,7 +86,8 @@ inline constexpr std::size_t report_bytes_max = 64;
 /// The report with the axis X, or why there is none that serves. An axis Y counts where effects
 /// can be played on it: that of a steering wheel is a pedal.
 [[nodiscard]] base::Result<InputLayout> find_input(const Descriptor& descriptor);
-/// All that a constant force needs, or what of it is missing.
+/// Returns all parts of the layout that a constant force needs, or the error that names a missing
+/// part.
 [[nodiscard]] base::Result<ForceLayout> find_force(const Descriptor& descriptor);
 
 } // namespace hapnet::device::hid

@@ -41,7 +41,7 @@ struct RecognisedDevice {
 /// nullopt: neither a force-feedback device nor a SpaceMouse.
 [[nodiscard]] std::optional<RecognisedDevice> recognise(const HidNode& shown);
 
-/// Its name and note for the user.
+/// Returns the name and the note for the user.
 [[nodiscard]] Identity identity_of(const RecognisedDevice& seen, const Options& options);
 
 } // namespace hapnet::device::hid

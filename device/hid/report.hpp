@@ -16,7 +16,7 @@ struct Report {
     std::size_t size = 0; // with the ID
 
     Report() = default;
-    /// All data 0.
+    /// Makes a report with zeros as data.
     explicit Report(const ReportPlace& place) : size{place.bytes + 1}
     {
         bytes[0] = std::byte{place.id};

@@ -27,7 +27,7 @@ inline constexpr int deflection_valid_max = 1000;
 /// nullopt: nonsense. A report of another number gives an empty one.
 [[nodiscard]] std::optional<SpaceMouseReport> read_spacemouse(std::span<const std::byte> report);
 
-/// Its name; "" where the USB identity is no SpaceMouse's.
+/// Returns the name of the SpaceMouse; "" for a USB identity that is not a SpaceMouse's.
 [[nodiscard]] std::string_view spacemouse_name(std::uint16_t vendor, std::uint16_t product);
 
 } // namespace hapnet::device::hid

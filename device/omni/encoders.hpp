@@ -23,7 +23,7 @@ inline constexpr glm::dvec3 encoder_signs{1.0, -1.0, 1.0};
     return {radians_per_count * encoder_signs * glm::dvec3{counts} - zero.angles};
 }
 
-/// That zero, from the counts with the stylus in the inkwell.
+/// Returns the zero of the encoders from their counts with the stylus in the inkwell.
 [[nodiscard]] inline Joints zero_from(const Counts& in_inkwell, const Joints& pose = inkwell_pose)
 {
     return {radians_per_count * encoder_signs * glm::dvec3{in_inkwell} - pose.angles};

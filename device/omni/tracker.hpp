@@ -36,7 +36,7 @@ public:
     /// An event after which the encoders may have restarted and the arm may have moved. Continuous
     /// counts prove nothing then, so the calibration is lost.
     void on_break() { lose(); }
-    /// It is disconnected, for good.
+    /// The device has been disconnected and does not return.
     void on_gone() { gone_ = true; }
 
     /// The state at `now`; the last position where no newer one is known.
@@ -50,7 +50,7 @@ public:
     static constexpr int jump_max_counts = 120;
     /// The stylus must rest in the inkwell for this long before that counts.
     static constexpr base::Duration rest{std::chrono::milliseconds{50}};
-    /// It may be silent for this long.
+    /// Longest silence of the device that is no fault.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
 
 private:

@@ -43,7 +43,7 @@ enum class Use : std::uint8_t {
 };
 [[nodiscard]] Use use_of(const Profile& profile, bool uncalibrated_force);
 
-/// From torques at the joints to motor words.
+/// Converts torques at the joints to motor words.
 class Drive {
 public:
     Drive(Use use, const Profile& profile);

@@ -52,7 +52,7 @@ inline constexpr std::size_t device_packet_bytes_min = 44;
 inline constexpr std::size_t device_packet_bytes_max = 64;
 using DeviceBytes = std::array<std::byte, device_packet_bytes_min>;
 
-/// For doubles of the device.
+/// Encodes a packet, for test doubles of the device.
 [[nodiscard]] DeviceBytes encode(const DevicePacket& packet);
 /// nullopt where it is too short or does not begin as all of them do.
 [[nodiscard]] std::optional<DevicePacket> decode_device(std::span<const std::byte> bytes);

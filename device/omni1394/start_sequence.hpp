@@ -44,7 +44,7 @@ public:
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
     /// The reason for its failure; "" while there is none.
     [[nodiscard]] const std::string& failure() const { return failure_; }
-    /// As printed on the device; "" until it is known.
+    /// The serial number that is printed on the device; "" until it is known.
     [[nodiscard]] const std::string& serial() const { return serial_; }
 
 private:

@@ -22,7 +22,7 @@ enum class AfterTheEnd : std::uint8_t {
 /// waits there. The velocity is that of a device: the way's differences, low-passed at 30 Hz.
 class Replay final : public Device {
 public:
-    /// At least one moment, in the order of time. `source` is for the description.
+    /// `trace` has at least one moment, in the order of time. `source` is for the description.
     Replay(HandTrace trace, std::string source, AfterTheEnd after = AfterTheEnd::stays);
 
     [[nodiscard]] const Identity& identity() const override { return identity_; }

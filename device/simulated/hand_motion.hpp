@@ -58,7 +58,7 @@ private:
     /// When in a step the motion ends whose velocity has changed its sign at the step's end.
     [[nodiscard]] double rest_between(double velocity, double velocity_at_end,
                                       const Pull& pull) const;
-    /// From rest, once a part of the step has passed.
+    /// Starts the motion from rest, after a part of the step has passed.
     void start(HandAxis& axis, const HandDrive& drive, double passed) const;
 
     double half_damping_; // b / 2m, 1/s

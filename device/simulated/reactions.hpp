@@ -18,7 +18,7 @@ struct Perception {
     std::optional<double> aim_m{};
 };
 
-/// Its reaction.
+/// The reaction of the person.
 struct Reaction {
     glm::dvec3 force{0.0};  // of the stretch reflex, newtons
     double farther_m = 0.0; // how much farther it means to press
@@ -30,14 +30,14 @@ class Reactions {
 public:
     explicit Reactions(const Operator& person) : person_{person} {}
 
-    /// Once per read; `now` never runs backwards.
+    /// Returns the reaction. Call it once per read; `now` never runs backwards.
     [[nodiscard]] Reaction to(const Perception& felt, base::TimePoint now, base::Duration elapsed);
 
 private:
     [[nodiscard]] double farther(const Perception& felt, base::TimePoint now,
                                  base::Duration elapsed);
 
-    /// How much farther it goes in search of the body.
+    /// Returns how much farther the hand goes in search of the body, m.
     [[nodiscard]] double ahead(const Perception& felt, base::TimePoint now, base::Duration elapsed);
 
     Operator person_;

@@ -41,9 +41,9 @@ public:
     [[nodiscard]] double pressing_toward() const;
 
 private:
-    /// In the time of the task, from its start on, while the hands are on.
+    /// Returns the intention at time `t` of the task, in s from its start, while the hands are on.
     [[nodiscard]] Intention working(double t) const;
-    /// How much it is this hand's turn to push, from 0 to 1.
+    /// Returns this hand's share of the pushing, from 0 to 1.
     [[nodiscard]] double turn_share(double t) const;
     [[nodiscard]] double turn_x(double t) const;
     [[nodiscard]] double press_x(double t) const;

@@ -32,7 +32,7 @@ struct Emulation {
     std::function<base::Result<std::string>(const std::string& name)> preset{};
     /// Translates a command line of tc-netem into a profile.
     std::function<base::Result<TranslatedProfile>(const std::string& sentence)> netem{};
-    /// How much of the last packets is held in memory; nullopt: none.
+    /// Length of the last packets that are held in memory; nullopt: no packets are held.
     std::optional<base::Duration> held{};
     /// Orders a capture of them since a time; gives its path.
     std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};

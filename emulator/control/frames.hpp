@@ -24,7 +24,7 @@ namespace hapnet::emulator {
 /// all watches whenever one of them asks, so that none misses what another has seen.
 class Frames : public std::enable_shared_from_this<Frames> {
 public:
-    /// A frame has at most so many paths.
+    /// Largest number of paths in a frame.
     static constexpr std::size_t paths_max = 32;
 
     /// Begins a watch; it ends when the source is destroyed, and `paths` outlive it. They are

@@ -109,7 +109,7 @@ constexpr auto fields_of(base::Tag<FlowReport>)
                         base::member("down", &F::down, "From B to A.").label("direction"));
 }
 
-/// By their names, and last the rest.
+/// Reports of flows by their names; the rest of the traffic is last.
 using FlowReports = base::Entries<FlowReport>;
 
 /// A client of a server.
@@ -184,7 +184,7 @@ constexpr auto fields_of(base::Tag<InterfaceReport>)
                      "Senders that were told that their packets are too big."));
 }
 
-/// Both interfaces of a run between two.
+/// The interfaces of a run between two of them.
 struct InterfaceReports {
     InterfaceReport a;
     InterfaceReport b;

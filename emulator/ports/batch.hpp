@@ -32,7 +32,7 @@ struct Way {
     std::uint32_t pair = 0;        // of interfaces in the capture
 };
 
-/// Where the datagrams of one direction come in.
+/// The side where the datagrams of one direction enter.
 struct Entrance {
     CaptureSide side;
     const net::Endpoint& local; // of the socket
@@ -43,7 +43,7 @@ struct Entrance {
 [[nodiscard]] PacketFacts facts_of(const net::Received& datagram,
                                    const std::optional<net::Endpoint>& destination);
 
-/// Where the datagrams of one direction leave.
+/// The side where the datagrams of one direction leave.
 struct Exit {
     CaptureSide side;
     net::UdpSocket& socket;

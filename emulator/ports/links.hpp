@@ -25,7 +25,7 @@ class Links {
 public:
     using Places = std::vector<NamedEndpoints>;
 
-    /// Some of the relays.
+    /// A part of the relays.
     class Part {
     public:
         /// Takes what has arrived, at most one batch of each socket that has something; see
@@ -35,10 +35,10 @@ public:
         /// Sends what is due at `now`.
         void release(base::TimePoint now);
 
-        /// To wait for.
+        /// The descriptors to wait for.
         [[nodiscard]] std::vector<int> descriptors() const;
 
-        /// When release() is to be called though no datagram is due and no conditions change.
+        /// Returns when to call release() though no datagram is due and no conditions change.
         [[nodiscard]] static std::optional<base::TimePoint> next_deadline() { return std::nullopt; }
 
         /// A sentence about one of the links; see Relay::next_notice().
@@ -60,7 +60,7 @@ public:
     Links(const Places& places, const std::vector<std::unique_ptr<Paths>>& paths,
           Recorder& recorder);
 
-    /// Which part the link of this place belongs to.
+    /// Returns the part that the link at this place belongs to.
     [[nodiscard]] static std::size_t part_of(std::size_t place, std::size_t parts)
     {
         return place % parts;
@@ -68,10 +68,10 @@ public:
 
     [[nodiscard]] std::vector<std::unique_ptr<Part>>& parts() { return parts_; }
 
-    /// In the order of their places.
+    /// The relays, in the order of their places.
     [[nodiscard]] const std::vector<std::unique_ptr<Relay>>& relays() const { return relays_; }
 
-    /// Where its sockets are bound.
+    /// The addresses that the sockets are bound to.
     [[nodiscard]] std::vector<net::Endpoint> locals() const;
 
 private:

@@ -84,10 +84,10 @@ public:
     // Of all parts, while none is at work.
 
     [[nodiscard]] const net::Endpoint& local() const;
-    /// Where its sockets are bound, but for those to the server.
+    /// The addresses that the sockets are bound to, except the sockets to the server.
     [[nodiscard]] std::vector<net::Endpoint> locals() const { return {local()}; }
     [[nodiscard]] const net::Endpoint& server() const { return common_.places.server; }
-    /// By their numbers.
+    /// The clients, in the order of their numbers.
     [[nodiscard]] std::vector<const Client*> clients() const;
     [[nodiscard]] std::uint64_t clients_seen() const { return common_.numbered; }
     [[nodiscard]] Departed departed() const;
@@ -115,7 +115,7 @@ private:
     std::vector<std::unique_ptr<Part>> parts_;
 };
 
-/// Some of the clients: those whose datagrams come to its socket.
+/// A part of the clients: those whose datagrams arrive at its socket.
 class Upstream::Part {
 public:
     /// `common`, `paths` and `recorder` have to outlive the part.
@@ -128,10 +128,10 @@ public:
     /// Sends what is due at `now`, and forgets who has been silent.
     void release(base::TimePoint now);
 
-    /// When a client may have to be forgotten.
+    /// The time when a client may have to be forgotten.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_look_; }
 
-    /// To wait for.
+    /// The descriptors to wait for.
     [[nodiscard]] std::vector<int> descriptors() const
     {
         return {listening_.descriptor(), answers_.descriptor()};

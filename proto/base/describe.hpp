@@ -55,7 +55,7 @@ template <typename Self>
 struct Told {
     Telling telling{};
 
-    /// In lines for people, with these words behind the count, unless it is 0.
+    /// Printed for people as a line with these words after the count, unless the count is 0.
     [[nodiscard]] constexpr Self told(std::string_view words) const
     {
         return with([&](Telling& t) { t.words = words; });
@@ -159,7 +159,7 @@ struct Part {
     Value Struct::*member;
     bool is_without_zeros = false;
 
-    /// In JSON, maps among its fields have no counts of 0.
+    /// This part without counts of 0 in the JSON of its maps.
     [[nodiscard]] constexpr Part without_zeros() const { return {member, true}; }
 };
 
@@ -209,7 +209,7 @@ requires FormatOf<Format, WithoutOptional<Value>>
     return Field<Struct, Value, Format>{key, member, format, about};
 }
 
-/// With the usual format of the member's type.
+/// A field with the usual format of the member's type.
 template <typename Struct, typename Value>
 [[nodiscard]] constexpr auto field(std::string_view key, Value Struct::*member,
                                    std::string_view about = {})

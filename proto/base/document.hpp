@@ -14,7 +14,7 @@
 
 namespace hapnet::base {
 
-/// Where something stands in a text; both count from 1.
+/// A place in a text. Line and column count from 1.
 struct Place {
     std::uint32_t line = 1;
     std::uint32_t column = 1;

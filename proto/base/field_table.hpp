@@ -37,9 +37,10 @@ struct FieldRow {
     std::string_view about{};
     std::string_view absent{};
     std::size_t offset = 0; // from the struct's first byte, of the member or of what it is made of
-    /// Where it is computed: makes the value, and hands it on. nullptr: a member.
+    /// Makes a computed value and passes it on. nullptr: the row is a member.
     void (*compute)(const void* of, const UseValue& use) = nullptr;
-    /// Where it is of a struct that the struct finds: finds that. nullptr: it is of the struct.
+    /// Finds the struct that holds the member, if it is not the owner itself. nullptr: it is the
+    /// owner.
     const void* (*find)(const void* owner) = nullptr;
     const ValueKind* kind = nullptr;
     Telling telling{};
@@ -70,15 +71,15 @@ struct FieldTable {
 /// Returns a description of the values that a field accepts, for people: "a time from 0ms to 10s".
 [[nodiscard]] std::string allowed(const FieldRow& row);
 
-/// One member from its value in a text.
+/// Reads one member from its value in a text.
 void read_field(const FieldRow& row, const Node& node, void* owner, Reading& reading);
-/// Its value as TOML; nullopt: an optional without a value.
+/// Returns the value as TOML; nullopt: an optional without a value.
 [[nodiscard]] std::optional<std::string> field_text(const FieldRow& row, const void* owner);
 
 void read_fields(const FieldTable& fields, TableReader& table, void* target);
 void read_table(const FieldTable& fields, const Node& node, void* target, Reading& reading);
 
-/// Which fields are printed: all, or those that are required or differ from the default.
+/// The fields to print: all, or those that are required or differ from the default.
 enum class Print { all, needed };
 
 [[nodiscard]] std::vector<std::string> field_texts(const FieldTable& fields, const void* value,

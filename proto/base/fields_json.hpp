@@ -14,7 +14,7 @@ namespace hapnet::base {
 // Values as JSON, by the description of their fields (fields.hpp). Numbers are bare: the keys name
 // their units. A number that is not finite, and an optional without a value, is null.
 
-/// How numbers are told below a key.
+/// The scale of numbers below a key.
 struct JsonScale {
     double ns_per_unit = 0.0; // of times; 0: no key has named a unit
     std::optional<int> decimals{};
@@ -27,7 +27,7 @@ struct JsonScale {
 void add_json(nlohmann::ordered_json& object, const FieldTable& fields, const void* value,
               const JsonScale& scale = {});
 
-/// False when the JSON is something else; the value is then of no use.
+/// Reads a value. False if the JSON does not fit; the value is then unusable.
 [[nodiscard]] bool read_json(const ValueKind& kind, const nlohmann::json& json, void* value);
 [[nodiscard]] Result<void> read_json(const FieldTable& fields, const nlohmann::json& json,
                                      const std::string& source, void* value);
@@ -39,8 +39,8 @@ template <typename T>
     return json_of(kind_of<T>(), &value);
 }
 
-/// False when the JSON is something else; the value is then of no use. Of a struct all keys have to
-/// be there; others are passed over.
+/// Reads a value. False if the JSON does not fit; the value is then unusable. All keys of a struct
+/// are required; other keys are ignored.
 template <typename T>
 [[nodiscard]] bool read_json(const nlohmann::json& json, T& value)
 {

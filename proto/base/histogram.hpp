@@ -24,7 +24,7 @@ namespace hapnet::base {
 class DurationHistogram {
 public:
     void add(Duration duration);
-    /// All that another one has counted.
+    /// Adds the counts of another histogram.
     void add(const DurationHistogram& other);
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -32,7 +32,7 @@ public:
     /// Becomes the same as the other. Costs as much as there is between the smallest and the
     /// largest value of both, and not all of the 20 KiB.
     void assign(const DurationHistogram& other);
-    /// How many bytes of it another one is assigned.
+    /// Number of bytes that assigning this histogram copies.
     [[nodiscard]] std::size_t filled_bytes() const;
 
     /// The value that a share q of all do not exceed (0 < q <= 1), to 1.6 %; nullopt when nothing
@@ -47,7 +47,7 @@ public:
     /// The quantiles above in a single pass; nullopt when nothing was added.
     [[nodiscard]] std::optional<Quantiles> quantiles() const;
 
-    /// How many are longer than `limit`: the ranks whose quantile is.
+    /// Returns the number of ranks whose quantile is longer than `limit`.
     [[nodiscard]] std::uint64_t count_above(Duration limit) const;
 
     /// A bin with something in it: the values from `low` on that are below `high`.
@@ -56,7 +56,7 @@ public:
         Duration high{};
         std::uint64_t count = 0;
     };
-    /// Those with something in them, ascending.
+    /// The bins that hold a value, ascending.
     [[nodiscard]] std::vector<Bin> filled_bins() const;
 
 private:
@@ -70,9 +70,9 @@ private:
     [[nodiscard]] std::uint64_t rank_of(double q) const;
     /// The value of that rank, of which so many are in the bins below; count() is not 0.
     [[nodiscard]] Duration value_of(std::uint64_t rank, std::size_t bin, std::uint64_t below) const;
-    /// That of the smallest value.
+    /// The bin of the smallest value.
     [[nodiscard]] std::size_t first_bin() const { return count_ > 0 ? bin_of(min_) : bins; }
-    /// One more than that of the largest value.
+    /// One more than the bin of the largest value.
     [[nodiscard]] std::size_t end_bin() const { return count_ > 0 ? bin_of(max_) + 1 : bins; }
 
     std::array<std::uint64_t, bins> counts_{};

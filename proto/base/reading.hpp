@@ -24,7 +24,7 @@ namespace hapnet::base {
 /// Gives the text of a file that a text names, or says why not.
 class OpenFile {
 public:
-    /// There are no files.
+    /// Opens no files.
     OpenFile() = default;
     template <std::invocable<const std::string&> Open>
     OpenFile(Open open) : open_{std::move(open)} // NOLINT(google-explicit-constructor)
@@ -114,8 +114,8 @@ public:
     [[nodiscard]] const Node* find(std::string_view key);
     /// Complains when it is not there, and says `cure`: `write sd = "10ms"`.
     [[nodiscard]] const Node* require(std::string_view key, std::string_view cure = {});
-    /// To be called once all keys have been asked for, also after a complaint: an unknown key is
-    /// the cause of a missing one.
+    /// Complains about keys that were not read. Call it after all keys have been read, also after a
+    /// complaint: an unknown key is often the cause of a missing one.
     void finish() const;
 
     [[nodiscard]] Place place() const { return place_; }
@@ -188,7 +188,7 @@ void read_value(const Node& node, std::string& target, Reading& reading);
 // How values are printed: as TOML that reads back as the same value.
 
 [[nodiscard]] std::string quoted(std::string_view text);
-/// As complaints quote what was written: 'text', control characters made visible.
+/// Returns a text as complaints quote it: 'text', with control characters made visible.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 [[nodiscard]] std::string value_text(Duration value);
 [[nodiscard]] std::string value_text(Probability value);

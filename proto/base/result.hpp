@@ -8,7 +8,7 @@
 
 namespace hapnet::base {
 
-/// Why somebody's data was refused, in words that say what to do.
+/// The reason why input was refused, in words that say what to do.
 struct Error {
     std::string message;
 };

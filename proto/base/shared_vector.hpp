@@ -32,7 +32,7 @@ public:
     /// `index` < size().
     [[nodiscard]] decltype(auto) operator[](std::size_t index) const { return get()[index]; }
 
-    /// All of them.
+    /// All elements.
     [[nodiscard]] const std::vector<T>& get() const
     {
         static const std::vector<T> none;

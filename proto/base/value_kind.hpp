@@ -119,7 +119,7 @@ template <std::integral T>
 }
 
 [[nodiscard]] std::optional<double> number_from(const Leaf& leaf);
-/// Its place among the names; nullopt: it is none of them.
+/// Returns the index of the leaf among the names; nullopt: it is not one of them.
 [[nodiscard]] std::optional<std::size_t> choice_from(const Leaf& leaf,
                                                      std::span<const std::string_view> names);
 

@@ -7,7 +7,7 @@
 
 namespace hapnet::base {
 
-/// As in project() of CMakeLists.txt: "1.2.3".
+/// The version in project() of CMakeLists.txt: "1.2.3".
 [[nodiscard]] std::string_view version();
 /// The commit the program was built from, with "-dirty" when the tree was changed; "unknown"
 /// outside a git checkout.

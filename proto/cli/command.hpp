@@ -53,13 +53,13 @@ public:
     /// that of --help or --version. nullopt: everything has been taken.
     [[nodiscard]] base::Result<std::optional<std::string>> parse(std::span<char*> words);
 
-    /// After parse(): whether this command was asked for, and this option given.
+    /// True after parse() if this command was asked for, or this option given.
     [[nodiscard]] bool is_chosen() const { return is_chosen_; }
     [[nodiscard]] bool is_given(std::string_view option_name) const;
 
     // What --help is made of.
 
-    /// As it is typed in full: "hapnet-lab run".
+    /// The command as it is typed in full: "hapnet-lab run".
     [[nodiscard]] std::string path() const;
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const std::string& summary() const { return summary_; }

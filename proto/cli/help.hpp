@@ -10,7 +10,7 @@
 
 namespace hapnet::cli {
 
-/// How wide --help is: the terminal on stdout, or 80 columns where there is none.
+/// Returns the width of --help: the terminal's on stdout, or 80 columns without a terminal.
 [[nodiscard]] std::size_t help_columns();
 
 /// The option that prints files for packages, and its values.
@@ -20,7 +20,7 @@ inline constexpr std::string_view generate_values = "man|bash|zsh|fish";
 /// Returns the output of a command's `--help`.
 [[nodiscard]] std::string help_text(const Command& command, std::size_t columns);
 
-/// How an option stands in a usage line: "[--for TIME]".
+/// Returns an option as a usage line shows it: "[--for TIME]".
 [[nodiscard]] std::string in_usage(const Option& option);
 
 /// "hapnet-lab run EXPERIMENT --out DIR [OPTIONS]": can be pasted and filled in.

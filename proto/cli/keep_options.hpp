@@ -21,7 +21,7 @@ struct KeepOptions {
 /// Adds --keep and --keep-in, bound to `options`. `what`: that which is held, for --help.
 void add_keep(Command& program, KeepOptions& options, const std::string& what);
 
-/// After parse(): whether the options go together, and with --control.
+/// Checks, after parse(), that the options fit each other and --control.
 [[nodiscard]] base::Result<void> check_keep(const KeepOptions& options, bool has_control);
 
 } // namespace hapnet::cli

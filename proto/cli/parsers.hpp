@@ -17,7 +17,7 @@ namespace hapnet::cli {
 template <typename T>
 using Parser = std::function<base::Result<T>(const std::string& text)>;
 
-/// Any whole number of 64 bits.
+/// Parses any whole number of 64 bits.
 [[nodiscard]] base::Result<base::Seed> seed(const std::string& text);
 
 /// Parses one of some words, in small or capital letters.

@@ -21,8 +21,8 @@ namespace hapnet::control {
 class Server {
 public:
     static constexpr std::size_t clients_max = 16;
-    /// Those that have hung up leave their place at once. What so many of them have asked before is
-    /// still done, a little at a time; beyond that the oldest requests are given up.
+    /// Clients that have hung up leave their place at once. The earlier requests of this many such
+    /// clients are still done, a little at a time; beyond that, the oldest requests are given up.
     static constexpr std::size_t departed_max = 16;
 
     /// Limits of the work that clients cause.
@@ -38,7 +38,7 @@ public:
     /// Readable when there is something to do.
     [[nodiscard]] int descriptor() const { return wait_set_.descriptor(); }
 
-    /// When serve() is to be called again although descriptor() is not readable.
+    /// Returns when to call serve() again although descriptor() is not readable.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
     /// Does a little of what there is to do: no more is answered than the limits say.

@@ -38,7 +38,7 @@ public:
 
     /// Readable when work has been ordered.
     [[nodiscard]] int descriptor() const { return ordered_.descriptor(); }
-    /// When the next step may be done; nullopt: there is no work.
+    /// Returns when the next step may be done; nullopt: there is no work.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
     /// True if a step can be done now.
     [[nodiscard]] bool is_due(base::TimePoint now,

@@ -31,7 +31,7 @@ namespace hapnet::disk {
 /// Letters that no other user can guess, for a name.
 [[nodiscard]] std::string random_letters();
 
-/// How much of a text was written: all of it, unless there is an error.
+/// The part of a text that was written: all of it, unless there is an error.
 struct Written {
     std::size_t bytes = 0;
     std::error_code error{};

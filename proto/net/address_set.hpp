@@ -35,7 +35,7 @@ public:
     /// resolve.
     base::Result<void> add(const AddressPattern& pattern, int family = AF_UNSPEC);
 
-    /// Any port of this address.
+    /// Adds an address with any port.
     void add_host(const Endpoint& host);
 
     [[nodiscard]] bool contains(const Endpoint& endpoint) const;

@@ -22,8 +22,8 @@ class ChildCommand {
 public:
     struct Setup {
         std::vector<std::string> words; // the command and its arguments
-        /// In a network namespace of its own and, where the system grants it, in a PID namespace
-        /// of its own with a /proc that shows it.
+        /// Runs the command in its own network namespace and, if the system permits it, in its own
+        /// PID namespace with a matching /proc.
         bool has_own_network = false;
         bool has_own_group = false;             // a process group, and /dev/null as its stdin
         int output = -1;                        // its stdout and stderr; -1: those of this process
@@ -43,7 +43,8 @@ public:
     ChildCommand(const ChildCommand&) = delete;
     ChildCommand& operator=(const ChildCommand&) = delete;
 
-    /// Has it prepare its network; returns when that is done. Throws what it failed of.
+    /// Runs Setup::prepare in the command's network, and returns when it is done. Throws the error
+    /// that it failed with.
     void prepare();
     /// Runs the command. Throws std::system_error when there is no such command.
     void go();
@@ -52,10 +53,11 @@ public:
     [[nodiscard]] pid_t pid() const { return pid_; }
     /// Readable or hung up once the command has ended.
     [[nodiscard]] int descriptor() const { return ended_; }
-    /// Its exit code, 128 + n when signal n killed it; nullopt while it runs. Processes that it has
-    /// left in the background may still run then.
+    /// Returns the exit code of the command, or 128 + n if signal n killed it; nullopt while it
+    /// runs. Its background processes may still run afterwards.
     [[nodiscard]] std::optional<int> exit_code();
-    /// To it, and to its group if it has one of its own. Nothing when it has ended.
+    /// Sends a signal to the command, and to its process group if it has its own. Does nothing
+    /// after the command has ended.
     void signal(int number);
 
 private:

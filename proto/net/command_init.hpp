@@ -21,7 +21,7 @@ struct InitOrder {
     int number = 0;
 };
 
-/// One message from it: a step is done, or what it failed of.
+/// One message from the init: a step is done, or the reason why it failed.
 struct InitReport {
     enum class Kind : std::uint8_t {
         done,

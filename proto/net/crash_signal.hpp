@@ -27,7 +27,7 @@ public:
     [[nodiscard]] int descriptor() const { return dying_; }
     /// True if the signal's descriptor is readable, for a loop that checks without waiting.
     [[nodiscard]] static bool has_come() noexcept;
-    /// All is in order: let it die.
+    /// Lets the program die: everything is in a safe state.
     void acknowledge() const;
     /// For whatever else ends the program suddenly (ExitGuard): the descriptor becomes readable,
     /// and the caller is held as a dying thread is. Nothing without a CrashSignal. Calls only what

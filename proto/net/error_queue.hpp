@@ -10,7 +10,7 @@ namespace hapnet::net {
 /// the error of the socket's next call, and also keeps it in a queue of its own.
 class ErrorQueue {
 public:
-    /// Has the kernel keep the answers to what this socket sends from now on.
+    /// Has the kernel keep the answers to datagrams that this socket sends from now on.
     static void ask_for(int descriptor, int family);
 
     /// Takes the answers that are there, at most 256 of them. True if there was one: then a call

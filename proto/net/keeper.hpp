@@ -29,12 +29,12 @@ public:
     /// after. The error says why there will be none. `file` has no slash.
     [[nodiscard]] base::Result<std::string> order(const std::string& file, base::TimePoint from);
 
-    /// For the thread that writes: the order that waits.
+    /// Returns the waiting order, for the thread that writes.
     [[nodiscard]] std::optional<Order> take();
     /// Writes the file, of mode 0600. Where it refuses, trouble() tells why.
     void save(const std::string& path, std::string_view bytes);
 
-    /// Why a file could not be saved; once.
+    /// Returns the reason why a file could not be saved, once.
     [[nodiscard]] std::optional<std::string> trouble();
 
 private:

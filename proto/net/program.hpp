@@ -52,7 +52,7 @@ inline void tell(const std::string& text)
     std::ignore = std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// One line of it: "hapnet-peer: ...".
+/// Writes one such line: "hapnet-peer: ...".
 inline void say(std::string_view program, std::string_view text)
 {
     tell(fmt::format("{}: {}\n", program, base::visible_lines(text)));

@@ -24,7 +24,7 @@ public:
     ServiceManager& operator=(const ServiceManager&) = delete;
 
     void tell_ready() const { tell("READY=1"); }
-    /// From here on the manager does not ask for signs of life.
+    /// Tells the manager that the program stops. The manager expects no more signs of life.
     void tell_stopping() const { tell("STOPPING=1"); }
     /// The loop that must not stand still has moved. Sends a sign of life when one is due, which is
     /// twice as often as the manager asks for; call it as often as you like.

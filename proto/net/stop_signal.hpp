@@ -42,7 +42,7 @@ public:
     /// thread learns of the signal independently. Never blocks.
     [[nodiscard]] bool requested() const;
 
-    /// For how long a stop has been asked for; 0: it has not.
+    /// Returns the time since a stop was requested; 0: no stop was requested.
     [[nodiscard]] base::Duration requested_for() const;
 
     /// The signal that asked first: SIGINT, SIGTERM or SIGHUP; SIGTERM when request() did, and
@@ -53,7 +53,7 @@ public:
     /// terminal's group.
     [[nodiscard]] bool came_to_group() const;
 
-    /// From any thread: as if such a signal had come.
+    /// Requests a stop as if a signal had come. May be called from any thread.
     void request() const;
 
     /// True if a signal that means reload has come since the last call.

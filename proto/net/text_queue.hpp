@@ -24,7 +24,7 @@ public:
     TextQueue(const TextQueue&) = delete;
     TextQueue& operator=(const TextQueue&) = delete;
 
-    /// From any thread.
+    /// Adds text. May be called from any thread.
     void put(std::string_view text);
 
     /// True if all text was written, dropped or refused.

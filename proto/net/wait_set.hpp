@@ -38,7 +38,8 @@ public:
     void add(int descriptor, std::uint64_t key, Interest interest);
     void change(int descriptor, std::uint64_t key, Interest interest);
 
-    /// Those that are ready now, some of them at least; valid until the next call. Never blocks.
+    /// Returns descriptors that are ready now, at least some of them; valid until the next call.
+    /// Never blocks.
     [[nodiscard]] std::span<const Ready> ready();
 
     [[nodiscard]] int descriptor() const { return descriptor_; }

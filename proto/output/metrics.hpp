@@ -33,12 +33,13 @@ public:
     /// below a field that is a metric is one, too: its name has the keys behind it.
     void add(const base::FieldTable& fields, const nlohmann::ordered_json& json,
              const std::map<std::string, std::string>& labels = {});
-    /// Those of another program, as its json() has them. What is none is passed over.
+    /// Adds the metrics of another program from its json(). Entries that are no metrics are
+    /// ignored.
     void add(const nlohmann::ordered_json& told);
 
     /// A list, which add() takes.
     [[nodiscard]] nlohmann::ordered_json json() const;
-    /// In the format of Prometheus (text, version 0.0.4).
+    /// Returns the metrics as text in the format of Prometheus (version 0.0.4).
     [[nodiscard]] std::string text() const;
 
 private:

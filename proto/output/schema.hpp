@@ -16,7 +16,7 @@ namespace hapnet::output {
 [[nodiscard]] nlohmann::ordered_json schema_of(const base::FieldTable& fields,
                                                std::string_view title);
 
-/// Its text, as the programs print it.
+/// Returns the text of the schema, as the programs print it.
 template <base::Described T>
 [[nodiscard]] std::string schema_text(std::string_view title)
 {

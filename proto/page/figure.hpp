@@ -147,8 +147,8 @@ struct Figure {
 /// The text with a hyphen for each character that an id may not have.
 [[nodiscard]] std::string plain_id(std::string text);
 
-/// At most about so many of the points of a curve: the lowest and the highest of each stretch, so
-/// that no peak is lost.
+/// Returns about `count_max` points of a curve at most: the lowest and the highest of each stretch,
+/// so that no peak is lost.
 [[nodiscard]] std::vector<Point> thinned(std::span<const Point> points, std::size_t count_max);
 
 /// The figure as pages carry it: `{id, kind, title, x, y, series, ...}`. Points to seven digits.

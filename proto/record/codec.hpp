@@ -30,7 +30,7 @@ struct Layout {
     int version = 3;
     std::size_t message_row_bytes = message_head_bytes + MessageRow::bytes_max;
 
-    /// For messages of so many bytes at most.
+    /// Returns the layout for messages of at most this many bytes.
     [[nodiscard]] static constexpr Layout for_messages_of(std::size_t bytes)
     {
         return {.message_row_bytes = message_head_bytes + bytes};

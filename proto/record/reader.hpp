@@ -20,7 +20,7 @@ struct Record {
     std::vector<SessionRow> sessions;
     /// Ascending in their ticks.
     std::vector<BodyRow> bodies{};
-    /// For each of `sessions`, how many of `ticks` were written before it.
+    /// The number of `ticks` that were written before each of the `sessions`.
     std::vector<std::size_t> ticks_before_session;
     /// The file ends inside a row: the writer was killed. Nothing before that row is harmed.
     bool cut_off = false;

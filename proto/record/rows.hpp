@@ -24,7 +24,7 @@ enum class Phase : std::uint8_t {
     ended,
 };
 
-/// Also in the header of a record and in its CSV.
+/// The names of phases in the header of a record and in its CSV.
 constexpr auto names_of(base::Tag<Phase> /*enum*/)
 {
     return base::names("waiting", "countdown", "running", "hands_off", "alone", "ended");
@@ -34,7 +34,7 @@ using base::name_of;
 /// One tick of the haptic loop. Times are this peer's CLOCK_BOOTTIME, lengths SI.
 struct TickRow {
     std::uint64_t tick = 0;
-    /// When the loop was to wake.
+    /// The time when the loop was to wake.
     base::TimePoint due{};
     /// The time from `due` until it woke.
     base::Duration late{};
@@ -71,7 +71,7 @@ struct TickRow {
     /// device::GovernorState after this tick.
     std::uint8_t governor = 0;
 
-    /// When the device was read: the row's positions and forces hold then.
+    /// The time when the device was read: the row's positions and forces hold at that time.
     [[nodiscard]] base::TimePoint at() const { return due + late; }
 
     friend bool operator==(const TickRow&, const TickRow&) = default;
@@ -79,7 +79,7 @@ struct TickRow {
 
 /// A message as it came from another peer, undecoded.
 struct MessageRow {
-    /// Longer than any message of ours: a state with eight bodies that turn has 838.
+    /// Length of the longest message: a state with eight bodies that turn.
     static constexpr std::size_t bytes_max = 838;
 
     /// The tick that read it from the socket.
@@ -108,9 +108,9 @@ struct SessionRow {
     std::uint64_t seed = 0;
     /// The id of the other; 0: not said, as in records of version 2.
     std::uint16_t other = 0;
-    /// When `remote_offset` held, on this clock.
+    /// The time, on this clock, at which `remote_offset` held.
     base::TimePoint noted_at{};
-    /// By how much the other's clock runs faster, in parts per million.
+    /// The amount by which the other clock runs faster, in parts per million.
     double remote_skew_ppm = 0.0;
 
     friend bool operator==(const SessionRow&, const SessionRow&) = default;
@@ -125,7 +125,7 @@ using AngularVelocity = base::Vector<struct AngularVelocityKind>;
 struct BodyRow {
     /// The tick that the row belongs to.
     std::uint64_t tick = 0;
-    /// Its number in the scene, as in the messages.
+    /// The number of the body in the scene, as in the messages.
     std::uint16_t body = 0;
     base::Position position{};
     base::Velocity velocity{};

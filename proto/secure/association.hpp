@@ -57,7 +57,7 @@ public:
     static constexpr base::Duration listen_for{std::chrono::seconds{1}};
     static constexpr int response_repeats = 2;
     static constexpr std::size_t waiting_max = 8; // initiations, and responses
-    /// While the other side is heard, another run of it takes its place no more often than this.
+    /// While the other side is heard, another run of that side replaces it no more often than this.
     static constexpr base::Duration runs_change_every{std::chrono::seconds{5}};
 
     struct Config {

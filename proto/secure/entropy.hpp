@@ -23,7 +23,7 @@ public:
         state_ = Secret{next.bytes().first<key_bytes>()};
         return drawn;
     }
-    /// For what is seen by everybody: an index, a nonce.
+    /// Random bytes that are public: an index, a nonce.
     template <std::size_t count>
     [[nodiscard]] std::array<std::byte, count> bytes()
     {

@@ -56,7 +56,8 @@ inline constexpr std::size_t empty_bytes = 8;
                                                     KeyIndex key, std::uint32_t number,
                                                     Sealer& sealer);
 
-/// Which key a sealed message names; nullopt for other frames and what is too short.
+/// Returns the key that a sealed message names; nullopt for other frames and frames that are too
+/// short.
 [[nodiscard]] std::optional<KeyIndex> key_of(Bytes datagram);
 
 /// A sealed message opened in place.
@@ -69,7 +70,7 @@ struct OpenedFrame {
 
 // --- handshakes ---
 
-/// Who a handshake is between.
+/// The two sides of a handshake.
 struct Ends {
     std::uint8_t from = 0, to = 0;
 

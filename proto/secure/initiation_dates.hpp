@@ -20,7 +20,8 @@ namespace hapnet::secure {
 /// recorded initiation is taken once, and shuts the present run out for no longer than that while.
 class InitiationDates {
 public:
-    /// How long a date counts for other runs, too: as long as an initiator waits for its key.
+    /// Duration for which a date also counts for other runs: as long as an initiator waits for its
+    /// key.
     static constexpr base::Duration unconfirmed_lasts{std::chrono::seconds{5}};
     /// Runs whose unconfirmed dates are remembered; of more the one taken longest ago is forgotten.
     static constexpr std::size_t runs_max = 32;

@@ -23,7 +23,7 @@ public:
     [[nodiscard]] const PublicKey& own_public() const { return own_public_; }
     [[nodiscard]] const PublicKey& other() const { return other_; }
     [[nodiscard]] const Secret& pre_shared() const { return pre_shared_; }
-    /// False where the circle has no such key: it counts as zeros in handshakes.
+    /// False if the circle has no such key: zeros take its place in handshakes.
     [[nodiscard]] bool has_pre_shared() const { return !is_zero(pre_shared_.bytes()); }
     /// Diffie and Hellman's secret of the two static keys: computed once, not in every handshake.
     [[nodiscard]] const Secret& common() const { return common_; }

@@ -52,7 +52,7 @@ public:
 
     [[nodiscard]] std::span<const std::byte, count> bytes() const { return bytes_; }
     [[nodiscard]] std::span<std::byte, count> bytes() { return bytes_; }
-    /// For the few places where one secret has two owners.
+    /// Returns a copy, for the few places where one secret has two owners.
     [[nodiscard]] SecretBytes copy() const { return SecretBytes{bytes()}; }
 
 private:

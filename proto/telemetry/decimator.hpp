@@ -25,13 +25,13 @@ struct Names {
 /// it with take() and hear(), drain it with next(). Does no I/O and reads no clock.
 class Decimator {
 public:
-    /// Both functions of `names` are there.
+    /// `names` has to contain both functions.
     Decimator(std::uint16_t peer, const Names& names) : names_{names} { frame_.peer = peer; }
 
     void take(const record::TickRow& tick);
     void take(const record::SessionRow& session);
     void take(const record::BodyRow& body);
-    /// A message of another peer, as it came; one that is no state is passed over.
+    /// Takes a message of another peer as it came. Messages other than states are ignored.
     void hear(std::uint16_t from, base::TimePoint received_at, std::span<const std::byte> message);
 
     /// The frame of all that was fed since the one before; nullopt before the first tick.

@@ -82,7 +82,7 @@ constexpr auto fields_of(base::Tag<Range>)
                         base::member("max", &Range::max));
 }
 
-/// As JSON has it.
+/// Returns a vector as JSON lists it.
 [[nodiscard]] inline std::array<double, 3> list_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 /// Figures about another peer's messages. Counts and `delay_ms` cover the time since the last
@@ -120,7 +120,7 @@ constexpr auto fields_of(base::Tag<HeardFrame>)
             .rounded(ms_decimals));
 }
 
-/// Where a shared body is, in sessions in which the tick itself does not hold it.
+/// The place of a shared body, in sessions whose ticks do not hold it.
 struct BodyFrame {
     std::uint16_t body = 0;
     base::Position position;
@@ -163,7 +163,7 @@ constexpr auto fields_of(base::Tag<SessionFrame>)
         base::member("phase", &SessionFrame::phase, "As in `phase` of the frame."));
 }
 
-/// Its newest tick in a frame.
+/// The newest tick of a peer in a frame.
 struct TickFrame {
     record::TickRow row;
 };

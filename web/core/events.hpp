@@ -10,13 +10,13 @@
 
 namespace hapnet::web {
 
-/// When something happened: on the server's own timeline, and by the calendar.
+/// The time of an event, on the server's own timeline and by the calendar.
 struct Moment {
     double at_s = 0.0;
     std::int64_t unix_ms = 0;
 };
 
-/// Something that a person should see in the log of the page.
+/// An event that the log of the page shows to people.
 struct Event {
     Moment at;
     std::string kind; // "conditions", "peer", ...: docs/formats/live.md

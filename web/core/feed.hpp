@@ -40,14 +40,14 @@ public:
     /// `place` is that in peers().
     void take_peer(std::size_t place, PeerFrame frame);
     void take_emulator(EmulatorFrame frame);
-    /// Its frames have ended: live frames have null instead.
+    /// The frames of a peer have ended: live frames have null in their place.
     void lose_peer(std::size_t place);
     void lose_emulator() { emulator_ = {}; }
     /// Empties the charts, for example when virtual time goes back.
     void forget();
 
-    /// All but the beginning, which is each page's own: `,"at_s":...}`. nullopt: nothing is
-    /// attached. Adds a row to the history.
+    /// Returns the next live frame without its beginning, which each page has its own:
+    /// `,"at_s":...}`. nullopt: nothing is attached. Adds a row to the history.
     [[nodiscard]] std::optional<std::string> next(double at_s, base::TimePoint now);
 
     /// The newest live frame once more, for a page that comes later: as `repeated`, without a row.

@@ -23,7 +23,7 @@ struct Asked {
     bool is_upgrade = false;                 // to a WebSocket
 };
 
-/// Why a request is not let in.
+/// The reason why a request is not let in.
 struct Refusal {
     int status = 403;
     std::string error;        // a sentence for a person

@@ -13,7 +13,7 @@
 
 namespace hapnet::web {
 
-/// Where a page wants the hand to be, metres, and whether it grips what is within its reach.
+/// The place where a page wants the hand, m, and whether it grips a body within its reach.
 struct HandPlace {
     std::array<double, 3> at{};
     bool grips = false;

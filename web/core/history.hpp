@@ -23,7 +23,7 @@ public:
     void set_columns(std::vector<std::string> columns);
     void clear();
 
-    /// One value to each column.
+    /// Adds a row with one value for each column.
     void add(const std::vector<double>& row);
 
     [[nodiscard]] std::size_t size() const { return rows_.size(); }

@@ -11,7 +11,7 @@
 
 namespace hapnet::web {
 
-/// Where a body was, and how fast; metres and m/s.
+/// Position and velocity of a body at a time; m and m/s.
 struct Sample {
     base::TimePoint at;
     glm::dvec3 position{0.0};
@@ -40,7 +40,7 @@ private:
     std::deque<Sample> samples_; // ascending in time
 };
 
-/// Two bodies at one time.
+/// The positions of two bodies at one time.
 struct Apart {
     base::TimePoint at; // on the clock of the first
     glm::dvec3 a{0.0};
@@ -50,7 +50,8 @@ struct Apart {
     [[nodiscard]] double distance_m() const;
 };
 
-/// At the latest time that both tracks have. `ahead`: the clock of b less that of a.
+/// Returns both positions at the latest time that both tracks have. `ahead`: the clock of b minus
+/// the clock of a.
 [[nodiscard]] std::optional<Apart> apart(const Track& a, const Track& b, base::Duration ahead);
 
 } // namespace hapnet::web

@@ -41,7 +41,7 @@ struct Story {
     [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// The sets that a page may choose from. Nothing else of what a page says reaches a command line.
+/// The sets that a page may choose from. No other text of a page reaches a command line.
 struct Choices {
     std::vector<std::string> modes{"live", "virtual"};
     std::vector<std::string> scenes; // first the one of the task

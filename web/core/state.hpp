@@ -54,7 +54,7 @@ struct PeerState {
 [[nodiscard]] nlohmann::ordered_json help_for(const EmulatorState& emulator,
                                               const std::vector<PeerState>& peers, bool has_stage);
 
-/// Why the daemons that are attached cannot save their last seconds; "" when they can.
+/// Returns the reason why the attached daemons cannot save their last seconds; "" if they can.
 [[nodiscard]] std::string why_nothing_is_held(const EmulatorState& emulator,
                                               const std::vector<PeerState>& peers);
 

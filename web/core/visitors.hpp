@@ -19,7 +19,7 @@ struct Visitor {
 
 class Visit;
 
-/// All connections but those of viewers, who have shown the token and have a limit of their own.
+/// All connections except those of viewers, which have shown the token and have their own limit.
 class Visitors {
 public:
     explicit Visitors(std::size_t most) : most_{most} {}

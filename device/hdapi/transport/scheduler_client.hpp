@@ -19,7 +19,7 @@ class SchedulerClient {
 public:
     explicit SchedulerClient(const DeviceCycle& cycle) : cycle_{cycle} {}
 
-    /// While the scheduler is stopped: ends the silence.
+    /// Ends the silence. Call it while the scheduler is stopped.
     void on_start();
 
     // The scheduler's thread.
@@ -30,17 +30,17 @@ public:
     /// The newest report.
     [[nodiscard]] const Report& report();
     void command(const Command& command);
-    /// As Device::pace(); the beats come on the calling thread.
+    /// Paces the loop like Device::pace(). `beat` runs on the calling thread.
     void pace(const std::function<bool()>& beat);
     [[nodiscard]] Handle handle() const { return cycle_.handle(); }
 
     // Any thread.
-    /// Zero force from the next cycle of the library on.
+    /// Sets zero force from the library's next cycle on.
     void halt() noexcept { halted_.store(true, std::memory_order_release); }
-    /// Zero force until the scheduler starts again, whatever is commanded.
+    /// Sets zero force until the scheduler starts again, whatever is commanded.
     void begin_silence() { hushed_.store(true, std::memory_order_release); }
-    /// After begin_silence(): returns when at least three frames have carried it, or no cycle came
-    /// for 100 ms.
+    /// Returns when at least three frames after begin_silence() have carried zero force, or when no
+    /// cycle has come for 100 ms.
     void await_silence();
 
 private:

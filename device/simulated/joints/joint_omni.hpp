@@ -37,7 +37,8 @@ public:
     void on_cue(const Cue& cue) override;
     void on_fault(bool is_latched) override { person_.on_fault(is_latched); }
 
-    /// By a script instead of the person: the hand goes there, evenly in a second, and stays.
+    /// Moves the hand by a script instead of the person: evenly to `place` within one second. It
+    /// stays there.
     void lead_to(const base::Position& place);
     /// ... and presses the buttons: one bit each.
     void press(std::uint8_t buttons) { pressed_ = buttons; }

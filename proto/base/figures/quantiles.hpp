@@ -30,7 +30,7 @@ constexpr auto fields_of(Tag<Quantiles>)
                   member("max", &Quantiles::max));
 }
 
-/// Those of them that are told of paths and loops.
+/// The quantiles that paths and loops report.
 struct MainQuantiles {
     Duration p50{};
     Duration p99{};

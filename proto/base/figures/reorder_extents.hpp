@@ -12,7 +12,7 @@ namespace hapnet::base {
 /// with a higher number they came. Remembers the last in-order arrivals, in memory of a fixed size.
 class ReorderExtents {
 public:
-    /// How many in-order arrivals are remembered.
+    /// Number of in-order arrivals that are remembered.
     static constexpr std::size_t looks_back = 1024;
 
     /// Takes an arrival in order, as NextExpected tells it.

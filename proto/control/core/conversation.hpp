@@ -40,10 +40,11 @@ struct Subject {
 /// than room() says, and answers nothing more while the client leaves too much unread.
 class Conversation {
 public:
-    /// For whole profiles.
+    /// Longest request, for whole profiles.
     static constexpr std::size_t line_bytes_max = std::size_t{1} << 20;
     static constexpr std::size_t unread_bytes_max = std::size_t{256} << 10;
-    /// While more than this is unread, frames are left out: the newest is worth most.
+    /// If more bytes than this are unread, frames are left out: the newest frame is the most
+    /// useful.
     static constexpr std::size_t unread_frames_bytes_max = std::size_t{64} << 10;
     /// A client that takes nothing of what it is sent for so long is given up.
     static constexpr base::Duration patience = std::chrono::seconds{10};
@@ -51,7 +52,7 @@ public:
     /// A line of more than `line_max` bytes is refused, and the client heard no more.
     explicit Conversation(std::size_t line_max = line_bytes_max) : line_max_{line_max} {}
 
-    /// How many bytes on_bytes() takes now.
+    /// Returns the number of bytes that on_bytes() accepts now.
     [[nodiscard]] std::size_t room() const;
 
     /// Takes bytes that the client has sent, at most room() bytes.
@@ -68,17 +69,17 @@ public:
     /// something that may be followed by more at once.
     bool advance(const Subject& subject, base::TimePoint now);
 
-    /// When advance() is to be called again although nothing was received; nullopt: never.
+    /// Returns when to call advance() again although nothing was received; nullopt: never.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
     /// The bytes to send. on_written() says how many of them have been sent.
     [[nodiscard]] std::string_view output() const;
     void on_written(std::size_t bytes, base::TimePoint now);
 
-    /// Nothing more is to be expected: close it once output() is empty.
+    /// True if nothing more will come: close the connection once output() is empty.
     [[nodiscard]] bool is_over() const;
 
-    /// It leaves its replies unread: close it.
+    /// True if the client leaves its replies unread: close the connection.
     [[nodiscard]] bool is_stuck(base::TimePoint now) const;
 
 private:

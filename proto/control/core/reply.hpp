@@ -15,7 +15,8 @@ namespace hapnet::control {
 // The lines that answer requests, each a JSON object without a newline, as far as they are the
 // same for every program.
 
-/// On one line; what is no UTF-8 is replaced, so that every text can be printed.
+/// Returns JSON on one line. Bytes that are not UTF-8 are replaced, so that every text can be
+/// printed.
 [[nodiscard]] std::string line_of(const nlohmann::ordered_json& json);
 
 /// {"ok":false,"error":"..."}; what is too long to be read is cut.

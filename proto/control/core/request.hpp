@@ -89,7 +89,8 @@ private:
 [[nodiscard]] WaitRequest wait_request(Members& members);
 [[nodiscard]] WatchRequest watch_request(Members& members, base::Duration frames_least);
 
-/// Those of keep. `held`: how much a program has of what happened last; nullopt: nothing.
+/// Reads the members of a keep request. `held` is how much of the last events the program has;
+/// nullopt: nothing.
 [[nodiscard]] KeepRequest keep_request(Members& members, std::optional<base::Duration> held);
 
 } // namespace hapnet::control

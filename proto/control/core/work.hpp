@@ -9,10 +9,10 @@ namespace hapnet::control {
 /// A little of some work: 50 us at most. True when all of it is done.
 using Step = std::function<bool()>;
 
-/// Has work done where nothing else happens meanwhile; returns once it is done.
+/// Runs work at a time when nothing else happens, and returns once the work is done.
 using DoWork = std::function<void(const Step& step)>;
 
-/// For a program of one thread.
+/// DoWork for a program with one thread.
 inline void do_at_once(const Step& step)
 {
     while (!step()) {}
