@@ -38,8 +38,8 @@ private:
     [[nodiscard]] Opened<Opening> open_one(const std::string& name);
     void give_back(const Opening& opening);
     [[nodiscard]] Opened<bool> start();
-    /// Stops the scheduler after all devices have zero force: the library's own stop is not known to
-    /// set it.
+    /// Stops the scheduler after all devices have zero force: the library's own stop is not known
+    /// to set it.
     void stop();
     static unsigned int serve_all(void* self);
     /// Each error of the cycle to the device that it names, to all where it names none of them.
