@@ -184,7 +184,7 @@ constexpr auto fields_of(base::Tag<InterfaceReport>)
                      "Senders that were told that their packets are too big."));
 }
 
-/// The interfaces of a run between two of them.
+/// Both interfaces of a run between two.
 struct InterfaceReports {
     InterfaceReport a;
     InterfaceReport b;

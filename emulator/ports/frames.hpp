@@ -61,13 +61,13 @@ public:
     /// Sends what is due at `now`; what is left is still due.
     void release(base::TimePoint now);
 
-    /// Returns the next message for the user, each once; nullopt: no message.
+    /// Something that a person should be told of, once.
     [[nodiscard]] std::optional<std::string> next_notice();
 
-    /// The reason why the run has to end; nullopt: it may go on.
+    /// Why it must not go on; nullopt: it may.
     [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
 
-    /// From now on, an interface that goes away is no failure, because the command behind it ends.
+    /// From now on an interface that goes is no failure: what stands behind it ends.
     void expect_end() { is_end_expected_ = true; }
 
     [[nodiscard]] const EmulatedPath& path() const { return path_; }
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
-    /// Frames that leave on one side, gathered and sent together.
+    /// What leaves on one side, gathered and sent together.
     class Outgoing;
 
     void pass(Side& from, Side& to);
