@@ -30,7 +30,7 @@ public:
     static constexpr base::Duration patience{std::chrono::seconds{2}};
     static constexpr std::size_t asked_max = 64;
 
-    /// `every`: of the frames.
+    /// `every` is the interval of frames.
     Daemon(boost::asio::io_context& io, const std::string& path, std::string every,
            Handlers handlers);
 

@@ -33,8 +33,8 @@ public:
         : io_{io}, handlers_{std::move(handlers)}
     {}
 
-    /// Those of these sockets from now on, and no others; an empty path: none. Daemons that have
-    /// the names of those before just come back, as in the next session of a loop.
+    /// Watches the daemons of these sockets from now on, and no others; an empty path: none.
+    /// Daemons with the names of earlier ones count as returned, as in the next session of a loop.
     void watch(const std::string& emulator, const std::vector<std::string>& peers);
     /// A session in virtual time, whose peers have their sockets beside it.
     void watch_lab(const std::string& socket);
@@ -60,7 +60,7 @@ public:
 
     /// The emulator has told its pace, in virtual time.
     void know_pace(Json pace) { emulator_state_.shown["pace"] = std::move(pace); }
-    /// A request of a page has made this generation, and is told by itself.
+    /// A request of a page has made this generation, so it is not reported again.
     void know_generation(std::uint64_t generation);
 
 private:

@@ -78,7 +78,7 @@ public:
     /// Call it every frame_every.
     void tick(base::TimePoint now);
 
-    /// nullopt: too many look already. Tells it what has been so far.
+    /// Adds a viewer and sends it the state so far. nullopt: there are too many viewers.
     [[nodiscard]] std::optional<Membership> join(Viewer viewer);
     [[nodiscard]] bool is_full() const { return viewers_->size() >= viewers_max; }
 

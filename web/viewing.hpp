@@ -18,10 +18,10 @@ struct LiveParts {
     Visitors& visitors;
 };
 
-/// Lets a page look at what is live, over a WebSocket, until it goes: the token comes first, then
-/// acknowledgements of frames. Until the token has come, and for ever if it is wrong, the page
-/// counts as a visitor. A page that does not keep up gets fewer frames; one that reads nothing is
-/// left.
+/// Serves live frames to a page over a WebSocket until it disconnects: the page sends the token
+/// first, then acknowledgements of frames. Until the token has come, and always if it is wrong, the
+/// page counts as a visitor. A slow page gets fewer frames; a page that reads nothing is
+/// disconnected.
 void view_live(boost::asio::ip::tcp::socket socket, const Request& request, const LiveParts& parts);
 
 } // namespace hapnet::web

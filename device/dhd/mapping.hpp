@@ -17,7 +17,7 @@ namespace hapnet::device::dhd {
 /// The fault for one of the library's error codes.
 [[nodiscard]] Fault fault_of(int code);
 
-/// A vector of the library's in our frame.
+/// Returns a vector of the library's frame in the device frame.
 [[nodiscard]] constexpr glm::dvec3 from_library(const std::array<double, 3>& it)
 {
     return {it[1], it[2], it[0]};
@@ -28,9 +28,9 @@ namespace hapnet::device::dhd {
     return {it.z, it.x, it.y};
 }
 
-/// The abilities that any device behind the library is taken to have. The library states none, so
-/// they are no more than an Omni's: peak, continuous force and stiffness of its data sheet, within
-/// a cube of 80 mm around the device's origin.
+/// The assumed abilities of any device behind the library, which states none: peak force,
+/// continuous force and stiffness of an Omni's data sheet, within a cube of 80 mm around the
+/// device's origin.
 [[nodiscard]] Capabilities capabilities();
 
 /// The results of one round of calls.

@@ -29,8 +29,8 @@ public:
     /// True once the device has been unplugged. It does not return to false.
     [[nodiscard]] virtual bool is_gone() const noexcept = 0;
 
-    /// Sends behind whatever is on its way; from any thread. Nothing while the last one that was
-    /// sent so has still not left: then ask again.
+    /// Sends a packet after the packets under way; from any thread. Does nothing while an earlier
+    /// packet of interrupt() is still waiting to leave: call it again then.
     virtual void interrupt(const Packet& packet) noexcept = 0;
 
     /// Sends, and waits at most 50 ms until it has left.

@@ -9,14 +9,15 @@
 
 namespace hapnet::device {
 
-/// Estimates the heat of the motors by the square of the force over time (I2t): no device measures
-/// it well: heat' = (|f|^2 / continuous^2 - heat) / time. At 1 they are as warm as the force makes
-/// them that they bear for ever. Above, the limit goes down from the peak to that force, evenly
-/// with the heat: no trip, and in the end at most 5 % more than they bear.
+/// Estimates the heat of the motors from the square of the force over time (I2t), as no device
+/// measures it well: heat' = (|f|^2 / continuous^2 - heat) / time. A heat of 1 is the temperature
+/// at the continuous force. Above 1 the limit decreases evenly from the peak to the continuous
+/// force. This causes no fault, and the force exceeds the continuous force by at most 5 % in the
+/// end.
 class MotorHeat {
 public:
-    /// `continuous_n`: the force that the motors bear for ever; infinity: any. `heat`: at the
-    /// start.
+    /// `continuous_n`: the force that the motors can hold without limit in time, N; infinity: any
+    /// force. `heat`: the heat at the start.
     MotorHeat(double continuous_n, base::Duration time, double heat = 0.0)
         : continuous_n_{continuous_n},
           heating_{continuous_n > 0.0 ? 1.0 / (continuous_n * continuous_n) : 0.0},

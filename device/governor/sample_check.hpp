@@ -41,12 +41,12 @@ public:
     [[nodiscard]] Result look(const GovernorLimits& limits, const Sample& sample,
                               base::Duration passed, const Push& push);
 
-    /// A place that stays the same to the last bit for so long under so much force: a hand trembles
-    /// by more than a count of any encoder.
+    /// A position without any change for this long, under this much force, is a fault: a hand
+    /// trembles by more than one count of any encoder.
     static constexpr base::Duration frozen_after{std::chrono::seconds{3}};
     static constexpr double frozen_force_n = 0.5;
-    /// Faster by this against so much force, within 25 to 50 ms: 8 m/s2, which a push of a hand in
-    /// contact does not reach, and motors with the wrong sign do.
+    /// This increase of speed against this much force, within 25 to 50 ms, is a fault. It is 8
+    /// m/s2, which a hand's push in contact does not reach, and motors with the wrong sign do.
     static constexpr double runaway_m_per_s = 0.4;
     static constexpr double runaway_force_n = 1.0;
 

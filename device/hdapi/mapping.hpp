@@ -20,8 +20,8 @@ namespace hapnet::device::hdapi {
 /// Encoders are not reset from here: that failed.
 [[nodiscard]] CalibrationStep calibration_step(unsigned int status, int style);
 
-/// With which of the styles that a device has it is calibrated: inkwell before automatic before
-/// encoder reset, as the first needs no care of the person's. Where it has none: the last.
+/// Returns the calibration style to use among the styles of a device: inkwell before automatic
+/// before encoder reset, as the first needs no care by the person. Without a known style: the last.
 [[nodiscard]] int preferred_style(int styles);
 
 /// The abilities of a device as the library states them, in its own units.

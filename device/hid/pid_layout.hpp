@@ -83,8 +83,8 @@ inline constexpr std::size_t report_bytes_max = 64;
 
 /// True if the device supports usage page 0x0f: it has a Set Effect report.
 [[nodiscard]] bool is_force_device(const Descriptor& descriptor);
-/// The report with the axis X, or why there is none that serves. An axis Y counts where effects
-/// can be played on it: that of a steering wheel is a pedal.
+/// Returns the report with the axis X, or the error that says why no report fits. An axis Y counts
+/// only if effects can act on it: on a steering wheel it is a pedal.
 [[nodiscard]] base::Result<InputLayout> find_input(const Descriptor& descriptor);
 /// Returns all parts of the layout that a constant force needs, or the error that names a missing
 /// part.

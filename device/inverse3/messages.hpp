@@ -58,8 +58,8 @@ inline constexpr std::size_t id_bytes_max = 64;
 /// A device's state as a report. nullptr: it is not among the devices any more.
 [[nodiscard]] polled::Report report_of(const DeviceState* device, std::uint8_t buttons);
 
-/// The abilities of an Inverse3. The service states none, so they are no more than an Omni's: its
-/// peak, continuous force and stiffness, within a box around the middle of the arm's reach.
+/// The assumed abilities of an Inverse3, as the service states none: peak force, continuous force
+/// and stiffness of an Omni, within a box around the middle of the arm's reach.
 [[nodiscard]] Capabilities capabilities();
 
 } // namespace hapnet::device::inverse3

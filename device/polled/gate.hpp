@@ -15,7 +15,8 @@ namespace hapnet::device::polled {
 /// calibrated, and for a force that is not finite or older than 20 ms.
 class Gate {
 public:
-    /// The command to send at `now`. `newest` is the latest one, `is_new` since the last call.
+    /// Returns the command to send at `now`. `newest` is the latest command; `is_new` is true if it
+    /// has changed since the last call.
     [[nodiscard]] Command pass(const Command& newest, bool is_new, base::TimePoint now);
     /// The answer to the command that was sent last. Gives it with the fault that it had, or that
     /// one had in the last 20 ms: what reads less often than the device is asked misses none.

@@ -19,9 +19,9 @@ struct HandDrive {
     double target_velocity_m_per_s = 0.0;
 };
 
-/// How a mass on a damped spring answers in a time: x' and x from the start's velocity, from the
-/// acceleration that the spring and the forces give it at the start, and from that one's even
-/// growth. Exact for every damping; below, at and above the critical one.
+/// The response of a mass on a damped spring after a time: x' and x from the initial velocity, from
+/// the initial acceleration by spring and forces, and from the constant growth of that
+/// acceleration. Exact for damping below, at and above the critical damping.
 struct HandResponse {
     double position_by_velocity = 0.0;     // s
     double velocity_by_velocity = 1.0;     //

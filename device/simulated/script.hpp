@@ -14,8 +14,8 @@
 
 namespace hapnet::device {
 
-/// A hand's intention: its place, whether it grips, the force with which it presses, and whether it
-/// looks for the body where it feels none.
+/// The intention of a hand: its place, whether it grips, the force with which it presses, and
+/// whether it looks for a body that it does not feel.
 struct Intention {
     base::Position target;
     bool gripping = false;

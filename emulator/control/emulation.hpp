@@ -34,7 +34,7 @@ struct Emulation {
     std::function<base::Result<TranslatedProfile>(const std::string& sentence)> netem{};
     /// Length of the last packets that are held in memory; nullopt: no packets are held.
     std::optional<base::Duration> held{};
-    /// Orders a capture of them since a time; gives its path.
+    /// Orders a capture of the last packets since a time, and returns its path.
     std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};
 };
 

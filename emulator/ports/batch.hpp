@@ -120,8 +120,8 @@ inline constexpr int release_rounds_max = 32;
 /// one.
 bool send_due(const Way& way, const Exit& exit, base::TimePoint now);
 
-/// Sends what is due of both directions, in turn; so much at most that what arrives does not have
-/// to wait long. What is left is still due.
+/// Sends the due datagrams of both directions in turn, with a limit so that arrivals do not have to
+/// wait long. The remaining datagrams stay due.
 void send_due(const Way& up, const Exit& up_exit, const Way& down, const Exit& down_exit,
               base::TimePoint now);
 

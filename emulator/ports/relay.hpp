@@ -49,14 +49,15 @@ public:
     void receive_from_a() { pass(a_, b_); }
     void receive_from_b() { pass(b_, a_); }
 
-    /// Sends what is due at `now` of its path or of a flow beside it, the two sides in turn; so
-    /// much at most that what arrives does not have to wait long. What is left is still due.
+    /// Sends the datagrams of a path, or of a flow beside it, that are due at `now`. The two sides
+    /// take turns, with a limit so that arrivals do not have to wait long. The remaining datagrams
+    /// stay due.
     void release(EmulatedPath& path, base::TimePoint now);
 
     /// Why a datagram was dropped before the path saw it.
     enum class Refusal : std::uint8_t { is_own, not_allowed, not_the_peer, side_is_taken };
 
-    /// Somebody whose datagram was dropped, and why.
+    /// The sender of a dropped datagram, and the reason.
     struct Stranger {
         net::Endpoint who;
         std::optional<net::Endpoint> owner; // of this side

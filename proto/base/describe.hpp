@@ -39,7 +39,7 @@ struct Metric {
     std::string_view label; // of what stands below it
 };
 
-/// How programs tell what they did. Words and names are of whoever reads the output.
+/// How programs print a field. Words and names are for the readers of the output.
 struct Telling {
     /// Behind a count, in a line for people: "in flight". Of a map its names stand there.
     std::optional<std::string_view> words;
@@ -50,7 +50,7 @@ struct Telling {
     bool is_without_zeros = false;    // a map in JSON, of its counts that are 0
 };
 
-/// The ways to say how a field is told, for a description that is a `Self`.
+/// The ways to say how a field is printed, for a description that is a `Self`.
 template <typename Self>
 struct Told {
     Telling telling{};
@@ -65,7 +65,7 @@ struct Told {
     {
         return with([&](Telling& t) { t.words = words, t.is_told_always = true; });
     }
-    /// A metric that only grows. Times are told in seconds, whatever unit the key has.
+    /// A metric that only grows. Times are in seconds, whatever unit the key has.
     [[nodiscard]] constexpr Self counter(std::string_view name, std::string_view label = {}) const
     {
         return with([&](Telling& t) { t.metric = {name, true, label}; });
@@ -81,7 +81,7 @@ struct Told {
     {
         return with([&](Telling& t) { t.metric = {{}, false, label}; });
     }
-    /// JSON has the number with so many decimals.
+    /// JSON has the number with this many decimals.
     [[nodiscard]] constexpr Self rounded(int decimals) const
     {
         return with([&](Telling& t) { t.decimals = decimals; });
@@ -163,8 +163,8 @@ struct Part {
     [[nodiscard]] constexpr Part without_zeros() const { return {member, true}; }
 };
 
-/// A figure that `Compute`, a lambda without captures, makes of the struct. It is told, and never
-/// read.
+/// A figure that `Compute`, a lambda without captures, computes from the struct. It is printed and
+/// never read.
 template <typename Struct, typename Compute>
 struct Computed : Told<Computed<Struct, Compute>> {
     std::string_view key;

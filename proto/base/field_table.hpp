@@ -65,7 +65,8 @@ struct FieldTable {
     std::vector<FieldRow> rows;
 };
 
-/// The nanoseconds of the unit of time that a key ends with: 1000 of "late_us"; nullopt: of none.
+/// Returns the nanoseconds of the time unit that a key ends with: 1000 for "late_us"; nullopt: no
+/// unit.
 [[nodiscard]] std::optional<double> time_unit_of(std::string_view key);
 
 /// Returns a description of the values that a field accepts, for people: "a time from 0ms to 10s".

@@ -69,7 +69,7 @@ template <typename... Types>
 [[nodiscard]] std::optional<std::variant<Types...>>
 between(const std::variant<Types...>& a, const std::variant<Types...>& b, double progress);
 
-/// Field by field.
+/// Returns a point of a ramp for each field of a struct.
 template <Described T>
 [[nodiscard]] std::optional<T> between(const T& a, const T& b, double progress)
 {

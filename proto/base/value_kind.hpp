@@ -41,7 +41,7 @@ struct ByName {
     friend bool operator==(const ByName&, const ByName&) = default;
 };
 
-/// Values by names, in the order in which they are told.
+/// Values by names, in the order in which they are printed.
 template <typename T>
 using Entries = std::vector<std::pair<std::string, T>>;
 
@@ -82,8 +82,8 @@ struct ValueKind {
     std::size_t length = 0; // of a list that cannot grow
     // nullptr: it is such a list
     void (*clear)(void* value) = nullptr;
-    /// A new element behind the others. One at a time, so that a text of many wrong elements takes
-    /// no more memory than those that are read. A maybe has none before.
+    /// Adds an element at the end. Elements are added one at a time, so that a text with many wrong
+    /// elements takes no more memory than its readable elements. A maybe has to be empty.
     void* (*add)(void* value) = nullptr;
 
     // map
@@ -106,7 +106,7 @@ struct ValueKind {
 
 namespace detail {
 
-/// A whole number from a leaf; nullopt: none of this type.
+/// Returns the whole number in a leaf; nullopt: it does not fit this type.
 template <std::integral T>
 [[nodiscard]] std::optional<T> whole_from(const Leaf& leaf)
 {
@@ -200,7 +200,7 @@ struct Kind<std::string> {
     static constexpr ValueKind kind = leaf_kind<std::string>(ValueKind::Shape::text);
 };
 
-/// These two are told, and never read.
+/// These two kinds are printed and never read.
 template <>
 struct Kind<Duration> {
     static constexpr ValueKind kind{.shape = ValueKind::Shape::time, .get = get_leaf<Duration>};

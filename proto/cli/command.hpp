@@ -31,8 +31,8 @@ public:
     /// options.
     void describe(std::string text) { description_ = std::move(text); }
     void add_footer(std::string text) { footer_ = std::move(text); }
-    /// A line each, "  0  done". Those of the program hold for commands that have none of their
-    /// own.
+    /// Sets the exit codes of --help, a line each: "  0  done". Commands without their own list
+    /// show the program's.
     void add_exit_codes(std::string text) { exit_codes_ = std::move(text); }
     /// Sets the end of its usage line: "-- COMMAND [ARGUMENT ...]", words that parse() never sees.
     void add_usage(std::string words) { usage_end_ = std::move(words); }

@@ -11,8 +11,8 @@
 
 namespace hapnet::cli {
 
-/// How much of its last seconds a program holds in memory, and the folder in which it saves them
-/// when its control socket asks for that.
+/// The length of a program's last seconds in memory, and the folder for files that its control
+/// socket asks for.
 struct KeepOptions {
     std::optional<base::Duration> span; // nullopt: nothing is held
     std::string folder;

@@ -17,7 +17,7 @@ namespace hapnet::cli {
 /// you mean --rate?".
 [[nodiscard]] std::string unknown_option(const Command& command, std::string_view word);
 
-/// The command that a word was probably meant to be, as it is typed in full; "" where none comes
+/// Returns the command that a word probably means, as it is typed in full; "" if no command is
 /// close.
 [[nodiscard]] std::string command_meant(const Command& program, std::string_view word);
 

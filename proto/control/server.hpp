@@ -16,8 +16,8 @@
 
 namespace hapnet::control {
 
-/// A control socket and those who are connected to it. Moves bytes between them and their
-/// Conversations, a little at a time, so that whoever serves it can do something else in between.
+/// A control socket and its connected clients. Moves bytes between them and their Conversations, a
+/// little at a time, so that the serving loop can do other work in between.
 class Server {
 public:
     static constexpr std::size_t clients_max = 16;

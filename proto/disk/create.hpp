@@ -20,8 +20,8 @@ namespace hapnet::disk {
 [[nodiscard]] Outcome<Descriptor> create_beside(const Place& place, const std::string& name,
                                                 int flags, mode_t mode);
 
-/// Opens what is there to write to it, or makes a file of that mode. What is there is not emptied.
-/// Refuses what Place::why_not_written_to() tells of.
+/// Opens an existing file to write to it, or makes a file of that mode. Does not empty an existing
+/// file. Refuses the files that Place::why_not_written_to() rejects.
 [[nodiscard]] Outcome<Descriptor> open_to_write(const Place& place, int flags, mode_t mode);
 [[nodiscard]] Outcome<Descriptor> open_to_write(const std::string& path, int flags, mode_t mode);
 

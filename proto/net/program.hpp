@@ -71,7 +71,7 @@ inline void require_stdout()
         throw std::system_error{EIO, std::generic_category(), "cannot write the output"};
 }
 
-/// Prints a text that somebody waits for, at once. Throws std::system_error as above.
+/// Prints a text that a reader waits for, without buffering. Throws std::system_error as above.
 inline void print_now(std::string_view text)
 {
     fmt::print("{}", text);

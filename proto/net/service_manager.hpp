@@ -29,7 +29,7 @@ public:
     /// The loop that must not stand still has moved. Sends a sign of life when one is due, which is
     /// twice as often as the manager asks for; call it as often as you like.
     void tell_alive(base::TimePoint now);
-    /// When the next sign of life is due; nullopt: the manager asks for none.
+    /// The time of the next sign of life; nullopt: the manager expects none.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_; }
 
 private:

@@ -9,10 +9,9 @@
 
 namespace hapnet::net {
 
-/// Text on its way to a terminal, a pipe or a log, which a thread of its own writes: a program that
-/// must not stand still says something here, and never waits for whoever reads it. Bounded: what
-/// finds no room is dropped whole, and counted. What is still unwritten when the process ends is
-/// lost.
+/// Text for a terminal, a pipe or a log, written by a separate thread: the program never waits for
+/// the reader. Bounded: a text without room is dropped whole, and counted. Text that is unwritten
+/// when the process ends is lost.
 class TextQueue {
 public:
     static constexpr std::size_t bytes_max = std::size_t{256} << 10;
@@ -29,11 +28,11 @@ public:
 
     /// True if all text was written, dropped or refused.
     [[nodiscard]] bool is_done() const;
-    /// Bytes that were written, ever: it grows as long as somebody takes them.
+    /// Number of bytes written so far. It grows as long as the reader takes them.
     [[nodiscard]] std::uint64_t written() const;
     /// Texts that were dropped: for want of room, or because the descriptor refused.
     [[nodiscard]] std::uint64_t lost() const;
-    /// The error number of the first write that was refused; 0: none was.
+    /// The error number of the first write that was refused; 0: no write was refused.
     [[nodiscard]] int error() const;
 
 private:

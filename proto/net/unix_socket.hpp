@@ -60,7 +60,7 @@ public:
     UnixListener(const UnixListener&) = delete;
     UnixListener& operator=(const UnixListener&) = delete;
 
-    /// The next one who has connected; nullopt when there is none.
+    /// Returns the next connection; nullopt if there is none.
     [[nodiscard]] std::optional<UnixStream> accept();
 
     [[nodiscard]] int descriptor() const { return socket_.descriptor(); }

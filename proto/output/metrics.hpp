@@ -28,9 +28,10 @@ struct Metric {
 /// Metrics in the order in which they were first told.
 class Metrics {
 public:
-    /// Those that the JSON of a struct has, by the description of its fields. Names of times end
-    /// with `_seconds`, which they are told in, and those of counters with `_total`. Each number
-    /// below a field that is a metric is one, too: its name has the keys behind it.
+    /// Adds the metrics in the JSON of a struct, by the description of its fields. Names of times
+    /// end with `_seconds`, the unit of their values, and names of counters with `_total`. Each
+    /// number below a field that is a metric is also a metric: its name ends with the keys below
+    /// the field.
     void add(const base::FieldTable& fields, const nlohmann::ordered_json& json,
              const std::map<std::string, std::string>& labels = {});
     /// Adds the metrics of another program from its json(). Entries that are no metrics are

@@ -190,7 +190,7 @@ struct FieldType<double> {
     }
 };
 
-/// A length, then so many bytes.
+/// A length, followed by that number of bytes.
 template <>
 struct FieldType<std::vector<std::byte>> {
     static constexpr std::string_view type = "u16 n, u8[n]", unit = "";

@@ -54,7 +54,7 @@ struct TickRow {
     base::Velocity cube_velocity;
     /// The scene's force on the HIP, before the governor.
     base::Force contact;
-    /// The force that the device is told, after the governor.
+    /// The force that the device receives, after the governor.
     base::Force device;
     /// The remote contact force as this tick used it.
     base::Force remote;
@@ -119,9 +119,9 @@ struct SessionRow {
 /// Radians per second about the axes of the scene.
 using AngularVelocity = base::Vector<struct AngularVelocityKind>;
 
-/// Where a tick left one of the shared bodies. A session that shares several, or one that can
-/// turn, has a row for each of them after each of its ticks; any other one has none, as the tick
-/// itself holds its only body.
+/// The state of one shared body after a tick. A session that shares several bodies, or a body that
+/// can turn, has such a row for each body after each tick. Other sessions have none, as the row of
+/// the tick holds their only body.
 struct BodyRow {
     /// The tick that the row belongs to.
     std::uint64_t tick = 0;

@@ -29,10 +29,10 @@ using Place = std::array<std::byte, 18>;
 /// the two sides can.
 [[nodiscard]] Hash key_of_mac1(const StaticKeys& keys, const PublicKey& receiver);
 
-/// Lets in what deserves a handshake's work: a forged initiation costs one hash. When more genuine
-/// ones come than a peer has reason to send, somebody repeats captured ones; then only a sender
-/// that can be reached where it says gets in, with a cookie (as WireGuard has it, section 5.3 of
-/// its paper). Holds nothing per sender.
+/// Lets in the messages that deserve a handshake's work: a forged initiation costs one hash. More
+/// genuine initiations than a peer has reason to send are repeats of captured ones; then only a
+/// sender that can be reached at its address gets in, with a cookie (as in WireGuard, section 5.3
+/// of its paper). Holds nothing per sender.
 class Door {
 public:
     /// More initiations in a second ask for a cookie.

@@ -49,9 +49,9 @@ inline constexpr std::size_t control_head_bytes = 12;
 /// been silent may have nothing to say.
 inline constexpr std::size_t empty_bytes = 8;
 
-/// A plain message in its room, which has `control_overhead` bytes more, is sealed in place.
-/// `number` is the seal's for hello and bye. Returns the size; nullopt for what is no message of
-/// ours.
+/// Seals a plain message in place; its room has `control_overhead` more bytes. `number` is the
+/// seal's number for hello and bye. Returns the size; nullopt for bytes that are no message of this
+/// protocol.
 [[nodiscard]] std::optional<std::size_t> seal_frame(std::span<std::byte> room, std::size_t size,
                                                     KeyIndex key, std::uint32_t number,
                                                     Sealer& sealer);

@@ -125,7 +125,8 @@ void seal(const Secret& key, const WideNonce& nonce, Bytes associated, std::span
 
 /// Base 64 (RFC 4648, with padding), in a time that does not depend on the bytes.
 [[nodiscard]] std::string to_base64(Bytes bytes);
-/// nullopt unless it is the text of so many bytes, written as to_base64() does.
+/// Parses a key of this many bytes. nullopt for other text, and for text that to_base64() would not
+/// write.
 [[nodiscard]] std::optional<std::array<std::byte, key_bytes>>
 key_from_base64(std::string_view text);
 

@@ -15,7 +15,8 @@
 
 namespace hapnet::telemetry {
 
-/// The names of what a tick's row has as numbers; `fault` gives "none" without one.
+/// Returns the names of values that a tick's row has as numbers; `fault` returns "none" without a
+/// fault.
 struct Names {
     std::string_view (*governor)(std::uint8_t state) = nullptr;
     std::string_view (*fault)(std::uint8_t fault) = nullptr;

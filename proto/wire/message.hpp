@@ -182,7 +182,7 @@ public:
     [[nodiscard]] const BodyState* end() const { return all_.data() + count_; }
     [[nodiscard]] BodyState* begin() { return all_.data(); }
     [[nodiscard]] BodyState* end() { return all_.data() + count_; }
-    /// nullptr: there is none.
+    /// The first body; nullptr: there is no body.
     [[nodiscard]] const BodyState* first() const { return empty() ? nullptr : begin(); }
     /// nullptr: not among them.
     [[nodiscard]] const BodyState* find(std::uint16_t body) const;
@@ -268,8 +268,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// The number of the session of two runs, told by their nonces; the peer with the lower id comes
-/// first. The same on both sides, another one for every pair of runs; never 0.
+/// Returns the number of the session between two runs, from their nonces, where the peer with the
+/// lower id comes first. It is equal on both sides, different for every pair of runs, and never 0.
 [[nodiscard]] std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce);
 
 /// Ensures what decode() checks: finite vectors, times within 2^60 ns, no zero nonce, echo age in
@@ -284,8 +284,8 @@ private:
 /// themselves.
 [[nodiscard]] base::Result<Message> decode(std::span<const std::byte> datagram);
 
-/// The protocol version of a datagram that starts like one of ours, whatever follows: the first
-/// three bytes are the same in every version.
+/// Returns the protocol version of a datagram that starts like a message of this protocol: the
+/// first three bytes are the same in every version.
 [[nodiscard]] std::optional<std::uint8_t> version_of(std::span<const std::byte> datagram);
 
 /// True if the datagram begins like a hello of this version. The rest is not read.

@@ -19,7 +19,7 @@ struct HandPlace {
     bool grips = false;
 };
 
-/// A message of a page about the hand: a place, or nullopt, that it lets go.
+/// A message of a page about the hand: a place, or nullopt to let go.
 struct HandMessage {
     std::optional<HandPlace> place;
 };
@@ -29,8 +29,8 @@ struct HandMessage {
 [[nodiscard]] std::optional<HandMessage> hand_message_in(const nlohmann::ordered_json& message);
 inline constexpr double hand_reach_m = 0.25;
 
-/// Decides which page moves the hand: the first that asks, until it lets go or says nothing for
-/// lets_go_after, which is the same. The others watch. Reads no clock.
+/// Decides which page moves the hand: the first page that asks, until it lets go or sends nothing
+/// for lets_go_after. Other pages watch. Reads no clock.
 class HandHold {
 public:
     static constexpr base::Duration lets_go_after{std::chrono::milliseconds{250}};

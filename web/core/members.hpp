@@ -13,14 +13,14 @@ namespace hapnet::web {
 
 // Members of what pages and daemons send, which may lack them or have them of another kind.
 
-/// A text; "" where there is none.
+/// Returns a text member; "" if there is none.
 [[nodiscard]] inline std::string text_member(const nlohmann::ordered_json& json, const char* key)
 {
     const auto found = json.is_object() ? json.find(key) : json.end();
     return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// The generation of the conditions; 0 where there is none.
+/// Returns the generation of the conditions; 0 if there is none.
 [[nodiscard]] inline std::uint64_t generation_in(const nlohmann::ordered_json& reply)
 {
     const auto found = reply.find("generation");

@@ -24,9 +24,8 @@ class Visitors {
 public:
     explicit Visitors(std::size_t most) : most_{most} {}
 
-    /// A visitor too many takes the place of the one that has been there for longest among the
-    /// idle ones, so that whoever only holds connections keeps no browser out; where none is idle,
-    /// of the oldest.
+    /// Admits a visitor. A visitor beyond the limit replaces the oldest idle one, or the oldest one
+    /// if none is idle, so that idle connections keep no browser out.
     [[nodiscard]] Visit admit(Visitor visitor);
     /// Closes all of them.
     void close_all();

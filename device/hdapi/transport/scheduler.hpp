@@ -42,7 +42,8 @@ private:
     /// to set it.
     void stop();
     static unsigned int serve_all(void* self);
-    /// Each error of the cycle to the device that it names, to all where it names none of them.
+    /// Passes each error of the cycle to the device that it names, or to all devices if it names
+    /// none of them.
     void hand_out_errors() const;
 
     Functions functions_;

@@ -12,8 +12,8 @@
 
 namespace hapnet::device::hid {
 
-/// A hidraw node that is ours: the kernel lets anyone open it twice, so programs of ours agree by
-/// a lock on it.
+/// A claim to a hidraw node. The kernel lets several programs open a node, so the programs of this
+/// project use a lock on it.
 class Claim {
 public:
     /// Or why not: no permission, in use, gone.

@@ -20,7 +20,7 @@ struct Options {
 /// cannot be asked for it, that of its bus interface, "0x000b99...".
 [[nodiscard]] std::vector<Found> find_omnis();
 
-/// By either serial; "": the first that is usable.
+/// Opens the Omni with this serial (either of the two serials), or with "" the first usable Omni.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_omni(const std::string& serial,
                                                         const Options& options);
 

@@ -21,9 +21,9 @@ namespace hapnet::control {
 /// for.
 using Answer = std::variant<std::string, WaitRequest, WatchRequest>;
 
-/// One watch of frames, which ends when this is destroyed. Appends the frame of all that has
-/// happened since the one before as a JSON object without a newline; nothing when there is none
-/// yet. `left_out`: frames that were due since then.
+/// One watch of frames, which ends when this is destroyed. Appends the frame of all events since
+/// the last frame, as a JSON object without a newline; nothing if there is no frame yet.
+/// `left_out`: number of frames that were due since then.
 using FrameSource = std::function<void(std::string& text, std::uint64_t left_out)>;
 
 /// The program that is asked, as its clients see it. Called from the thread that serves them.

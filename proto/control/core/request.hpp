@@ -46,8 +46,8 @@ struct KeepRequest {
 inline constexpr std::size_t nesting_max = 16;
 inline constexpr std::size_t values_max = 512;
 
-/// Reads one line. Keeps the order of the members; refuses what is no object, is nested too deeply,
-/// has too many values or says something twice.
+/// Reads one line. Keeps the order of the members. The error is for a line that is not a JSON
+/// object, is nested too deeply, has too many values or repeats a member.
 [[nodiscard]] base::Result<nlohmann::ordered_json> parse_object(std::string_view line);
 
 /// The members of a request; the first trouble is remembered.
