@@ -26,8 +26,9 @@ MASKS = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r'"sum":"[0-9a-f]+"', '"sum":"OF THE LINE"'),
     (r'("(?:version|commit|compiler|start|boot_id)": ?)"[^"]*"', r'\1"MASKED"'),
     (r'("(?:wall_time_s|processor_time_s|speed_ratio|started_unix_s)": ?)[\d.e+-]+', r"\g<1>0.0"),
-    (r'(?<="host": )\{[^}]*\}', lambda found: re.sub(
-        r'(?<=: )("?)[^",\n]+', lambda value: f'"MASKED' if value[1] else "0", found[0])),
+    (r'(?<="host":) ?\{[^}]*\}', lambda found: re.sub(
+        r'(: ?)("?)(?![ {])[^",\n{}]+',
+        lambda value: f'{value[1]}"MASKED' if value[2] else f"{value[1]}0", found[0])),
     # In the tables of a page.
     (r'(\["(?:version|commit|compiler|host|start|(?:wall|processor) time, s|speed ratio)",'
      r'\{"text":)"[^"]*"', r'\1"MASKED"'),
