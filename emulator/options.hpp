@@ -88,7 +88,7 @@ struct UpstreamOptions {
     Options run;                   // its ends are not used
 };
 
-/// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B --- COMMAND_C ...`
+/// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B`
 struct BetweenOptions {
     FrameOptions frames;
     TypedCommands commands;

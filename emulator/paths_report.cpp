@@ -86,7 +86,8 @@ ClientReport report_of(const PathState& client, const UpstreamRun& run, const Ru
             .flows = flows_of(client, run, state)};
 }
 
-LinkEnds ends_of(const PathState& link, const ports::Relay& relay)
+LinkReport report_of(const PathState& link, const ports::Relay& relay, const LinksRun& run,
+                     const RunState& state)
 {
     const auto text_of = [](const std::optional<net::Endpoint>& end) {
         return end ? std::optional{end->to_text()} : std::nullopt;
@@ -94,12 +95,7 @@ LinkEnds ends_of(const PathState& link, const ports::Relay& relay)
     return {.listen_1 = relay.a().local.to_text(),
             .listen_2 = relay.b().local.to_text(),
             .end_1 = text_of(link.end_a),
-            .end_2 = text_of(link.end_b)};
-}
-
-LinkReport link_report_of(const PathState& link, const AnyRun& run, const RunState& state)
-{
-    return {.ends = {},
+            .end_2 = text_of(link.end_b),
             .course = course_of(run, link),
             .up = report_of(link, Direction::up, run, state),
             .down = report_of(link, Direction::down, run, state),
@@ -166,7 +162,7 @@ void tell_of_sums(RunStatistics& statistics, const AnyRun& run, const Sums& sums
 }
 
 /// Each link has to be on time, not only all together.
-std::vector<std::string> reasons_of_links(const AnyRun& run, const RunState& state)
+std::vector<std::string> reasons_of_links(const LinksRun& run, const RunState& state)
 {
     std::vector<std::string> reasons = state.failures;
     for (const PathState& link : present(state)) {
@@ -175,12 +171,6 @@ std::vector<std::string> reasons_of_links(const AnyRun& run, const RunState& sta
             add_reasons(reasons, way_name(link.name, direction), report_of(*way, run, state));
         }
         add_reasons(reasons, flows_of(link, run, state));
-    }
-    for (const auto& [name, report] : state.interfaces) {
-        if (const auto overflowed = report.overflowed.value_or(0); overflowed > 0) {
-            reasons.push_back(
-                fmt::format("{}: the emulator lost {} as overflowed", name, overflowed));
-        }
     }
     return reasons;
 }
@@ -214,30 +204,20 @@ std::string ready_line(const UpstreamRun& run)
                        run.scenario.seed.value(), base::name_of(run.options.timing));
 }
 
-nlohmann::ordered_json json_of_links(RunStatistics statistics, const AnyRun& run,
-                                     const RunState& state, std::span<const LinkEnds> ends)
+nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
 {
     const Sums sums = sums_of(state);
+    RunStatistics statistics = statistics_of_any(run, state);
     statistics.course.at_start = configuration_of(run.scenario.profile.path);
     const FlowSums flows = flow_sums_of(state, run.scenario.profile.flows.size());
     tell_of_flows(statistics, run, flows);
     tell_of_sums(statistics, run, sums, reasons_of_links(run, state));
     auto& links = statistics.links.emplace();
-    for (const PathState& link : present(state)) {
-        links.emplace_back(link.name, link_report_of(link, run, state));
-        if (!ends.empty()) links.back().second.ends = ends[links.size() - 1];
+    const auto& relays = run.port.relays();
+    for (std::size_t i = 0; i < state.count; ++i) {
+        links.emplace_back(relays[i]->name(), report_of(state.paths[i], *relays[i], run, state));
     }
     return json_of(statistics, run);
-}
-
-nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
-{
-    const auto& relays = run.port.relays();
-    std::vector<LinkEnds> ends;
-    for (std::size_t i = 0; i < state.count; ++i) {
-        ends.push_back(ends_of(state.paths[i], *relays[i]));
-    }
-    return json_of_links(statistics_of_any(run, state), run, state, ends);
 }
 
 nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state)
@@ -262,7 +242,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& sta
     return json_of(statistics, run);
 }
 
-std::string words_of_links(const AnyRun& run, const RunState& state)
+std::string summary(const LinksRun& run, const RunState& state)
 {
     auto text = fmt::format("{:.1f} s, seed {}, {} links\n", base::to_seconds(state.elapsed),
                             run.scenario.seed.value(), state.count);
@@ -273,12 +253,7 @@ std::string words_of_links(const AnyRun& run, const RunState& state)
             text += in_words(title, report_of(*way, run, state));
         }
     }
-    return text;
-}
-
-std::string summary(const LinksRun& run, const RunState& state)
-{
-    return words_of_links(run, state) + closing_words(run, state);
+    return text + closing_words(run, state);
 }
 
 std::string summary(const UpstreamRun& run, const RunState& state)

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
 #include "emulator/core/profile/paths.hpp"
-#include "emulator/core/profile/regimes.hpp"
 #include "emulator/run_files.hpp"
 #include "emulator/tools/run_page/run_page.hpp"
 #include "proto/disk/result_file.hpp"
@@ -38,13 +37,7 @@ base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options
         return base::fail(
             fmt::format("{}{}", options.fates ? "--fates: " : "", fates.error().message));
     }
-    const auto names = names_of_regimes(profile_of(run.profile, run.link).path);
-    auto counted = with_regimes(*std::move(fates), names[0], names[1]);
-    if (!counted) {
-        run.why_unverified = counted.error().message;
-        return {};
-    }
-    run.fates = *std::move(counted);
+    run.fates = *std::move(fates);
     run.fates_file = file_name_of(options.fates ? *options.fates : *named);
     auto fine = ensure_whole(*run.fates, run.statistics);
     if (!fine) return fine;

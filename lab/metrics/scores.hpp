@@ -56,8 +56,6 @@ struct Scores {
     std::optional<double> response_added_s{};
     /// L as measured.
     std::optional<Similarity> similarity{};
-    /// As measured.
-    std::optional<double> rate_bit_per_s{};
 
     friend bool operator==(const Scores&, const Scores&) = default;
 };

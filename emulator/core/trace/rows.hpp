@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/trace/columns.hpp"
+#include "emulator/core/trace/lines.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
@@ -33,7 +34,7 @@ struct TraceRows {
 
 /// How the columns of a file are called and timed, where the file does not say so.
 struct TableFormat {
-    base::Columns columns{};
+    Columns columns{};
     base::Duration slot{}; // each value is a slot of this length later than the one before; 0: none
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "proto/base/lines.hpp"
+#include "emulator/core/trace/lines.hpp"
 
 #include "proto/base/visible.hpp"
 
@@ -10,7 +10,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
-namespace hapnet::base {
+namespace hapnet::emulator {
 
 namespace {
 
@@ -76,21 +76,21 @@ std::string from_utf16(std::string_view bytes, bool is_big_endian)
 
 } // namespace
 
-Result<std::string> plain_text(std::string bytes)
+base::Result<std::string> plain_text(std::string bytes)
 {
     const std::string_view text = bytes;
     for (const Packing& packing : packings) {
         if (!text.starts_with(packing.begins_with)) continue;
-        return fail(fmt::format("the file is compressed ({}): unpack it first, for example "
-                                "with {}",
-                                packing.name, packing.cure));
+        return base::fail(fmt::format("the file is compressed ({}): unpack it first, for example "
+                                      "with {}",
+                                      packing.name, packing.cure));
     }
     if (text.starts_with("\xff\xfe")) return from_utf16(text.substr(2), false);
     if (text.starts_with("\xfe\xff")) return from_utf16(text.substr(2), true);
     return bytes;
 }
 
-Result<std::string> open_measured(const Reading& reading, const std::string& file)
+base::Result<std::string> open_measured(const base::Reading& reading, const std::string& file)
 {
     auto bytes = reading.open(file);
     if (!bytes) return bytes;
@@ -128,7 +128,8 @@ std::optional<std::string_view> LineReader::next()
     return line;
 }
 
-Result<std::optional<std::span<const std::string_view>>> LineReader::next_cells(Cells& cells)
+base::Result<std::optional<std::span<const std::string_view>>>
+LineReader::next_cells(base::Cells& cells)
 {
     if (!find_next()) return std::nullopt;
     if (!cells.take_line(rest_)) {
@@ -140,9 +141,9 @@ Result<std::optional<std::span<const std::string_view>>> LineReader::next_cells(
 
 std::size_t LineReader::number() const { return std::max<std::size_t>(begun_, 1); }
 
-tl::unexpected<Error> LineReader::fail(std::string_view why) const
+tl::unexpected<base::Error> LineReader::fail(std::string_view why) const
 {
-    return hapnet::base::fail(fmt::format("line {}: {}", number(), why));
+    return base::fail(fmt::format("line {}: {}", number(), why));
 }
 
 std::string_view trimmed(std::string_view text)
@@ -159,9 +160,9 @@ std::string shortened(std::string_view text)
         return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
     };
     while (bytes > 0 && bytes < text.size() && continues(bytes)) --bytes;
-    auto out = visible(text.substr(0, bytes));
+    auto out = base::visible(text.substr(0, bytes));
     if (text.size() > bytes) out += "...";
     return out;
 }
 
-} // namespace hapnet::base
+} // namespace hapnet::emulator
