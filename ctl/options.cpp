@@ -51,9 +51,10 @@ Examples:
 constexpr const char* set_footer =
     R"(A key is up.NAME (from A to B), down.NAME (from B to A), or both.NAME or NAME (both ways).
 NAME is one of mtu, rate, queue, loss, burst_loss, corrupt, duplicate, delay, jitter,
-correlation_time, order and reorder; burst_loss may be written burst-loss. KEY=VALUE is the same as
-KEY VALUE. Units are mandatory, without a space: ns us ms s min h for times, % for shares, B KiB for
-sizes, kbit/s Mbit/s for rates.
+correlation_time, order and reorder; burst_loss may be written burst-loss. regime.R. before NAME
+makes it one of the regime R: up.regime.bad.delay. KEY=VALUE is the same as KEY VALUE.
+Units are mandatory, without a space: ns us ms s min h for times, % for shares, B KiB for sizes,
+kbit/s Mbit/s for rates.
 A law is written as a table, as in a profile.
 
 Examples:

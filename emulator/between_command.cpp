@@ -10,64 +10,112 @@
 #include "proto/net/program.hpp"
 #include "proto/net/stop_signal.hpp"
 
+#include <cstddef>
+#include <memory>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
 
 namespace {
 
-constexpr const char* address_a = "10.0.0.1";
-constexpr const char* address_b = "10.0.0.2";
-constexpr const char* address_a6 = "fd00::1";
-constexpr const char* address_b6 = "fd00::2";
+/// A command among others, and its end of the wire.
+struct Place {
+    char letter = 'A';
+    std::string name; // "a"
+    std::string address;
+    std::string address_v6;
+    WireEnd end{};
+};
 
-WireEnd end_of(const char* wire, const char* address, const char* address_v6)
+std::vector<Place> places_of(std::size_t count)
 {
-    return {.wire = wire, .addresses = {{address, 24}, {address_v6, 64}}};
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t number = i + 1;
+        Place place{.letter = static_cast<char>('A' + i),
+                    .name = std::string(1, static_cast<char>('a' + i)),
+                    .address = fmt::format("10.0.0.{}", number),
+                    .address_v6 = fmt::format("fd00::{}", number)};
+        place.end = {.wire = "wire-" + place.name,
+                     .addresses = {{place.address, 24}, {place.address_v6, 64}}};
+        auto& machine = place.end.machine.emplace();
+        machine.front() = std::byte{2}; // administered here
+        machine.back() = static_cast<std::byte>(number);
+        places.push_back(std::move(place));
+    }
+    return places;
 }
 
-net::ChildCommand::Setup setup_of(const std::vector<std::string>& words, const WireEnd& end,
-                                  bool has_terminal)
+net::ChildCommand::Setup setup_of(const std::vector<std::string>& words,
+                                  const std::vector<Place>& places, std::size_t number)
 {
-    return {.words = words,
-            .has_own_network = true,
-            .has_own_group = !has_terminal,
-            .environment = {fmt::format("HAPNET_A={}", address_a),
-                            fmt::format("HAPNET_B={}", address_b),
-                            fmt::format("HAPNET_A6={}", address_a6),
-                            fmt::format("HAPNET_B6={}", address_b6)},
-            .hosts = fmt::format("{}\ta\n{}\tb\n{}\ta6\n{}\tb6\n", address_a, address_b, address_a6,
-                                 address_b6),
-            .prepare = [end] { prepare(end); }};
+    net::ChildCommand::Setup setup{.words = words,
+                                   .has_own_network = true,
+                                   .has_own_group = number > 0, // the terminal is A's
+                                   .prepare = [end = places[number].end] { prepare(end); }};
+    for (const bool is_v6 : {false, true}) {
+        for (const Place& place : places) {
+            const auto* const suffix = is_v6 ? "6" : "";
+            const auto& address = is_v6 ? place.address_v6 : place.address;
+            setup.environment.push_back(
+                fmt::format("HAPNET_{}{}={}", place.letter, suffix, address));
+            setup.hosts += fmt::format("{}\t{}{}\n", address, place.name, suffix);
+        }
+    }
+    return setup;
+}
+
+FrameSession::Setup session_of(const BetweenOptions& options, const std::vector<Place>& places)
+{
+    FrameSession::Setup setup{.command = "between",
+                              .frames = {.ends = {},
+                                         .all_frames = options.frames.all_frames,
+                                         .fix_checksums = options.frames.fix_checksums}};
+    for (const Place& place : places) {
+        setup.frames.ends.push_back({place.name, place.end.wire, place.end.machine});
+    }
+    return setup;
+}
+
+/// Those of several paths; of two commands the only path has no name.
+PathNames names_of(const ports::Frames::Setup& frames)
+{
+    if (frames.ends.size() > 2) return {.links = frames.path_names()};
+    return {.without_links = "two commands have one path, whose keys are delay, up.delay and "
+                             "down.delay"};
 }
 
 } // namespace
 
 base::Result<int> run(const BetweenOptions& options)
 {
-    const auto scenario = scenario_of(options.run);
+    const auto places = places_of(options.commands.size());
+    const auto setup = session_of(options, places);
+    const auto scenario = scenario_of(options.run, names_of(setup.frames));
     if (!scenario) return tl::unexpected{scenario.error()};
     const auto fits = validate_for_frames(scenario->profile.flows, options.frames.all_frames);
     if (!fits) return tl::unexpected{fits.error()};
     const net::StopSignal stop{net::Hangup::stop};
-    const auto end_a = end_of("wire-a", address_a, address_a6);
-    const auto end_b = end_of("wire-b", address_b, address_b6);
     net::enter_own_network();
-    net::ChildCommand a{setup_of(options.commands.first, end_a, /*has_terminal*/ true)};
-    net::ChildCommand b{setup_of(options.commands.second, end_b, /*has_terminal*/ false)};
-    connect(a, end_a);
-    connect(b, end_b);
-    const auto session = open_session(options.run, *scenario,
-                                      {.command = "between",
-                                       .frames = {.interface_a = end_a.wire,
-                                                  .interface_b = end_b.wire,
-                                                  .all_frames = options.frames.all_frames,
-                                                  .fix_checksums = options.frames.fix_checksums}});
+    std::vector<std::unique_ptr<net::ChildCommand>> commands;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        commands.push_back(
+            std::make_unique<net::ChildCommand>(setup_of(options.commands[i], places, i)));
+    }
+    std::vector<CommandRun::Other> others;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        connect(*commands[i], places[i].end);
+        if (i == 0) continue;
+        others.push_back(
+            {.process = *commands[i], .name = fmt::format("command {}", places[i].letter)});
+    }
+    const auto session = open_session(options.run, *scenario, setup);
     if (const auto fine = session->ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session->announce();
-    const int code = CommandRun{a, {.process = b, .name = "command B"}, *session, stop}.run();
+    const int code = CommandRun{*commands.front(), others, *session, stop}.run();
     const bool is_fine = session->finish();
     const bool has_failed = session->failure() || (code == 0 && !is_fine);
     return has_failed ? net::exit_failed : code;

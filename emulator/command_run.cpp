@@ -5,6 +5,7 @@
 #include "proto/net/own_network.hpp"
 #include "proto/net/program.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <spdlog/fmt/fmt.h>
@@ -16,26 +17,27 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::optional<net::CommandStart::Before> start_before_a(const CommandRun::Other& other)
+/// Those that start before A.
+std::vector<net::CommandStart::Before> before_a(const std::vector<CommandRun::Other>& others)
 {
-    if (other.runs_already) return std::nullopt;
-    return net::CommandStart::Before{
-        .command = other.process,
-        .is_ready = [pid = other.process.pid()] { return net::has_listener(pid); }};
+    std::vector<net::CommandStart::Before> before;
+    for (const CommandRun::Other& other : others) {
+        if (other.runs_already) continue;
+        before.push_back({.command = other.process, .is_ready = [pid = other.process.pid()] {
+                              return net::has_listener(pid);
+                          }});
+    }
+    return before;
 }
 
 } // namespace
 
-CommandRun::CommandRun(net::ChildCommand& a, Other other, FrameSession& session,
-                       const net::StopSignal& stop)
-    : a_{a},
-      other_{std::move(other)},
-      session_{session},
-      stop_{stop},
-      end_of_a_{a_},
-      end_of_other_{other_.process},
-      start_{a_, start_before_a(other_)}
-{}
+CommandRun::CommandRun(net::ChildCommand& a, const std::vector<Other>& others,
+                       FrameSession& session, const net::StopSignal& stop)
+    : a_{a}, session_{session}, stop_{stop}, end_of_a_{a_}, start_{a_, before_a(others)}
+{
+    for (const Other& other : others) others_.push_back({other, Ending{other.process}});
+}
 
 int CommandRun::run()
 {
@@ -48,7 +50,8 @@ bool CommandRun::is_told() const { return stop_.requested() || session_.is_stopp
 
 bool CommandRun::is_over()
 {
-    return has_a_started_ && a_.exit_code() && other_.process.exit_code();
+    return has_a_started_ && end_of_a_.is_over() &&
+           std::ranges::all_of(others_, [](Watched& one) { return one.end.is_over(); });
 }
 
 /// Those whose end would be news.
@@ -58,21 +61,29 @@ std::vector<int> CommandRun::descriptors()
     if (!is_ending_) all.push_back(stop_.descriptor());
     if (!has_a_started_) all.push_back(start_.descriptor());
     if (has_a_started_ && !a_.exit_code()) all.push_back(a_.descriptor());
-    if (!other_.process.exit_code()) all.push_back(other_.process.descriptor());
+    for (Watched& one : others_) {
+        if (!one.end.is_over()) all.push_back(one.other.process.descriptor());
+    }
     return all;
 }
 
 void CommandRun::look_after(base::TimePoint now)
 {
     if (!has_a_started()) return;
-    const auto code = other_.process.exit_code();
-    if (!a_.exit_code() && code && !is_ending_ && !std::exchange(has_told_of_other_, true)) {
-        net::say("hapnet-emulator",
-                 fmt::format("{} has ended with {}, before command A", other_.name, *code));
+    if (!a_.exit_code() && !is_ending_) {
+        for (Watched& one : others_) tell_of_ended(one);
     }
     is_ending_ = is_ending_ || a_.exit_code() || is_told() || session_.failure() ||
                  base::is_due(session_.end(), now);
-    if (is_ending_) end_both(now);
+    if (is_ending_) end_all(now);
+}
+
+void CommandRun::tell_of_ended(Watched& one)
+{
+    const auto code = one.other.process.exit_code();
+    if (!code || std::exchange(one.has_told, true)) return;
+    net::say("hapnet-emulator",
+             fmt::format("{} has ended with {}, before command A", one.other.name, *code));
 }
 
 bool CommandRun::has_a_started()
@@ -85,8 +96,8 @@ bool CommandRun::has_a_started()
     return true;
 }
 
-/// A first: it may still have something to say to the other one.
-void CommandRun::end_both(base::TimePoint now)
+/// A first: it may still have something to say to the others.
+void CommandRun::end_all(base::TimePoint now)
 {
     // What the terminal sends, it sends to A, too.
     const bool knows = stop_.requested() && stop_.came_to_group();
@@ -94,7 +105,7 @@ void CommandRun::end_both(base::TimePoint now)
         end_of_a_.pursue(knows ? 0 : stop_.number(), now);
     } else {
         session_.expect_end(); // the interface to a process that serves the network goes with it
-        end_of_other_.pursue(SIGTERM, now);
+        for (Watched& one : others_) one.end.pursue(SIGTERM, now);
     }
     next_look_ = now + 20ms;
 }

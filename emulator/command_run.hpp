@@ -14,11 +14,11 @@
 
 namespace hapnet::emulator {
 
-/// Command A beside the rounds of a session, and what it talks to: from the start of both to their
-/// end.
+/// Command A beside the rounds of a session, and those that it talks to: from the start of all to
+/// their end.
 class CommandRun {
 public:
-    /// The process at the other end of the wire.
+    /// A process at another end of the wire.
     struct Other {
         net::ChildCommand& process;
         std::string name; // "command B"
@@ -26,7 +26,7 @@ public:
         bool runs_already = false;
     };
 
-    CommandRun(net::ChildCommand& a, Other other, FrameSession& session,
+    CommandRun(net::ChildCommand& a, const std::vector<Other>& others, FrameSession& session,
                const net::StopSignal& stop);
 
     /// Gives the exit code of A.
@@ -40,6 +40,7 @@ private:
         /// Sends it this signal, once; SIGTERM when it has not ended 2 s later, and SIGKILL a
         /// second after that. `number` 0: it has that signal already.
         void pursue(int number, base::TimePoint now);
+        [[nodiscard]] bool is_over() { return process_.exit_code().has_value(); }
 
     private:
         net::ChildCommand& process_;
@@ -47,24 +48,30 @@ private:
         bool is_told_again_ = false;
     };
 
+    /// One of the others.
+    struct Watched {
+        Other other;
+        Ending end;
+        bool has_told = false; // that it has ended
+    };
+
     [[nodiscard]] bool is_over();
     [[nodiscard]] bool is_told() const;
     [[nodiscard]] std::vector<int> descriptors();
     void look_after(base::TimePoint now);
     [[nodiscard]] bool has_a_started();
-    void end_both(base::TimePoint now);
+    void tell_of_ended(Watched& one);
+    void end_all(base::TimePoint now);
 
     net::ChildCommand& a_;
-    Other other_;
+    std::vector<Watched> others_;
     FrameSession& session_;
     const net::StopSignal& stop_;
     Ending end_of_a_;
-    Ending end_of_other_;
     net::CommandStart start_;
     std::optional<base::TimePoint> next_look_;
     bool has_a_started_ = false;
     bool is_ending_ = false;
-    bool has_told_of_other_ = false;
 };
 
 } // namespace hapnet::emulator

@@ -12,6 +12,7 @@
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
 #include "emulator/paths_report.hpp"
+#include "emulator/plan.hpp"
 #include "emulator/ports/links.hpp"
 #include "emulator/ports/upstream.hpp"
 #include "emulator/profile_file.hpp"
@@ -45,14 +46,6 @@
 namespace hapnet::emulator {
 
 namespace {
-
-/// The paths of a run and its port; what it is to them.
-struct Plan {
-    const Options& options;
-    const Scenario& scenario;
-    Recorder::Files files;
-    std::vector<Paths::Setup> parts; // a thread each
-};
 
 std::vector<std::unique_ptr<Paths>> paths_of(const Plan& plan)
 {
@@ -345,45 +338,12 @@ base::Result<int> run_session(const Plan& plan, base::TimePoint start, const Mak
     return session.finish();
 }
 
-/// What a run with so many paths needs, which share the memory; each thread has its part of it.
-Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths,
-             base::TimePoint start)
-{
-    const std::size_t threads = std::min(options.threads, paths);
-    const std::size_t ways = paths * (scenario.profile.flows.size() + 1);
-    Plan plan{
-        .options = options,
-        .scenario = scenario,
-        .files = {.fates = options.fates,
-                  .capture = options.capture,
-                  .kept = options.keep.span,
-                  .keep_in = options.keep.folder,
-                  .columns = {.has_paths = true, .has_flows = !scenario.profile.flows.empty()},
-                  .lanes = threads},
-        .parts = {threads,
-                  {.seed = scenario.seed,
-                   .start = start,
-                   .limits = QueueLimits::shared(options.in_flight_bytes, ways),
-                   .replay = scenario.replay,
-                   .stream_detail = options.fates ? StreamDetail::over_time : StreamDetail::totals,
-                   .changes_max = std::max(ChangeLog::entries_max / ways, std::size_t{20})}}};
-    for (Paths::Setup& part : plan.parts) {
-        part.slab = std::make_shared<Slab>(options.in_flight_bytes / threads);
-    }
-    return plan;
-}
-
-/// The interfaces of a link in the capture: "1 (to 2)", "2 (to 1)".
-CaptureNames capture_names(const std::string& link)
+/// The interfaces of a link in the capture.
+CaptureNames capture_names_of(const std::string& link)
 {
     if (!is_pair(link)) return {link + " side A", link + " side B"};
     const auto dash = link.find('-');
-    const auto name = [](const std::string& of, const std::string& to) {
-        return fmt::format("{} (to {})", of, to);
-    };
-    const auto first = link.substr(0, dash);
-    const auto second = link.substr(dash + 1);
-    return {name(first, second), name(second, first)};
+    return capture_names(link.substr(0, dash), link.substr(dash + 1));
 }
 
 base::Result<Scenario> scenario_of_datagrams(const Options& options, const PathNames& names = {})
@@ -423,7 +383,7 @@ base::Result<int> run(const LinkOptions& options)
     Plan plan = plan_of(options.run, *scenario, options.links.size(), start);
     plan.files.pairs.clear();
     for (std::size_t i = 0; i < names.links.size(); ++i) {
-        plan.files.pairs.push_back(capture_names(names.links[i]));
+        plan.files.pairs.push_back(capture_names_of(names.links[i]));
         for (std::size_t part = 0; part < plan.parts.size(); ++part) {
             if (ports::Links::part_of(i, plan.parts.size()) == part) continue;
             plan.parts[part].elsewhere.push_back(names.links[i]);

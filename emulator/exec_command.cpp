@@ -20,12 +20,28 @@ namespace {
 
 net::ChildCommand::Setup setup_of(const ExecOptions& options, const WireEnd& end)
 {
-    return {.words = options.command,
-            .has_own_network = true,
-            .environment = {fmt::format("HAPNET_HOST={}", World::router)},
-            .hosts = fmt::format("{}\thost\n", World::router),
-            .name_servers = name_servers_of_world(),
-            .prepare = [end] { prepare(end); }};
+    net::ChildCommand::Setup setup{.words = options.command,
+                                   .has_own_network = true,
+                                   .environment = {fmt::format("HAPNET_HOST={}", World::router)},
+                                   .hosts = fmt::format("{}\thost\n", World::router),
+                                   .name_servers = name_servers_of_world(),
+                                   .prepare = [end] { prepare(end); }};
+    if (end.router_v6.empty()) return setup;
+    setup.environment.push_back(fmt::format("HAPNET_HOST6={}", end.router_v6));
+    setup.hosts += fmt::format("{}\thost6\n", end.router_v6);
+    return setup;
+}
+
+WireEnd end_of(const World& world)
+{
+    WireEnd end{.wire = "wire-a",
+                .addresses = {{World::address_of_command, 24}},
+                .router = World::router,
+                .machine = World::machine_of_command};
+    if (!world.has_ipv6()) return end;
+    end.addresses.push_back({World::address_of_command_v6, 64});
+    end.router_v6 = World::router_v6;
+    return end;
 }
 
 } // namespace
@@ -37,10 +53,9 @@ base::Result<int> run(const ExecOptions& options)
     const auto fits = validate_for_frames(scenario->profile.flows, options.frames.all_frames);
     if (!fits) return tl::unexpected{fits.error()};
     const net::StopSignal stop{net::Hangup::stop};
-    const WireEnd end{
-        .wire = "wire-a", .addresses = {{World::address_of_command, 24}}, .router = World::router};
     const std::string wire_b = "wire-b";
     World world{options.through, wire_b};
+    const WireEnd end = end_of(world);
     net::enter_own_network();
     net::ChildCommand a{setup_of(options, end)};
     connect(a, end);
@@ -49,21 +64,21 @@ base::Result<int> run(const ExecOptions& options)
         options.run, *scenario,
         {.command = "exec",
          .through = std::string{world.name()},
-         .frames = {.interface_a = end.wire,
-                    .interface_b = wire_b,
+         .frames = {.ends = {{"a", end.wire}, {"b", wire_b}},
                     .all_frames = options.frames.all_frames,
                     .fix_checksums = options.frames.fix_checksums,
                     .cure_of_oversized = "pasta does not cut datagrams up, and these do not get "
                                          "through; slirp4netns does (--through slirp4netns)"}});
     if (const auto fine = session->ensure_checks(); !fine) return tl::unexpected{fine.error()};
     net::say("hapnet-emulator", fmt::format("the command reaches other networks through {}; this "
-                                            "machine is {} there",
-                                            world.name(), World::router));
+                                            "machine is {}{}{} there",
+                                            world.name(), World::router,
+                                            world.has_ipv6() ? " and " : "", end.router_v6));
     session->announce();
     const int code =
         CommandRun{
             a,
-            {.process = world.process(), .name = std::string{world.name()}, .runs_already = true},
+            {{.process = world.process(), .name = std::string{world.name()}, .runs_already = true}},
             *session,
             stop}
             .run();

@@ -24,12 +24,15 @@ base::Result<FatesOfPaths> read_fates(const std::string& path)
     // Whatever else it is may have no end.
     std::string text(fates_header.size(), '\0');
     text.resize(static_cast<std::size_t>(file.read(text.data(), std::ssize(text)).gcount()));
-    const auto begins = [&](FateColumns columns) {
-        return head_of_fates(columns).starts_with(text);
-    };
-    const bool is_known = begins({}) || begins({.has_paths = true}) ||
-                          begins({.has_flows = true}) ||
-                          begins({.has_paths = true, .has_flows = true});
+    bool is_known = false;
+    for (const bool has_paths : {false, true}) {
+        for (const bool has_flows : {false, true}) {
+            for (const bool has_regimes : {false, true}) {
+                const auto head = head_of_fates({has_paths, has_flows, has_regimes});
+                is_known = is_known || head.starts_with(text);
+            }
+        }
+    }
     if (is_known && text.size() == fates_header.size()) {
         text.append(std::istreambuf_iterator<char>{file}, {});
     } else if (file) {

@@ -15,23 +15,29 @@ namespace {
 constexpr const char* between_description =
     "Runs two commands, A and B, each in a network of its own, with the emulator on the only wire "
     "between them: any protocol passes, not UDP alone. No root is needed where the system lets "
-    "users make namespaces.\n"
+    "users make namespaces. With more commands, C, D and so on, there is a path between each two.\n"
     "\n"
-    "A is 10.0.0.1 and fd00::1, B is 10.0.0.2 and fd00::2; both know them as $HAPNET_A, $HAPNET_B, "
-    "$HAPNET_A6, $HAPNET_B6, and as the hosts a, b, a6 and b6. B starts first. A starts when B "
-    "listens, after 1 s at the latest. When A ends, B gets SIGTERM.";
+    "A is 10.0.0.1 and fd00::1, B is 10.0.0.2 and fd00::2, and so on; all know them as $HAPNET_A, "
+    "$HAPNET_B, $HAPNET_A6, $HAPNET_B6, and as the hosts a, b, a6 and b6. The others start first. "
+    "A starts when all of them listen, after 1 s at the latest. When A ends, they get SIGTERM.";
 
 constexpr const char* between_footer =
     R"(up is A to B, down is B to A. The conditions hold for each IP packet from the first one on;
 ARP and the neighbour discovery of IPv6 pass undisturbed unless --all-frames is given. What the
-commands print stays theirs: the emulator's own lines go to stderr. The terminal belongs to A; B
-reads nothing.
+commands print stays theirs: the emulator's own lines go to stderr. The terminal belongs to A; the
+others read nothing.
+
+With three to eight commands the paths are called a-b, a-c, b-c and so on; up of a-c is A to C.
+Conditions hold on all of them, or on one: --set a-c.delay=80ms, --set a-c.up.loss=2%, or the
+[matrix] of a profile.
 
 Examples:
   hapnet-emulator between --delay 40ms -- ping -c 5 b --- sleep infinity
   hapnet-emulator between --delay 50ms --loss 0.1% -- iperf3 -c b --- iperf3 -s
   hapnet-emulator between --profile lte --stats run.json -- \
-      curl -s http://b:8000/ --- python3 -m http.server 8000)";
+      curl -s http://b:8000/ --- python3 -m http.server 8000
+  hapnet-emulator between --delay 20ms --set a-c.delay=80ms -- \
+      sh -c 'ping -c 3 b; ping -c 3 c' --- sleep infinity --- sleep infinity)";
 
 constexpr const char* between_exit_codes =
     R"(  N  as COMMAND_A ended; 128 + n when signal n killed it
@@ -46,7 +52,9 @@ constexpr const char* exec_description =
     "needed where the system lets users make namespaces.\n"
     "\n"
     "The command is 10.0.2.100. 10.0.2.2, $HAPNET_HOST and the host name host are this machine, "
-    "also what listens on its loopback. TCP, UDP and the echoes of ping pass, over IPv4 alone.";
+    "also what listens on its loopback. TCP, UDP and the echoes of ping pass. Where this machine "
+    "has a route of IPv6, the command is fd00::100, too, and this machine fd00::2, $HAPNET_HOST6 "
+    "and host6.";
 
 constexpr const char* exec_footer =
     R"(up is from the command to the network, down is back. The conditions hold for each IP packet
@@ -111,9 +119,11 @@ std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands)
     if (!is_one && !is("between")(words[1])) return words;
     const auto dashes = std::ranges::find_if(words, is("--"));
     if (dashes == words.end()) return words;
-    const auto three = is_one ? words.end() : std::find_if(dashes + 1, words.end(), is("---"));
-    commands.first.assign(dashes + 1, three);
-    if (three != words.end()) commands.second.assign(three + 1, words.end());
+    for (auto at = dashes; at != words.end();) {
+        const auto begin = at + 1;
+        at = is_one ? words.end() : std::find_if(begin, words.end(), is("---"));
+        commands.emplace_back(begin, at);
+    }
     return words.first(static_cast<std::size_t>(dashes - words.begin()));
 }
 
@@ -131,9 +141,10 @@ void add_frame_options(cli::Command& command, FrameOptions& options)
 cli::Command& add_between(cli::Command& program)
 {
     cli::Command& command = program.command(
-        "between", "Runs two commands with the emulator between them, any protocol");
+        "between", "Runs two commands or more with the emulator between them, any protocol");
     command.describe(between_description);
-    command.add_usage("-- COMMAND_A [ARGUMENT ...] --- COMMAND_B [ARGUMENT ...]");
+    command.add_usage(
+        "-- COMMAND_A [ARGUMENT ...] --- COMMAND_B [ARGUMENT ...] [--- COMMAND_C ...]");
     command.add_footer(between_footer);
     command.add_exit_codes(between_exit_codes);
     return command;
@@ -141,8 +152,8 @@ cli::Command& add_between(cli::Command& program)
 
 cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& through)
 {
-    cli::Command& command = program.command(
-        "exec", "Runs one command with the emulator between it and the network, over IPv4");
+    cli::Command& command =
+        program.command("exec", "Runs one command with the emulator between it and the network");
     command.describe(exec_description);
     command.add_usage("-- COMMAND [ARGUMENT ...]");
     command.add_footer(exec_footer);
@@ -174,17 +185,23 @@ cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b,
     return command;
 }
 
-base::Result<void> require_two_commands(const TypedCommands& commands)
+base::Result<void> require_several_commands(const TypedCommands& commands)
 {
-    if (!commands.first.empty() && !commands.second.empty()) return {};
-    return base::fail(
-        "two commands are required: hapnet-emulator between --delay 40ms -- ping -c 5 "
-        "b --- sleep infinity");
+    const auto is_empty = [](const auto& command) { return command.empty(); };
+    if (commands.size() < 2 || std::ranges::any_of(commands, is_empty)) {
+        return base::fail(
+            "two commands are required, or more: hapnet-emulator between --delay 40ms -- ping "
+            "-c 5 b --- sleep infinity");
+    }
+    if (commands.size() <= commands_max) return {};
+    return base::fail(fmt::format("{} commands are too many: between runs at most {}. A '---' of a "
+                                  "command's own hides in its quotes: sh -c 'command --- word'",
+                                  commands.size(), commands_max));
 }
 
 base::Result<void> require_one_command(const TypedCommands& commands)
 {
-    if (!commands.first.empty()) return {};
+    if (!commands.empty() && !commands.front().empty()) return {};
     return base::fail("a command is required: hapnet-emulator exec --delay 40ms -- curl "
                       "https://example.org");
 }

@@ -5,6 +5,7 @@
 #include "proto/base/result.hpp"
 #include "proto/cli/command.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,11 +22,11 @@ struct FrameOptions {
     bool answers_too_big = false; // of a bridge
 };
 
-/// The words behind the first `--`: two commands with `---` in between.
-struct TypedCommands {
-    std::vector<std::string> first;
-    std::vector<std::string> second;
-};
+/// The words behind the first `--`: commands with `---` in between.
+using TypedCommands = std::vector<std::vector<std::string>>;
+
+/// The most commands that `between` runs.
+inline constexpr std::size_t commands_max = 8;
 
 /// Takes these words from the command line of `between` and `exec`: they are commands of other
 /// programs, with options of their own. What is left is returned.
@@ -45,7 +46,7 @@ cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b,
                          FrameOptions& options);
 
 /// What is wrong with the commands that were typed.
-[[nodiscard]] base::Result<void> require_two_commands(const TypedCommands& commands);
+[[nodiscard]] base::Result<void> require_several_commands(const TypedCommands& commands);
 [[nodiscard]] base::Result<void> require_one_command(const TypedCommands& commands);
 /// What is wrong with the two interfaces together.
 [[nodiscard]] base::Result<void> require_two_interfaces(const std::string& a, const std::string& b);

@@ -3,12 +3,15 @@
 #include "emulator/frame_session.hpp"
 
 #include "emulator/checks.hpp"
+#include "emulator/paths_report.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/report.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
 
+#include <cctype>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -19,43 +22,57 @@ namespace {
 
 void say_of_frames(std::string_view text) { net::say("hapnet-emulator", text); }
 
-std::string frames_in_words(const char* name, const InterfaceReport& side)
+/// "frames from B: ...", of the interface that is called b.
+std::string frames_in_words(const std::string& name, const InterfaceReport& side)
 {
-    if (side.undisturbed + side.oversized == 0) return "";
-    auto text = fmt::format("frames from {}: {} passed undisturbed", name, side.undisturbed);
+    const std::uint64_t overflowed = side.overflowed.value_or(0);
+    if (side.undisturbed + side.oversized + overflowed == 0) return "";
+    auto text = fmt::format("frames from {}: {} passed undisturbed",
+                            static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))),
+                            side.undisturbed);
     if (side.lost_undisturbed > 0) {
         text += fmt::format(", of which the system did not take {}", side.lost_undisturbed);
     }
     if (side.oversized > 0) text += fmt::format(", {} were longer than the MTU", side.oversized);
+    if (overflowed > 0) text += fmt::format(", {} overflowed", overflowed);
     return text + "\n";
 }
 
-/// Without flows the only path has all of the memory.
-QueueLimits limits_of(const Options& options, const Profile& profile)
+/// With several paths, each has its own fates, and two interfaces in the capture.
+Plan plan_of_frames(const Options& options, const Scenario& scenario,
+                    const ports::Frames::Setup& setup)
 {
-    if (profile.flows.empty()) return QueueLimits::within(options.in_flight_bytes);
-    return QueueLimits::shared(options.in_flight_bytes, profile.flows.size() + 1);
+    const auto& ends = setup.ends;
+    const std::size_t paths = setup.path_names().size();
+    Plan plan = plan_of(options, scenario, paths, net::monotonic_now());
+    plan.files.columns.has_paths = paths > 1;
+    if (paths == 1) return plan;
+    plan.files.pairs.clear();
+    for (std::size_t a = 0; a < ends.size(); ++a) {
+        for (std::size_t b = a + 1; b < ends.size(); ++b) {
+            plan.files.pairs.push_back(capture_names(ends[a].name, ends[b].name));
+        }
+    }
+    return plan;
 }
 
 } // namespace
 
 FrameSession::FrameSession(const Options& options, const Scenario& scenario, Setup setup)
-    : start_{net::monotonic_now()},
+    : FrameSession{plan_of_frames(options, scenario, setup.frames), std::move(setup)}
+{}
+
+FrameSession::FrameSession(const Plan& plan, Setup setup)
+    : start_{plan.parts.front().start},
       setup_{std::move(setup)},
-      recorder_{
-          {.fates = options.fates, .columns = {.has_flows = !scenario.profile.flows.empty()}}},
-      paths_{scenario.profile,
-             {.seed = scenario.seed,
-              .start = start_,
-              .limits = limits_of(options, scenario.profile),
-              .slab = std::make_shared<Slab>(options.in_flight_bytes),
-              .replay = scenario.replay}},
+      recorder_{plan.files},
+      paths_{plan.scenario.profile, plan.parts.front()},
       frames_{setup_.frames, paths_, recorder_},
-      run_{options, scenario, paths_, recorder_},
-      pacer_{options.timing, start_},
-      results_{options}
+      run_{plan.options, plan.scenario, paths_, recorder_},
+      pacer_{plan.options.timing, start_},
+      results_{plan.options}
 {
-    if (options.duration) end_ = start_ + *options.duration;
+    if (plan.options.duration) end_ = start_ + *plan.options.duration;
     desk_.emplace(duties());
     // After the other threads were made. Most of the slab is never used.
     run_.real_time = net::request_real_time(40, net::Locking::as_used);
@@ -63,14 +80,25 @@ FrameSession::FrameSession(const Options& options, const Scenario& scenario, Set
 
 ControlDesk::Setup FrameSession::duties()
 {
-    return {.socket = run_.options.control,
-            .files = run_.options.files,
-            .emulation = {
-                .paths = paths_,
-                .statistics = [this](const control::DoWork& work) { return statistics(work); },
-                .stop = [this] { is_stopped_ = true; },
-                .preset = preset_text,
-                .netem = netem_profile}};
+    ControlDesk::Setup setup{
+        .socket = run_.options.control,
+        .files = run_.options.files,
+        .emulation = {
+            .paths = paths_,
+            .statistics = [this](const control::DoWork& work) { return statistics(work); },
+            .stop = [this] { is_stopped_ = true; },
+            .preset = preset_text,
+            .netem = netem_profile,
+            .held = recorder_.held(),
+            .keep = [this](const std::string& name,
+                           base::TimePoint from) { return recorder_.keep(name, from); }}};
+    if (recorder_.held()) {
+        setup.look = [this](base::TimePoint now, const control::DoWork& /*work*/) {
+            if (const auto trouble = recorder_.keep_trouble()) say_of_frames(*trouble);
+            return std::optional{now + std::chrono::milliseconds{100}};
+        };
+    }
+    return setup;
 }
 
 base::Result<void> FrameSession::ensure_checks()
@@ -89,8 +117,7 @@ base::TimePoint FrameSession::turn(std::span<const int> descriptors,
                                    std::optional<base::TimePoint> deadline)
 {
     descriptors_.assign(descriptors.begin(), descriptors.end());
-    descriptors_.push_back(frames_.a().socket.descriptor());
-    descriptors_.push_back(frames_.b().socket.descriptor());
+    for (const auto& end : frames_.ends()) descriptors_.push_back(end.socket.descriptor());
     control::Turns& turns = desk_->turns();
     desk_->begin();
     descriptors_.push_back(turns.descriptor());
@@ -122,16 +149,22 @@ nlohmann::ordered_json FrameSession::statistics(const control::DoWork& work)
     statistics.ends.command = setup_.command;
     statistics.ends.through = setup_.through;
     statistics.ends.frames = state_.interfaces;
+    if (!has_one_path()) return json_of_links(std::move(statistics), run_, state_);
     tell_of_path(statistics, run_, state_);
     return json_of(statistics, run_);
 }
 
 std::string FrameSession::summary() const
 {
-    return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(state_.elapsed),
-                       run_.scenario.seed.value()) +
-           words_of_path(run_, state_) + frames_in_words("A", state_.interfaces.a) +
-           frames_in_words("B", state_.interfaces.b) + closing_words(run_, state_);
+    auto text = has_one_path()
+                    ? fmt::format("{:.1f} s, seed {}\n", base::to_seconds(state_.elapsed),
+                                  run_.scenario.seed.value()) +
+                          words_of_path(run_, state_)
+                    : words_of_links(run_, state_);
+    for (const auto& [name, report] : state_.interfaces) {
+        text += frames_in_words(name, report);
+    }
+    return text + closing_words(run_, state_);
 }
 
 bool FrameSession::finish()

@@ -6,6 +6,7 @@
 #include "emulator/core/paths.hpp"
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
+#include "emulator/plan.hpp"
 #include "emulator/ports/frames.hpp"
 #include "emulator/recorder.hpp"
 #include "emulator/report.hpp"
@@ -24,7 +25,7 @@
 
 namespace hapnet::emulator {
 
-/// A run between two network interfaces, from their sockets to the written files. Everything but
+/// A run between network interfaces, from their sockets to the written files. Everything but
 /// the recorder's writing and the control happens on the thread that constructs it.
 class FrameSession {
 public:
@@ -61,6 +62,9 @@ public:
     bool finish();
 
 private:
+    FrameSession(const Plan& plan, Setup setup);
+
+    [[nodiscard]] bool has_one_path() const { return frames_.pairs().size() == 1; }
     [[nodiscard]] ControlDesk::Setup duties();
     [[nodiscard]] nlohmann::ordered_json statistics(const control::DoWork& work);
     [[nodiscard]] std::string summary() const;

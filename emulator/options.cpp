@@ -171,7 +171,8 @@ cli::Take by_key(ConditionOptions& into)
 /// What differs among the commands that take conditions.
 struct ConditionsFor {
     bool has_own_rate = false; // the command has a --rate of its own, which takes the condition too
-    bool has_paths = true;     // there may be several
+    /// Conditions of one of several paths, as examples; "": there is only one.
+    std::string_view of_one_path = "1-2.delay=20ms, wan.up.loss=5% or client.3.delay=80ms";
 };
 
 void add_conditions(cli::Command& command, ConditionOptions& into, const ConditionsFor& what)
@@ -185,10 +186,10 @@ void add_conditions(cli::Command& command, ConditionOptions& into, const Conditi
                    cli::into(into.seed, cli::seed));
     command
         .option("--set", "KEY=VALUE",
-                fmt::format("Sets a condition by its key: up.delay=20ms{}; may be repeated",
-                            what.has_paths ? ", and of one of several paths 1-2.delay=20ms, "
-                                             "wan.up.loss=5% or client.3.delay=80ms"
-                                           : ", down.queue=codel"),
+                fmt::format("Sets a condition by its key: up.delay=20ms{}{}; may be repeated",
+                            what.of_one_path.empty() ? ", down.queue=codel"
+                                                     : ", and of one of several paths ",
+                            what.of_one_path),
                 by_key(into))
         .repeated();
     for (const char* prefix : {"", "up.", "down."}) {
@@ -469,7 +470,7 @@ net::CommandLine<AnyOptions> chosen_run(Options options, LinkOptions links, Upst
 
 net::CommandLine<AnyOptions> checked(BetweenOptions options, TypedCommands commands)
 {
-    auto fine = require_two_commands(commands);
+    auto fine = require_several_commands(commands);
     if (fine) fine = require_own_files(options.run);
     if (!fine) return tl::unexpected{fine.error()};
     options.commands = std::move(commands);
@@ -481,7 +482,7 @@ net::CommandLine<AnyOptions> checked(ExecOptions options, TypedCommands commands
     auto fine = require_one_command(commands);
     if (fine) fine = require_own_files(options.run);
     if (!fine) return tl::unexpected{fine.error()};
-    options.command = std::move(commands.first);
+    options.command = std::move(commands.front());
     return AnyOptions{std::move(options)};
 }
 
@@ -493,10 +494,11 @@ net::CommandLine<AnyOptions> checked(BridgeOptions options)
     return AnyOptions{std::move(options)};
 }
 
-/// What the commands for frames have in common.
-void add_frames(cli::Command& command, auto& options)
+/// What the commands for frames have in common. `of_one_path`: see ConditionsFor.
+void add_frames(cli::Command& command, auto& options, std::string_view of_one_path = "")
 {
-    add_run_options(command, options.run, {.has_paths = false});
+    add_run_options(command, options.run, {.of_one_path = of_one_path});
+    add_capture(command, options.run);
     add_frame_options(command, options.frames);
 }
 
@@ -508,7 +510,7 @@ public:
           exec_command_{add_exec(program, exec_.through)},
           bridge_command_{add_bridge(program, bridge_.a, bridge_.b, bridge_.frames)}
     {
-        add_frames(between_command_, between_);
+        add_frames(between_command_, between_, "a-c.delay=80ms or a-c.up.loss=2%");
         add_frames(exec_command_, exec_);
         add_frames(bridge_command_, bridge_);
     }

@@ -88,7 +88,7 @@ struct UpstreamOptions {
     Options run;                   // its ends are not used
 };
 
-/// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B`
+/// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B --- COMMAND_C ...`
 struct BetweenOptions {
     FrameOptions frames;
     TypedCommands commands;

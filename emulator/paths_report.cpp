@@ -86,8 +86,7 @@ ClientReport report_of(const PathState& client, const UpstreamRun& run, const Ru
             .flows = flows_of(client, run, state)};
 }
 
-LinkReport report_of(const PathState& link, const ports::Relay& relay, const LinksRun& run,
-                     const RunState& state)
+LinkEnds ends_of(const PathState& link, const ports::Relay& relay)
 {
     const auto text_of = [](const std::optional<net::Endpoint>& end) {
         return end ? std::optional{end->to_text()} : std::nullopt;
@@ -95,7 +94,12 @@ LinkReport report_of(const PathState& link, const ports::Relay& relay, const Lin
     return {.listen_1 = relay.a().local.to_text(),
             .listen_2 = relay.b().local.to_text(),
             .end_1 = text_of(link.end_a),
-            .end_2 = text_of(link.end_b),
+            .end_2 = text_of(link.end_b)};
+}
+
+LinkReport link_report_of(const PathState& link, const AnyRun& run, const RunState& state)
+{
+    return {.ends = {},
             .course = course_of(run, link),
             .up = report_of(link, Direction::up, run, state),
             .down = report_of(link, Direction::down, run, state),
@@ -162,7 +166,7 @@ void tell_of_sums(RunStatistics& statistics, const AnyRun& run, const Sums& sums
 }
 
 /// Each link has to be on time, not only all together.
-std::vector<std::string> reasons_of_links(const LinksRun& run, const RunState& state)
+std::vector<std::string> reasons_of_links(const AnyRun& run, const RunState& state)
 {
     std::vector<std::string> reasons = state.failures;
     for (const PathState& link : present(state)) {
@@ -171,6 +175,12 @@ std::vector<std::string> reasons_of_links(const LinksRun& run, const RunState& s
             add_reasons(reasons, way_name(link.name, direction), report_of(*way, run, state));
         }
         add_reasons(reasons, flows_of(link, run, state));
+    }
+    for (const auto& [name, report] : state.interfaces) {
+        if (const auto overflowed = report.overflowed.value_or(0); overflowed > 0) {
+            reasons.push_back(
+                fmt::format("{}: the emulator lost {} as overflowed", name, overflowed));
+        }
     }
     return reasons;
 }
@@ -204,20 +214,30 @@ std::string ready_line(const UpstreamRun& run)
                        run.scenario.seed.value(), base::name_of(run.options.timing));
 }
 
-nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
+nlohmann::ordered_json json_of_links(RunStatistics statistics, const AnyRun& run,
+                                     const RunState& state, std::span<const LinkEnds> ends)
 {
     const Sums sums = sums_of(state);
-    RunStatistics statistics = statistics_of_any(run, state);
     statistics.course.at_start = configuration_of(run.scenario.profile.path);
     const FlowSums flows = flow_sums_of(state, run.scenario.profile.flows.size());
     tell_of_flows(statistics, run, flows);
     tell_of_sums(statistics, run, sums, reasons_of_links(run, state));
     auto& links = statistics.links.emplace();
-    const auto& relays = run.port.relays();
-    for (std::size_t i = 0; i < state.count; ++i) {
-        links.emplace_back(relays[i]->name(), report_of(state.paths[i], *relays[i], run, state));
+    for (const PathState& link : present(state)) {
+        links.emplace_back(link.name, link_report_of(link, run, state));
+        if (!ends.empty()) links.back().second.ends = ends[links.size() - 1];
     }
     return json_of(statistics, run);
+}
+
+nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state)
+{
+    const auto& relays = run.port.relays();
+    std::vector<LinkEnds> ends;
+    for (std::size_t i = 0; i < state.count; ++i) {
+        ends.push_back(ends_of(state.paths[i], *relays[i]));
+    }
+    return json_of_links(statistics_of_any(run, state), run, state, ends);
 }
 
 nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state)
@@ -242,7 +262,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& sta
     return json_of(statistics, run);
 }
 
-std::string summary(const LinksRun& run, const RunState& state)
+std::string words_of_links(const AnyRun& run, const RunState& state)
 {
     auto text = fmt::format("{:.1f} s, seed {}, {} links\n", base::to_seconds(state.elapsed),
                             run.scenario.seed.value(), state.count);
@@ -253,7 +273,12 @@ std::string summary(const LinksRun& run, const RunState& state)
             text += in_words(title, report_of(*way, run, state));
         }
     }
-    return text + closing_words(run, state);
+    return text;
+}
+
+std::string summary(const LinksRun& run, const RunState& state)
+{
+    return words_of_links(run, state) + closing_words(run, state);
 }
 
 std::string summary(const UpstreamRun& run, const RunState& state)

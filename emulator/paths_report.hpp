@@ -7,6 +7,7 @@
 #include "emulator/report.hpp"
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 
 namespace hapnet::emulator {
@@ -24,6 +25,15 @@ using UpstreamRun = RunOf<ports::Upstream, true>;
 /// What --stats writes: one JSON object, with the sums of all paths and each that is there.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state);
 [[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state);
+
+/// The same of several links, whatever they stand between: with what `statistics` has already.
+/// `ends`: of each link; empty: they have none to tell of.
+[[nodiscard]] nlohmann::ordered_json json_of_links(RunStatistics statistics, const AnyRun& run,
+                                                   const RunState& state,
+                                                   std::span<const LinkEnds> ends = {});
+
+/// The length of a run with several links, and a line for each of their ways.
+[[nodiscard]] std::string words_of_links(const AnyRun& run, const RunState& state);
 
 /// A few lines for a person.
 [[nodiscard]] std::string summary(const LinksRun& run, const RunState& state);

@@ -113,14 +113,18 @@ void Recorder::Fates::add(const FateEntry& entry)
     Way& way = way_of(entry);
     const auto before = way.rows.size();
     if (columns != FateColumns{}) {
-        if (entry.path >= names.size()) {
+        if (entry.path >= cells.size()) {
             const std::scoped_lock guard{coming_lock};
-            std::move(coming.begin(), coming.end(), std::back_inserter(names));
+            std::move(coming.begin(), coming.end(), std::back_inserter(cells));
             coming.clear();
         }
-        way.rows += names.at(entry.path);
+        way.rows += cells.at(entry.path).begin;
     }
-    append_row(way.rows, entry.direction, entry.number, entry.fate);
+    const RegimeNames* regimes = nullptr;
+    if (columns.has_regimes) {
+        regimes = &cells[entry.path].regimes[entry.direction == Direction::up ? 0 : 1];
+    }
+    append_row(way.rows, entry.direction, entry.number, entry.fate, regimes);
     if (&way == ways.data()) {
         ++waiting_first;
         return;
@@ -279,7 +283,7 @@ void Recorder::Capture::append(const Incomplete& complete)
     if (held) held->add(packet.at, std::string_view{bytes}.substr(before));
 }
 
-Recorder::Recorder(const Files& files)
+Recorder::Recorder(const Files& files) : regimes_{files.regimes}
 {
     if (files.fates) fates_ = std::make_unique<Fates>(*files.fates, files.columns);
     if (files.capture || files.kept) capture_ = std::make_unique<Capture>(files);
@@ -300,7 +304,8 @@ std::uint32_t Recorder::add_path(const std::string& name)
     const std::scoped_lock guard{paths_lock_}; // numbers and names in one order
     if (fates_ && fates_->columns != FateColumns{}) {
         const std::scoped_lock coming_guard{fates_->coming_lock};
-        fates_->coming.push_back(row_begin(fates_->columns, name));
+        fates_->coming.push_back(
+            {row_begin(fates_->columns, name), regimes_ ? regimes_(name) : NamesOfRegimes{}});
     }
     return paths_++;
 }

@@ -6,6 +6,7 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/fate.hpp"
 #include "emulator/core/fates/fates.hpp"
+#include "emulator/core/profile/regimes.hpp"
 #include "proto/base/rolling_bytes.hpp"
 #include "proto/base/time.hpp"
 #include "proto/disk/descriptor.hpp"
@@ -17,6 +18,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -43,7 +45,9 @@ public:
         std::string keep_in{};                           // the folder for them
         std::vector<CaptureNames> pairs{CaptureNames{}}; // of interfaces of the capture
         FateColumns columns{};                           // of the fates
-        std::size_t lanes = 1;                           // threads that hand over
+        /// The regimes of a path, up and down; null: there are none.
+        std::function<NamesOfRegimes(const std::string& path)> regimes{};
+        std::size_t lanes = 1; // threads that hand over
     };
 
     class Lane;
@@ -137,6 +141,12 @@ private:
     struct Fates {
         Fates(const std::string& path, FateColumns columns);
 
+        /// What the rows of a path have besides their fates.
+        struct Cells {
+            std::string begin;
+            NamesOfRegimes regimes;
+        };
+
         void write(Queue<FateEntry>& queue);
         void finish();
 
@@ -162,10 +172,10 @@ private:
         std::size_t waiting_bytes = 0;   // in the rows of all ways but the first
         std::uint64_t waiting_first = 0; // rows of the first way that are not written yet
         std::vector<Way> ways{2};        // up and down of each path
-        std::vector<std::string> names;  // what stands before each row of a path
+        std::vector<Cells> cells;        // of each path
         std::mutex coming_lock;
-        std::vector<std::string> coming; // names of paths that the writer has not seen yet
-        Loss loss;                       // of rows
+        std::vector<Cells> coming; // of paths that the writer has not seen yet
+        Loss loss;                 // of rows
     };
     /// What has come of a packet through a lane.
     struct Incomplete {
@@ -198,6 +208,7 @@ private:
     void note_failures();
     [[nodiscard]] std::size_t waiting() const;
 
+    std::function<NamesOfRegimes(const std::string& path)> regimes_;
     std::unique_ptr<Fates> fates_;
     std::unique_ptr<Capture> capture_;
     std::vector<std::unique_ptr<Lane>> lanes_;

@@ -112,15 +112,32 @@ DirectionReport report_of(const WayState& way, const AnyRun& run, const RunState
             .has_distributions = state.is_over && run.options.fates.has_value()};
 }
 
+namespace {
+
+/// With flows, of the rest alone.
+DirectionReport report_of_own(const PathState& path, Direction direction, const AnyRun& run,
+                              const RunState& state)
+{
+    const bool is_up = direction == Direction::up;
+    const WayState& way = is_up ? path.up : path.down;
+    const Regimes& regimes = is_up ? path.conditions->up.regimes : path.conditions->down.regimes;
+    DirectionReport report = report_of(way, run, state);
+    report.regimes = regime_reports_of(regimes, way.regimes);
+    return report;
+}
+
+} // namespace
+
 DirectionReport report_of(const PathState& path, Direction direction, const AnyRun& run,
                           const RunState& state)
 {
     const bool is_up = direction == Direction::up;
-    auto report = report_of(is_up ? path.up : path.down, run, state);
+    auto report = report_of_own(path, direction, run, state);
     if (path.flows.empty()) return report;
     report.statistics = is_up ? &path.all_up : &path.all_down;
     report.stream = nullptr;
     report.has_distributions = false;
+    report.regimes.reset();
     return report;
 }
 
@@ -131,18 +148,18 @@ std::optional<FlowReports> flows_of(const PathState& path, const AnyRun& run, co
     for (const PathState& flow : path.flows) {
         flows.emplace_back(std::string{parts_of(flow.name).flow},
                            FlowReport{.course = course_of(run, flow),
-                                      .up = report_of(flow.up, run, state),
-                                      .down = report_of(flow.down, run, state)});
+                                      .up = report_of_own(flow, Direction::up, run, state),
+                                      .down = report_of_own(flow, Direction::down, run, state)});
     }
     // Of strangers and what the socket lost it is not known where they would have belonged.
-    const auto rest_of = [&](const WayState& way) {
-        auto report = report_of(way, run, state);
+    const auto rest_of = [&](Direction direction) {
+        auto report = report_of_own(path, direction, run, state);
         report.strangers = report.overflowed = report.unreachable = 0;
         return report;
     };
     flows.emplace_back(std::string{rest_of_flows}, FlowReport{.course = course_of(run, path),
-                                                              .up = rest_of(path.up),
-                                                              .down = rest_of(path.down)});
+                                                              .up = rest_of(Direction::up),
+                                                              .down = rest_of(Direction::down)});
     return flows;
 }
 

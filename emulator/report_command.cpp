@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
 #include "emulator/core/profile/paths.hpp"
+#include "emulator/core/profile/regimes.hpp"
 #include "emulator/run_files.hpp"
 #include "emulator/tools/run_page/run_page.hpp"
 #include "proto/disk/result_file.hpp"
@@ -37,7 +38,13 @@ base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options
         return base::fail(
             fmt::format("{}{}", options.fates ? "--fates: " : "", fates.error().message));
     }
-    run.fates = *std::move(fates);
+    const auto names = names_of_regimes(profile_of(run.profile, run.link).path);
+    auto counted = with_regimes(*std::move(fates), names[0], names[1]);
+    if (!counted) {
+        run.why_unverified = counted.error().message;
+        return {};
+    }
+    run.fates = *std::move(counted);
     run.fates_file = file_name_of(options.fates ? *options.fates : *named);
     auto fine = ensure_whole(*run.fates, run.statistics);
     if (!fine) return fine;

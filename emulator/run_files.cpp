@@ -78,7 +78,7 @@ base::Result<Fates> fates_of_path(const std::string& fates_path,
     if (names.size() == 1 && names.front().empty()) {
         return base::fail(fmt::format("{} has fates of one path: leave out --link", fates_path));
     }
-    return base::fail(fmt::format("{} has fates of several paths: name one with --link: {}",
+    return base::fail(fmt::format("{} has fates of paths or flows: name one with --link: {}",
                                   fates_path, fmt::join(names, ", ")));
 }
 

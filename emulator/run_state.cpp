@@ -16,8 +16,9 @@ namespace {
 constexpr std::size_t step_bytes = 64 << 10;
 
 /// Gives how many bytes that took, about.
-std::size_t look_at(const Link& link, WayState& state)
+std::size_t look_at(const Link& link, base::Duration elapsed, WayState& state)
 {
+    state.regimes = link.regime_course(elapsed);
     state.statistics = link.statistics();
     state.stream = link.stream_statistics().totals();
     const StreamTotals& stream = state.stream;
@@ -34,6 +35,7 @@ std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState
     if (const Branches* branches = path.branches()) {
         state.unknown_fragments = branches->unknown_fragments();
         for (std::size_t i = 0; i < branches->paths().size(); ++i) {
+            state.flows[i].elapsed = state.elapsed;
             bytes += look_at(*branches->paths()[i], changes_max, state.flows[i]);
         }
     }
@@ -42,8 +44,9 @@ std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState
     state.changes.assign(last.begin(), last.end());
     state.changes_omitted = path.changes().omitted() + (all.size() - last.size());
     state.conditions = path.director().shared_path();
-    return bytes + look_at(path.link(Direction::up), state.up) +
-           look_at(path.link(Direction::down), state.down) + last.size() * sizeof(ConditionChange);
+    return bytes + look_at(path.link(Direction::up), state.elapsed, state.up) +
+           look_at(path.link(Direction::down), state.elapsed, state.down) +
+           last.size() * sizeof(ConditionChange);
 }
 
 /// How many changes of a path are told: all, once the run is over.
@@ -113,14 +116,39 @@ std::size_t look_at(const ports::Upstream::Client& client, std::size_t changes_m
     return bytes;
 }
 
-InterfaceReport report_of(const ports::Frames::Side& side)
+/// `overflowed`: where it is not known which way those would have taken.
+void look_at(const ports::Frames::End& end, std::optional<std::uint64_t> overflowed,
+             InterfaceReport& report)
 {
-    return {.interface = side.interface,
-            .undisturbed = side.undisturbed,
-            .not_ip = side.not_ip,
-            .oversized = side.oversized,
-            .lost_undisturbed = side.lost_undisturbed,
-            .told_too_big = side.told_too_big};
+    report.undisturbed = end.undisturbed;
+    report.not_ip = end.not_ip;
+    report.oversized = end.oversized;
+    report.lost_undisturbed = end.lost_undisturbed;
+    report.told_too_big = end.told_too_big;
+    report.overflowed = overflowed;
+}
+
+/// Names the interfaces, as no memory is to be taken while somebody waits.
+void make_room(const ports::Frames& port, InterfaceReports& reports)
+{
+    if (reports.size() == port.ends().size()) return;
+    for (const auto& end : port.ends()) {
+        reports.emplace_back(end.name, InterfaceReport{.interface = end.interface});
+    }
+}
+
+void look_at(const ports::Frames& port, RunState& state)
+{
+    const bool has_one_path = port.pairs().size() == 1;
+    for (std::size_t i = 0; i < port.ends().size(); ++i) {
+        const auto& end = port.ends()[i];
+        const auto overflowed = end.socket.overflowed();
+        look_at(end, has_one_path ? std::nullopt : std::optional{overflowed},
+                state.interfaces[i].second);
+        if (!has_one_path) continue;
+        PathState& path = state.paths.front();
+        (i == 0 ? path.up : path.down).overflowed = overflowed;
+    }
 }
 
 /// Takes those out that are none of `present`; the others stay in their order.
@@ -145,6 +173,7 @@ void look_at(const AnyRun& run, const ports::Links& port, const control::DoWork&
         for (std::size_t bytes = 0; state.count < relays.size() && bytes < step_bytes;) {
             PathState& path = state.paths[state.count];
             const ports::Relay& relay = *relays[state.count++];
+            path.elapsed = run.elapsed;
             bytes += look_at(relay, told_changes(state, relays.size()), path);
         }
         if (state.count < relays.size()) return false;
@@ -171,8 +200,9 @@ void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWo
                 wanted = clients.size() + 8;
                 return true;
             }
-            bytes +=
-                look_at(*client, told_changes(state, clients.size()), state.paths[state.count++]);
+            PathState& path = state.paths[state.count++];
+            path.elapsed = run.elapsed;
+            bytes += look_at(*client, told_changes(state, clients.size()), path);
         }
         for (const auto* client : clients) present.push_back(client->number);
         state.server = {port.clients_seen(),
@@ -201,19 +231,25 @@ void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWo
 void look_at(const AnyRun& run, const ports::Frames& port, const control::DoWork& work,
              RunState& state)
 {
-    make_room(run, 1, state);
-    state.count = 1;
+    const auto& pairs = port.pairs();
+    make_room(run, pairs.size(), state);
+    make_room(port, state.interfaces);
+    state.count = 0;
     work([&] {
-        PathState& path = state.paths.front();
-        look_at(port.path(), told_changes(state, 1), path);
-        path.up.overflowed = port.a().socket.overflowed();
-        path.down.overflowed = port.b().socket.overflowed();
-        path.up.unreachable = port.b().unreachable;
-        path.down.unreachable = port.a().unreachable;
-        state.interfaces = {report_of(port.a()), report_of(port.b())};
+        for (std::size_t bytes = 0; state.count < pairs.size() && bytes < step_bytes;) {
+            PathState& path = state.paths[state.count];
+            const ports::Frames::Pair& pair = pairs[state.count++];
+            path.elapsed = run.elapsed;
+            bytes += look_at(pair.path, told_changes(state, pairs.size()), path);
+            path.up.unreachable = pair.unreachable_up;
+            path.down.unreachable = pair.unreachable_down;
+        }
+        if (state.count < pairs.size()) return false;
+        look_at(port, state);
         end_look(run, state);
         return true;
     });
+    for (std::size_t i = 0; i < pairs.size(); ++i) state.paths[i].name = pairs[i].name;
     sum_up_flows(run, state);
 }
 

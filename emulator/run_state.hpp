@@ -32,6 +32,7 @@ struct WayState {
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
     std::uint64_t unreachable = 0;
+    std::vector<RegimeCourse> regimes{}; // until then
 };
 
 /// A path as it was at a moment, and how its conditions have changed until then.
@@ -41,6 +42,7 @@ struct PathState {
     std::optional<net::Endpoint> end_a;
     std::optional<net::Endpoint> end_b;
     std::shared_ptr<const Path> conditions;
+    base::Duration elapsed{};             // of the run
     std::vector<ConditionChange> changes; // the last
     std::uint64_t changes_omitted = 0;    // before them, or for want of room
     WayState up;                          // with flows, of the rest
@@ -72,7 +74,7 @@ struct RunState {
         std::shared_ptr<const Path> newcomers; // what holds for whoever comes
     };
     Server server{};
-    InterfaceReports interfaces{}; // of a run between two
+    InterfaceReports interfaces{}; // of a run between interfaces
 };
 
 // Looks at a run by steps of `work`, of which none copies more than some 100 KiB. `state` is one

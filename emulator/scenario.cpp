@@ -4,6 +4,7 @@
 
 #include "emulator/core/profile/flows.hpp"
 #include "emulator/core/profile/paths.hpp"
+#include "emulator/core/profile/regimes.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
@@ -54,10 +55,12 @@ base::Result<void> take_typed(Profile& profile, const std::vector<TypedSetting>&
     }
     auto all = with_settings(profile.path, settings);
     if (!all) return tl::unexpected{all.error()};
+    if (auto own = ensure_own_settings(settings, "", *all); !own) return own;
     std::vector<PathPatch> patches;
     for (const std::string& path : paths) {
         const auto own = with_settings(profile_of(profile, path).path, settings, path);
         if (!own) return tl::unexpected{own.error()};
+        if (auto fine = ensure_own_settings(settings, path, *own); !fine) return fine;
         const PathPatch patch{path, difference(all->up, own->up), difference(all->down, own->down)};
         if (patch.up == Patch{} && patch.down == Patch{}) continue;
         patch_for(patches, path) = patch;
@@ -113,18 +116,32 @@ void make_absolute(Rate& rate, const std::string& beside)
     if (rate.trace) make_absolute(rate.trace->file, beside);
 }
 
+void make_absolute(Regimes& regimes, const std::string& beside);
+
+void make_absolute(Patch& patch, const std::string& beside)
+{
+    if (patch.delay) make_absolute(*patch.delay, beside);
+    if (patch.jitter) make_absolute(*patch.jitter, beside);
+    if (patch.loss) make_absolute(*patch.loss, beside);
+    if (patch.rate) make_absolute(*patch.rate, beside);
+    if (patch.regimes) make_absolute(*patch.regimes, beside);
+}
+
+void make_absolute(Regimes& regimes, const std::string& beside)
+{
+    if (regimes.empty()) return;
+    std::vector<Regime> all = regimes.all.get();
+    for (Regime& regime : all) make_absolute(regime.own, beside);
+    regimes.all = std::move(all);
+}
+
 /// Of a change, or of a path.
 void make_absolute(auto& patches, const std::string& beside) requires requires
 {
     patches.up.delay.has_value();
 }
 {
-    for (Patch* way : {&patches.up, &patches.down}) {
-        if (way->delay) make_absolute(*way->delay, beside);
-        if (way->jitter) make_absolute(*way->jitter, beside);
-        if (way->loss) make_absolute(*way->loss, beside);
-        if (way->rate) make_absolute(*way->rate, beside);
-    }
+    for (Patch* way : {&patches.up, &patches.down}) make_absolute(*way, beside);
 }
 
 void make_absolute(Profile& profile, const std::string& beside)
@@ -134,6 +151,7 @@ void make_absolute(Profile& profile, const std::string& beside)
         make_absolute(way->jitter, beside);
         make_absolute(way->loss, beside);
         make_absolute(way->rate, beside);
+        make_absolute(way->regimes, beside);
     }
     for (PathPatch& own : profile.paths) make_absolute(own, beside);
     for (Change& change : profile.timeline) {
@@ -251,6 +269,15 @@ base::Result<Scenario> scenario_of(const Options& options, const PathNames& name
         if (!fits) {
             return base::fail(
                 fmt::format("--replay: {}: {}", *options.replay, fits.error().message));
+        }
+        for (auto& [path, own] : *fates) {
+            const auto regimes = names_of_regimes(profile_of(scenario.profile, path).path);
+            auto fates_of_run = with_regimes(std::move(own), regimes[0], regimes[1]);
+            if (!fates_of_run) {
+                return base::fail(
+                    fmt::format("--replay: {}: {}", *options.replay, fates_of_run.error().message));
+            }
+            own = *std::move(fates_of_run);
         }
         scenario.replay = std::make_shared<const FatesOfPaths>(*std::move(fates));
         scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corrupt, duplicate, "

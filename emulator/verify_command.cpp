@@ -3,6 +3,7 @@
 #include "emulator/commands.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/profile/paths.hpp"
+#include "emulator/core/profile/regimes.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/run_files.hpp"
 #include "emulator/tools/verify/verify.hpp"
@@ -41,7 +42,11 @@ base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<P
     auto fates = fates_of_path(fates_path, link);
     if (!fates) return tl::unexpected{fates.error()};
     if (!profile) return tl::unexpected{profile.error()};
-    return Evidence{*std::move(fates), profile_of(*profile, link.value_or(""))};
+    auto own = profile_of(*profile, link.value_or(""));
+    const auto names = names_of_regimes(own.path);
+    auto counted = with_regimes(*std::move(fates), names[0], names[1]);
+    if (!counted) return base::fail(fmt::format("{}: {}", fates_path, counted.error().message));
+    return Evidence{*std::move(counted), std::move(own)};
 }
 
 /// What --stats has written: it holds the profile and names the fates.

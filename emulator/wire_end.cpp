@@ -6,6 +6,7 @@
 #include "proto/net/own_network.hpp"
 
 #include <cerrno>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
 
@@ -25,11 +26,16 @@ void prepare(const WireEnd& end)
     for (const auto& [text, bits] : end.addresses) net::add_address(end_interface, text, bits);
     net::add_group_routes(end_interface);
     if (!end.router.empty()) net::add_default_route(end_interface, end.router);
+    if (end.router_v6.empty()) return;
+    net::ignore_router_advertisements(end_interface);
+    net::add_default_route(end_interface, end.router_v6);
 }
 
 void connect(net::ChildCommand& command, const WireEnd& end)
 {
-    net::make_veth(end.wire, end_interface, command.pid());
+    const auto machine =
+        end.machine ? std::span<const std::byte>{*end.machine} : std::span<const std::byte>{};
+    net::make_veth(end.wire, end_interface, command.pid(), machine);
     net::switch_off_offloads(end.wire);
     net::set_up(end.wire);
     command.prepare();

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/frame.hpp"
 #include "emulator/frame_session.hpp"
 #include "proto/net/child_command.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,10 @@ struct WireEnd {
 
     std::string wire; // the emulator's interface to it
     std::vector<Address> addresses;
-    std::string router{}; // where all other networks are; "": there is none
+    // Where all other networks are; "": there is none.
+    std::string router{};
+    std::string router_v6{};
+    std::optional<MacAddress> machine{}; // of eth0; nullopt: the kernel makes one up
 };
 
 /// Makes eth0 as the command is to find it: for net::ChildCommand::Setup::prepare.

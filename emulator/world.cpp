@@ -6,15 +6,22 @@
 #include "proto/net/clock.hpp"
 #include "proto/net/interface.hpp"
 #include "proto/net/own_network.hpp"
+#include "proto/net/packet_socket.hpp"
+#include "proto/net/wait.hpp"
 
+#include <arpa/inet.h>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <fstream>
+#include <netinet/in.h>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <sstream>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -26,13 +33,22 @@ namespace {
 using namespace std::chrono_literals;
 
 /// It finds the emulator's network by the process, which has entered it by the time that this runs.
-std::vector<std::string> words_of(WorldProgram program, const std::string& interface)
+std::vector<std::string> words_of(WorldProgram program, const std::string& interface, bool has_ipv6)
 {
     const auto process = std::to_string(getpid());
     if (program == WorldProgram::slirp4netns) {
-        return {"slirp4netns", "--mtu=1500", process, interface};
+        std::vector<std::string> words{"slirp4netns", "--mtu=1500"};
+        if (has_ipv6) words.emplace_back("--enable-ipv6");
+        words.insert(words.end(), {process, interface});
+        return words;
     }
-    std::vector<std::string> words{"pasta", "--foreground", "--quiet", "--ipv4-only"};
+    std::vector<std::string> words{"pasta", "--foreground", "--quiet"};
+    if (has_ipv6) {
+        words.insert(words.end(),
+                     {"--address", World::address_of_command_v6, "--gateway", World::router_v6});
+    } else {
+        words.emplace_back("--ipv4-only");
+    }
     // It takes no port of the machine, and gives the command no address of the machine's.
     for (const auto& [option, value] : {std::pair{"--ns-ifname", interface.c_str()},
                                         {"--mtu", "1500"},
@@ -48,6 +64,21 @@ std::vector<std::string> words_of(WorldProgram program, const std::string& inter
     }
     words.push_back(process);
     return words;
+}
+
+/// Whether this machine knows a way to the addresses of the internet. Nothing is sent.
+bool has_route_of_ipv6()
+{
+    sockaddr_in6 anywhere{};
+    anywhere.sin6_family = AF_INET6;
+    anywhere.sin6_port = htons(9);
+    inet_pton(AF_INET6, "2001:db8::1", &anywhere.sin6_addr);
+    const int socket = ::socket(AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (socket < 0) return false;
+    const bool has_route =
+        connect(socket, reinterpret_cast<const sockaddr*>(&anywhere), sizeof anywhere) == 0;
+    close(socket);
+    return has_route;
 }
 
 /// The error that neither program is there, whose message is the cure.
@@ -105,14 +136,36 @@ Cure cure_of_both()
             ENETUNREACH};
 }
 
+/// Asks where the router is, as the command will do first, until it is told. The programs make the
+/// interface a while before they serve it.
+bool await_answer(const std::string& interface, base::TimePoint deadline)
+{
+    constexpr std::array<std::uint8_t, 42> question{
+        0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 2, 0,  0, 0, 0,   1, 8, 6, 0, 1, 8, 0,  6, 4, 0,
+        1,    2,    0,    0,    0,    0,    1, 10, 0, 2, 100, 0, 0, 0, 0, 0, 0, 10, 0, 2, 2};
+    constexpr base::Duration again = 100ms;
+    net::PacketSocket socket{interface};
+    const std::array<std::span<const std::byte>, 1> batch{std::as_bytes(std::span{question})};
+    for (auto now = net::monotonic_now(); now < deadline; now = net::monotonic_now()) {
+        socket.send_batch(batch);
+        for (const auto next = now + again; net::monotonic_now() < next;) {
+            net::wait_readable(std::array{socket.descriptor()}, next);
+            for (const net::ReceivedFrame& frame : socket.receive()) {
+                if (read_frame(frame.bytes).kind == FrameKind::neighbours) return true;
+            }
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 /// One of the two programs, before it runs and while it does.
 class World::Helper {
 public:
-    Helper(WorldProgram program, const std::string& interface)
+    Helper(WorldProgram program, const std::string& interface, bool has_ipv6)
         : program_{program},
-          process_{{.words = words_of(program, interface),
+          process_{{.words = words_of(program, interface, has_ipv6),
                     .has_own_group = true,
                     .output = output_.descriptor()}}
     {}
@@ -145,7 +198,15 @@ public:
             }
             net::sleep_until(now + 2ms);
         }
-        return std::nullopt;
+        net::switch_off_offloads(interface);
+        net::set_up(interface);
+        try {
+            if (await_answer(interface, deadline)) return std::nullopt;
+        } catch (const std::system_error&) {
+            return std::nullopt; // no frames of it: open_session() says why, and the cure
+        }
+        process_.signal(SIGKILL);
+        return "it answered nothing within 10 s";
     }
 
 private:
@@ -187,11 +248,11 @@ private:
 };
 
 World::World(std::optional<WorldProgram> only, std::string interface)
-    : interface_{std::move(interface)}
+    : interface_{std::move(interface)}, has_ipv6_{has_route_of_ipv6()}
 {
     for (const auto program : {WorldProgram::pasta, WorldProgram::slirp4netns}) {
         if (only && *only != program) continue;
-        helpers_.push_back(std::make_unique<Helper>(program, interface_));
+        helpers_.push_back(std::make_unique<Helper>(program, interface_, has_ipv6_));
     }
 }
 
@@ -205,8 +266,6 @@ void World::open()
         const auto trouble = helper->open(interface_);
         if (!trouble) {
             used_ = helper.get();
-            net::switch_off_offloads(interface_);
-            net::set_up(interface_);
             return;
         }
         is_one_installed = is_one_installed || helper->is_installed();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/frame.hpp"
 #include "emulator/frame_options.hpp"
 #include "proto/net/child_command.hpp"
 
@@ -15,13 +16,17 @@ namespace hapnet::emulator {
 
 /// All networks but the emulator's own one, reached through pasta or slirp4netns: a process in the
 /// network that the emulator came from, which does in sockets there what frames on an interface of
-/// the emulator's network ask for. IPv4 alone.
+/// the emulator's network ask for.
 class World {
 public:
-    // Where it has its addresses on that interface.
+    /// That of the command's eth0.
+    static constexpr MacAddress machine_of_command{std::byte{2}, {}, {}, {}, {}, std::byte{1}};
+    // Where it has its addresses on that interface. The routers stand for this machine, too.
     static constexpr const char* address_of_command = "10.0.2.100";
-    static constexpr const char* router = "10.0.2.2"; // it stands for this machine, too
+    static constexpr const char* router = "10.0.2.2";
     static constexpr const char* name_server = "10.0.2.3";
+    static constexpr const char* address_of_command_v6 = "fd00::100";
+    static constexpr const char* router_v6 = "fd00::2";
 
     /// Before the emulator enters its own network, in which the interface will be. nullopt: the
     /// first of the two that works. Throws std::system_error.
@@ -30,9 +35,13 @@ public:
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    /// In the emulator's own network: makes the interface. Throws std::system_error that says what
-    /// kept each program from it, and what a person can do.
+    /// In the emulator's own network: makes the interface, and returns when the program answers
+    /// there. Throws std::system_error that says what kept each program from it, and what a person
+    /// can do.
     void open();
+
+    /// Whether it carries IPv6, too: this machine has a route for it.
+    [[nodiscard]] bool has_ipv6() const { return has_ipv6_; }
 
     // Once it is open.
     [[nodiscard]] std::string_view name() const;
@@ -42,6 +51,7 @@ private:
     class Helper;
 
     std::string interface_;
+    bool has_ipv6_;
     std::vector<std::unique_ptr<Helper>> helpers_;
     Helper* used_ = nullptr;
 };

@@ -170,6 +170,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.introduction.hand = hand_model_of(rig.device().capabilities());
     settings.scene = options.scene;
     settings.algorithm = options.algorithm;
+    settings.send = options.send;
     // The scene's springs are as much stiffer at the hand as its dampers: by the scale squared.
     settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m / (mount.scale * mount.scale);
     // A simulated hand cannot be hurt, and the experiments that it plays are told without that.

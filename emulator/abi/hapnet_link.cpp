@@ -123,7 +123,12 @@ struct hapnet_link {
     {
         const Admission admission = path.on_packet(direction, bytes, now);
         fate.clear();
-        append_row(fate, direction, admission.number, admission.fate);
+        const Path& now_hold = path.director().path();
+        const bool has_column = !now_hold.up.regimes.empty() || !now_hold.down.regimes.empty();
+        const RegimeNames names =
+            regime_names(direction == Direction::up ? now_hold.up.regimes : now_hold.down.regimes);
+        append_row(fate, direction, admission.number, admission.fate,
+                   has_column ? &names : nullptr);
         if (admission.drop) return static_cast<int>(*admission.drop) + 1;
         if (admission.departure) {
             untouched.push_back({{direction, *admission.departure}, {bytes.begin(), bytes.end()}});

@@ -5,6 +5,7 @@
 #include "emulator/control/moment.hpp"
 #include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/paths.hpp"
+#include "emulator/core/profile/regimes.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -31,8 +32,11 @@ const std::shared_ptr<const Script>& Scripts::of(std::string_view path) const
 
 Paths::CommandFor Scripts::command() const
 {
-    return [this](std::string_view path, const Path&) -> base::Result<Command> {
-        return Apply{of(path)};
+    return [this](std::string_view path, const Path& now) -> base::Result<Command> {
+        const auto& script = of(path);
+        const auto same = ensure_same_regimes(script->profile().path, now);
+        if (!same) return tl::unexpected{same.error()};
+        return Apply{script};
     };
 }
 

@@ -133,12 +133,32 @@ constexpr auto fields_of(base::Tag<ClientReport>)
         base::member("flows", &C::flows, "In a run with flows: see there.").left_out_if_none());
 }
 
+/// What a link of datagrams stands between.
+struct LinkEnds {
+    std::optional<std::string> listen_1{};
+    std::optional<std::string> listen_2{};
+    std::optional<std::optional<std::string>> end_1{}; // the inner: not known yet
+    std::optional<std::optional<std::string>> end_2{};
+};
+constexpr auto fields_of(base::Tag<LinkEnds>)
+{
+    using L = LinkEnds;
+    return base::fields(
+        "link ends",
+        base::member("listen_1", &L::listen_1,
+                     "With `--link`: the emulator's address towards A, its first end.")
+            .left_out_if_none(),
+        base::member("listen_2", &L::listen_2, "With `--link`: that towards B, its second end.")
+            .left_out_if_none(),
+        base::member("end_1", &L::end_1, "With `--link`: A; null while it is not known.")
+            .left_out_if_none(),
+        base::member("end_2", &L::end_2, "With `--link`: B; null while it is not known.")
+            .left_out_if_none());
+}
+
 /// One of several links.
 struct LinkReport {
-    std::string listen_1;
-    std::string listen_2;
-    std::optional<std::string> end_1;
-    std::optional<std::string> end_2;
+    LinkEnds ends;
     CourseReport course;
     DirectionReport up;
     DirectionReport down;
@@ -147,17 +167,12 @@ struct LinkReport {
 constexpr auto fields_of(base::Tag<LinkReport>)
 {
     using L = LinkReport;
-    return base::fields(
-        "link",
-        base::member("listen_1", &L::listen_1, "The emulator's address towards A, its first end."),
-        base::member("listen_2", &L::listen_2, "That towards B, its second end."),
-        base::member("end_1", &L::end_1, "A; null while it is not known."),
-        base::member("end_2", &L::end_2, "B; null while it is not known."), base::part(&L::course),
-        base::member("up", &L::up, "From A to B.").label("direction"),
-        base::member("down", &L::down, "From B to A.").label("direction"),
-        base::member("flows", &L::flows, "In a run with flows: see there.")
-            .label("flow")
-            .left_out_if_none());
+    return base::fields("link", base::part(&L::ends), base::part(&L::course),
+                        base::member("up", &L::up, "From A to B.").label("direction"),
+                        base::member("down", &L::down, "From B to A.").label("direction"),
+                        base::member("flows", &L::flows, "In a run with flows: see there.")
+                            .label("flow")
+                            .left_out_if_none());
 }
 
 /// Counters of a network interface, apart from those of its path.
@@ -168,6 +183,7 @@ struct InterfaceReport {
     std::uint64_t oversized = 0;
     std::uint64_t lost_undisturbed = 0;
     std::uint64_t told_too_big = 0;
+    std::optional<std::uint64_t> overflowed{};
 };
 constexpr auto fields_of(base::Tag<InterfaceReport>)
 {
@@ -181,19 +197,16 @@ constexpr auto fields_of(base::Tag<InterfaceReport>)
         base::member("lost_undisturbed", &I::lost_undisturbed,
                      "Of the undisturbed ones, those that the system did not take."),
         base::member("told_too_big", &I::told_too_big,
-                     "Senders that were told that their packets are too big."));
+                     "Senders that were told that their packets are too big."),
+        base::member("overflowed", &I::overflowed,
+                     "With three commands or more: frames that the kernel dropped because the "
+                     "emulator did not read fast enough, whichever way they would have taken. "
+                     "Between two ends, `overflowed` of the direction has them.")
+            .left_out_if_none());
 }
 
-/// Both interfaces of a run between two.
-struct InterfaceReports {
-    InterfaceReport a;
-    InterfaceReport b;
-};
-constexpr auto fields_of(base::Tag<InterfaceReports>)
-{
-    return base::fields("interfaces", base::member("a", &InterfaceReports::a),
-                        base::member("b", &InterfaceReports::b));
-}
+/// The interfaces of a run between some, by their names.
+using InterfaceReports = base::Entries<InterfaceReport>;
 
 /// The privileges for punctual sending that the system granted.
 struct RealTimeReport {
@@ -367,8 +380,8 @@ constexpr auto fields_of(base::Tag<RunStatistics>)
         base::member("up", &S::up, "A to B, with the keys of the next tables.").label("direction"),
         base::member("down", &S::down, "B to A, with the same keys.").label("direction"),
         base::member("links", &S::links,
-                     "With `--link`: each link by its name. `up` and `down` of the run are then "
-                     "their sums, without `lens`.")
+                     "With `--link`, and of three commands or more of `between`: each link by its "
+                     "name. `up` and `down` of the run are then their sums, without `lens`.")
             .label("path")
             .left_out_if_none(),
         base::member("clients", &S::clients,

@@ -38,6 +38,10 @@ base::Result<Set> set_of(std::span<const Setting> settings, std::optional<base::
 {
     const auto after = with_settings(path, settings, name);
     if (!after) return tl::unexpected{after.error()};
+    for (const auto& fine :
+         {ensure_same_regimes(*after, path), ensure_own_settings(settings, name, *after)}) {
+        if (!fine) return tl::unexpected{fine.error()};
+    }
     return Set{patch_of(settings, name, Direction::up, after->up),
                patch_of(settings, name, Direction::down, after->down), lasting};
 }

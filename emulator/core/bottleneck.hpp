@@ -42,6 +42,11 @@ public:
 
     [[nodiscard]] bool is_on() const { return is_on_; }
     [[nodiscard]] bool is_idle() const { return queue_.empty() && evicted_.empty(); }
+    /// Whether nothing happens in it as long as nothing arrives.
+    [[nodiscard]] bool rests() const { return is_idle() && !has_regimes_; }
+    /// From now on its rate changes by itself, or no longer: whoever changes it is to be asked
+    /// first.
+    void have_regimes(bool do_so) { has_regimes_ = do_so; }
     /// Whether it wants to know of what flow a datagram is.
     [[nodiscard]] bool is_fair() const { return fair_ != nullptr; }
 
@@ -301,6 +306,7 @@ private:
 
     Rate rate_;
     bool is_on_;
+    bool has_regimes_ = false;
     QueueManager manager_;
     bool is_managed_;
     Ring<Queued> queue_;              // the front is being sent, or leaves next, and unsent

@@ -10,12 +10,16 @@
 #include "emulator/core/trace/rate_trace.hpp"
 #include "proto/base/probability.hpp"
 #include "proto/base/result.hpp"
+#include "proto/base/shared_vector.hpp"
 #include "proto/base/time.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -148,6 +152,18 @@ constexpr auto fields_of(base::Tag<Rate>)
 [[nodiscard]] base::Result<void> validate(const Duplication& duplication);
 [[nodiscard]] base::Result<void> validate(const Reordering& reordering);
 
+struct Regime;
+
+/// The states of a link between which it changes by itself: two to four, or none.
+struct Regimes {
+    base::SharedVector<Regime> all{};
+    bool are_together = false; // the other direction is in the same one at the same time
+
+    [[nodiscard]] bool empty() const;
+
+    friend bool operator==(const Regimes& a, const Regimes& b);
+};
+
 /// What one direction does to its datagrams. The defaults do nothing.
 struct Conditions {
     Mtu mtu{};
@@ -160,6 +176,7 @@ struct Conditions {
     Variation jitter{};
     Order order = Order::keep;
     Reordering reorder{};
+    Regimes regimes{};
 
     friend bool operator==(const Conditions&, const Conditions&) = default;
 };
@@ -176,11 +193,68 @@ struct Patch {
     std::optional<Variation> jitter{};
     std::optional<Order> order{};
     std::optional<Reordering> reorder{};
+    std::optional<Regimes> regimes{};
 
     friend bool operator==(const Patch&, const Patch&) = default;
 };
 
-/// One of the ten settings of a direction: its key, and where it is kept.
+/// The name of a regime: 1 to 32 characters of a-z, 0-9 and -.
+struct RegimeNameFormat {
+    void read(const base::Node& node, std::string& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::string& value) const { return base::quoted(value); }
+    [[nodiscard]] std::string describe() const { return "a name of a-z, 0-9 and -"; }
+};
+
+/// Of regimes by their names, each finite and not negative.
+using Weights = std::vector<std::pair<std::string, double>>;
+
+/// { bad = 1, gone = 0.5 }
+struct WeightsFormat {
+    void read(const base::Node& node, Weights& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const Weights& value) const;
+    [[nodiscard]] std::string describe() const { return "a table of weights, such as { bad = 1 }"; }
+};
+
+/// One of the states of a link: how long it lasts, what comes after it, and what it sets of delay,
+/// jitter, loss, rate, order, corrupt and duplicate. What it does not set is the direction's own.
+struct Regime {
+    std::string name;
+    base::Duration stay{};
+    Weights to{};
+    Patch own{};
+
+    friend bool operator==(const Regime&, const Regime&) = default;
+};
+/// Without its conditions, which have the keys of a direction.
+constexpr auto fields_of(base::Tag<Regime>)
+{
+    return base::fields(
+        "regime",
+        base::field("name", &Regime::name, RegimeNameFormat{}, "what keys and statistics call it")
+            .required(),
+        base::field("stay", &Regime::stay,
+                    "how long it lasts on average (exponential law), 1ms to 720h")
+            .required(),
+        base::field("to", &Regime::to, WeightsFormat{},
+                    "weights of the regimes that may follow; without it all others are alike"));
+}
+
+inline constexpr std::size_t regimes_max = 4;
+
+/// The keys of a direction that a regime may have.
+inline constexpr std::array<std::string_view, 7> regime_keys{
+    "rate", "loss", "corrupt", "duplicate", "delay", "jitter", "order"};
+
+/// Whether they can be: their number, names, stays, and that each comes again and again.
+[[nodiscard]] base::Result<void> validate(const Regimes& regimes);
+
+/// Whether they are the same but for their conditions: names, stays, weights, and togetherness.
+[[nodiscard]] bool have_same_course(const Regimes& a, const Regimes& b);
+
+/// Their names, in their order.
+[[nodiscard]] std::vector<std::string> regime_names(const Regimes& regimes);
+
+/// One of the settings of a direction: its key, and where it is kept.
 template <typename T>
 struct SettingSlot {
     std::string_view key;
@@ -206,6 +280,7 @@ constexpr void for_each_setting(const Visit& visit)
     slot("jitter", &Conditions::jitter, &Patch::jitter);
     slot("order", &Conditions::order, &Patch::order);
     slot("reorder", &Conditions::reorder, &Patch::reorder);
+    slot("regime", &Conditions::regimes, &Patch::regimes);
 }
 
 /// `a` and what `b` sets besides or instead.
@@ -216,6 +291,10 @@ constexpr void for_each_setting(const Visit& visit)
 
 /// The conditions with what `patch` sets.
 [[nodiscard]] Conditions patched(Conditions conditions, const Patch& patch);
+
+/// Those that hold in one of their regimes, which have no regimes themselves. `index` is of one of
+/// them.
+[[nodiscard]] Conditions in_regime(const Conditions& conditions, std::size_t index);
 
 /// Both ways of a path.
 struct Path {

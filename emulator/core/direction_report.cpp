@@ -22,6 +22,20 @@ std::optional<DelayReport> StreamShape::delay() const
     return DelayReport{*measured.delay, *measured.delay_quantiles, distribution};
 }
 
+std::optional<RegimeReports> regime_reports_of(const Regimes& regimes,
+                                               const std::vector<RegimeCourse>& course)
+{
+    if (regimes.empty() || course.size() != regimes.all.size()) return std::nullopt;
+    double whole = 0.0;
+    for (const RegimeCourse& one : course) whole += base::to_seconds(one.time);
+    RegimeReports reports;
+    for (std::size_t i = 0; i < course.size(); ++i) {
+        const double share = whole > 0.0 ? base::to_seconds(course[i].time) / whole : 0.0;
+        reports.emplace_back(regimes.all[i].name, RegimeReport{share, course[i].stays});
+    }
+    return reports;
+}
+
 std::vector<std::string> DirectionReport::reasons() const
 {
     return invalid_because(*statistics, overflowed, budget);

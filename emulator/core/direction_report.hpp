@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/regime_chain.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
 #include "proto/base/describe.hpp"
 #include "proto/base/time.hpp"
+#include "proto/base/value_kind.hpp"
 
 #include <array>
 #include <cstdint>
@@ -130,6 +133,26 @@ constexpr auto fields_of(base::Tag<StreamShape>)
             .left_out_if_none());
 }
 
+/// What became of one regime.
+struct RegimeReport {
+    double share = 0.0;
+    std::uint64_t stays = 0;
+};
+constexpr auto fields_of(base::Tag<RegimeReport>)
+{
+    return base::fields("regime",
+                        base::member("share", &RegimeReport::share, "Its share of the time so far.")
+                            .gauge("hapnet_emulator_regime_share"),
+                        base::member("stays", &RegimeReport::stays, "How often it has begun.")
+                            .counter("hapnet_emulator_regime_stays"));
+}
+
+/// By their names.
+using RegimeReports = base::Entries<RegimeReport>;
+/// nullopt: there are none.
+[[nodiscard]] std::optional<RegimeReports>
+regime_reports_of(const Regimes& regimes, const std::vector<RegimeCourse>& course);
+
 /// What a run knows of one direction.
 struct DirectionReport {
     const Statistics* statistics = nullptr;
@@ -139,6 +162,7 @@ struct DirectionReport {
     std::uint64_t unreachable = 0;
     base::Duration budget{};
     bool has_distributions = false; // whole distributions, not quantiles alone
+    std::optional<RegimeReports> regimes{};
 
     /// What is against its being valid; see invalid_because().
     [[nodiscard]] std::vector<std::string> reasons() const;
@@ -188,6 +212,11 @@ constexpr auto fields_of(base::Tag<DirectionReport>)
         base::computed<D>(
             "invalid_because", [](const D& one) { return one.reasons(); },
             "The reasons as a list of texts; empty when valid."),
+        base::member("regimes", &D::regimes,
+                     "With [`[[up.regime]]`](profile.md#regimes): each regime by its name; not of "
+                     "the sum of several paths.")
+            .label("regime")
+            .left_out_if_none(),
         base::computed<D>(
             "lens", [](const D& one) { return one.lens(); },
             "[The shape of the stream](#the-shape-of-a-stream) as a receiving loop gets it. Copies "

@@ -101,6 +101,7 @@ inline constexpr std::size_t loss_laws_max = 8;
 /// is dropped nevertheless as long as there is nobody on the other side: no_destination.
 struct Fate {
     std::optional<DropCause> drop{}; // nullopt: it is delivered
+    std::uint8_t regime = 0;         // that it met, counted from 1; 0: there are none
     // Of a delivered one; of a dropped one all of these are as they stand here.
     base::Duration delay{};                     // before queues and the order policy; not negative
     std::optional<base::Duration> copy_after{}; // a copy leaves this long after the original
@@ -115,12 +116,12 @@ struct Fate {
     friend bool operator==(const Fate&, const Fate&) = default;
 };
 
-/// The same of a datagram that has no destination: the first cause counts, and the states of the
-/// laws stay.
+/// The same of a datagram that has no destination: the first cause counts, and the regime and the
+/// states of the laws stay.
 [[nodiscard]] inline Fate without_destination(const Fate& fate)
 {
     if (fate.drop) return fate;
-    return {.drop = DropCause::no_destination, .states = fate.states};
+    return {.drop = DropCause::no_destination, .regime = fate.regime, .states = fate.states};
 }
 
 } // namespace hapnet::emulator

@@ -200,6 +200,30 @@ Frame read_frame(std::span<const std::byte> bytes)
     return frame;
 }
 
+std::optional<MacAddress> destination_of(std::span<const std::byte> frame)
+{
+    MacAddress machine{};
+    if (frame.size() < Frame::header_bytes_min) return std::nullopt;
+    std::ranges::copy(frame.first(machine.size()), machine.begin());
+    const bool is_group = (machine[0] & std::byte{1}) != std::byte{0};
+    return is_group ? std::nullopt : std::optional{machine};
+}
+
+std::span<const std::byte> ip_packet_of(std::span<const std::byte> frame)
+{
+    const std::size_t header = read_frame(frame).header_bytes;
+    if (header < Frame::header_bytes_min) return {};
+    const auto type = at16(frame, header - 2);
+    const auto packet = frame.subspan(header);
+    std::size_t length = 0;
+    if (has_ipv4_header(type, packet)) {
+        length = std::max<std::size_t>(at16(packet, 2), ipv4_header_bytes_min);
+    } else if (has_ipv6_header(type, packet)) {
+        length = ipv6_header_bytes + at16(packet, 4);
+    }
+    return packet.first(std::min(length, packet.size()));
+}
+
 std::uint32_t flow_of(std::span<const std::byte> frame)
 {
     const std::size_t header = read_frame(frame).header_bytes;

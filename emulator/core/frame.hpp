@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace hapnet::emulator {
@@ -34,6 +35,12 @@ struct Frame {
 /// Reads any bytes; those that are too short for Ethernet, or that have more than two VLAN tags,
 /// are of the kind `other`.
 [[nodiscard]] Frame read_frame(std::span<const std::byte> bytes);
+
+/// The machine that a frame is for; nullopt: it is for a group, or it is too short for Ethernet.
+[[nodiscard]] std::optional<MacAddress> destination_of(std::span<const std::byte> frame);
+
+/// The IP packet that a frame carries, without what fills up a short frame; empty: it carries none.
+[[nodiscard]] std::span<const std::byte> ip_packet_of(std::span<const std::byte> frame);
 
 /// Tells the flows of a frame's IP packets apart: a hash of addresses, protocol and ports.
 /// Fragments have no ports, so that all of a packet belong together; what is not IP is one flow.

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::emulator {
@@ -59,6 +60,8 @@ Link::Link(std::shared_ptr<const Conditions> conditions, const Setup& setup)
       stream_statistics_{setup.stream_detail, setup.start}
 {
     displaced_.reserve(displaced_max);
+    follow_rates();
+    if (rates_) bottleneck_->change(rate_now(), setup.start, conditions_->queue);
 }
 
 Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
@@ -188,7 +191,8 @@ void Link::release(const Datagram& datagram)
 void Link::schedule(Datagram& datagram, const Fate& fate)
 {
     datagram.due += fate.delay;
-    if (conditions_->order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
+    const Order order = order_of(fate);
+    if (order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
     last_due_ = std::max(last_due_, datagram.due);
     const auto [places, time] = fate.displacement;
     if (places > 0 && displaced_.size() < displaced_max) {
@@ -200,13 +204,13 @@ void Link::schedule(Datagram& datagram, const Fate& fate)
         later.due += time;
         line_.push(later);
     } else {
-        put(datagram);
+        put(datagram, order);
     }
-    if (fate.copy_after) schedule_copy(datagram, *fate.copy_after);
+    if (fate.copy_after) schedule_copy(datagram, *fate.copy_after, order);
     if (!displaced_.empty()) release_displaced(datagram.number, datagram.due);
 }
 
-void Link::schedule_copy(Datagram copy, base::Duration after)
+void Link::schedule_copy(Datagram copy, base::Duration after, Order order)
 {
     ++statistics_.duplicated;
     if (!store(copy)) {
@@ -215,12 +219,12 @@ void Link::schedule_copy(Datagram copy, base::Duration after)
     }
     copy.is_copy = true;
     copy.due += after;
-    put(copy);
+    put(copy, order);
 }
 
-void Link::put(const Datagram& datagram)
+void Link::put(const Datagram& datagram, Order order)
 {
-    if (conditions_->order == Order::sorted) {
+    if (order == Order::sorted) {
         line_.push_sorted(datagram);
     } else {
         line_.push(datagram);
@@ -260,8 +264,50 @@ void Link::move_on(base::TimePoint now)
     });
 }
 
-/// Each goes on through the link that it came from.
+/// The rate of the bottleneck changes when a regime does, whatever arrives.
 void Link::empty_bottleneck(base::TimePoint now)
+{
+    if (rates_) switch_rates(now);
+    pass_on(now);
+}
+
+void Link::switch_rates(base::TimePoint now)
+{
+    while (setup_.start + rates_->end() <= now) {
+        const auto at = setup_.start + rates_->end();
+        pass_on(at);
+        std::ignore = rates_->at(rates_->end());
+        bottleneck_->change(rate_now(), at, conditions_->queue);
+    }
+}
+
+/// That of the regime that holds, if it sets one.
+const Rate& Link::rate_now() const
+{
+    if (!rates_) return conditions_->rate;
+    const Patch& sets = conditions_->regimes.all[rates_->current()].own;
+    return sets.rate ? *sets.rate : conditions_->rate;
+}
+
+/// Begins or ends to watch the regimes for their rates.
+void Link::follow_rates()
+{
+    const auto sets_rate = [](const Regime& regime) { return regime.own.rate.has_value(); };
+    const bool is_needed = std::ranges::any_of(conditions_->regimes.all, sets_rate);
+    rates_.reset();
+    if (through_ == nullptr) bottleneck_->have_regimes(is_needed);
+    if (is_needed) rates_ = std::make_unique<RegimeChain>(*pipeline_.chain());
+}
+
+Order Link::order_in_regime(std::uint8_t regime) const
+{
+    const auto& all = conditions_->regimes.all.get();
+    if (regime > all.size()) return conditions_->order;
+    return all[regime - 1].own.order.value_or(conditions_->order);
+}
+
+/// Each goes on through the link that it came from.
+void Link::pass_on(base::TimePoint now)
 {
     while (const auto passed = bottleneck_->pop(now)) {
         if (passed->owner == nullptr) {
@@ -298,6 +344,9 @@ std::optional<base::TimePoint> Link::next_deadline() const
 {
     auto deadline = line_.next_due();
     if (through_ == nullptr) deadline = base::earlier(deadline, bottleneck_->next_sent());
+    if (rates_ && !bottleneck_->is_idle()) {
+        deadline = base::earlier(deadline, setup_.start + rates_->end());
+    }
     for (const Queued& waiting : displaced_) {
         deadline = base::earlier(deadline, waiting.datagram.due + displaced_for_max);
     }
@@ -338,9 +387,14 @@ void Link::share(std::shared_ptr<const Conditions> conditions, base::TimePoint n
     // A change is stamped by what arrives on either side: it may come after a later arrival here.
     const auto at = std::max(now, last_arrival_);
     advance(at);
-    if (through_ == nullptr) bottleneck_->change(conditions->rate, at, conditions->queue);
+    const bool are_new = conditions->regimes != conditions_->regimes;
     pipeline_.change(*conditions);
     conditions_ = std::move(conditions);
+    if (are_new) {
+        follow_rates();
+        if (rates_) std::ignore = rates_->at(at - setup_.start);
+    }
+    if (through_ == nullptr) bottleneck_->change(rate_now(), at, conditions_->queue);
 }
 
 } // namespace hapnet::emulator

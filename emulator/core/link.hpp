@@ -12,6 +12,7 @@
 #include "emulator/core/pipeline.hpp"
 #include "emulator/core/pulse.hpp"
 #include "emulator/core/queue_limits.hpp"
+#include "emulator/core/regime_chain.hpp"
 #include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
@@ -103,6 +104,11 @@ public:
     [[nodiscard]] const Conditions& conditions() const { return *conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
+    /// What has become of each regime until this time since the start; empty: there are none.
+    [[nodiscard]] std::vector<RegimeCourse> regime_course(base::Duration until) const
+    {
+        return pipeline_.regime_course(until);
+    }
     /// What left since the last call. The first one begins to count, so that a link costs no more
     /// as long as nobody watches.
     [[nodiscard]] Pulse take_pulse() { return std::exchange(pulse_, Pulse{}).value_or(Pulse{}); }
@@ -119,15 +125,24 @@ private:
     void release(const Datagram& datagram);
     void note_drop(DropCause cause, base::TimePoint at);
     void schedule(Datagram& datagram, const Fate& fate);
-    void schedule_copy(Datagram copy, base::Duration after);
-    void put(const Datagram& datagram);
+    void schedule_copy(Datagram copy, base::Duration after, Order order);
+    void put(const Datagram& datagram, Order order);
+    [[nodiscard]] Order order_of(const Fate& fate) const
+    {
+        return fate.regime == 0 ? conditions_->order : order_in_regime(fate.regime);
+    }
+    [[nodiscard]] Order order_in_regime(std::uint8_t regime) const;
+    [[nodiscard]] const Rate& rate_now() const;
+    void follow_rates();
+    void switch_rates(base::TimePoint now);
     void release_displaced(std::uint64_t scheduled, base::TimePoint due);
     void advance(base::TimePoint now)
     {
-        const bool is_plain = bottleneck_->is_idle() && displaced_.empty();
+        const bool is_plain = bottleneck_->rests() && displaced_.empty();
         if (!is_plain) move_on(now);
     }
     void move_on(base::TimePoint now);
+    void pass_on(base::TimePoint now);
 
     std::shared_ptr<const Conditions> conditions_; // never null
     Setup setup_;
@@ -138,6 +153,7 @@ private:
     DelayLine line_;
     std::shared_ptr<Bottleneck> bottleneck_; // never null
     Link* through_ = nullptr;                // whose bottleneck it is; null: the own one
+    std::unique_ptr<RegimeChain> rates_;     // of the bottleneck; null: no regime sets a rate
     std::vector<Queued> displaced_; // until a later datagram is scheduled (Reordering by places)
     base::TimePoint last_arrival_;
     base::TimePoint last_due_ = base::TimePoint::min();

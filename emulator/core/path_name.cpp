@@ -132,6 +132,14 @@ std::string stream_name(std::string_view path, Direction direction)
     return is_of_peers ? name : fmt::format("{}/{}", name, to_text(direction));
 }
 
+std::string stream_name_of_both(std::string_view path)
+{
+    const auto up = stream_name(path, Direction::up);
+    const bool is_of_peers = is_pair(parts_of(path).path);
+    if (is_of_peers) return up + "/both";
+    return up.substr(0, up.size() - to_text(Direction::up).size()) + "both";
+}
+
 base::Result<std::string> parse_link_name(std::string_view text)
 {
     if (const auto peers = parse_peers(text)) {
@@ -189,6 +197,25 @@ std::optional<Way> parse_way(std::string_view text)
     return Way{std::string{text}, direction};
 }
 
+bool is_command(std::string_view text)
+{
+    return text.size() == 1 && text.front() >= 'a' && text.front() <= 'h';
+}
+
+bool is_of_commands(std::string_view path)
+{
+    return path.size() == 3 && path[1] == '-' && is_command(path.substr(0, 1)) &&
+           is_command(path.substr(2));
+}
+
+Way way_between(std::string_view from, std::string_view to)
+{
+    const auto name = fmt::format("{}-{}", from, to);
+    if (!is_command(from)) return parse_way(name).value();
+    if (from < to) return {name, Direction::up};
+    return {fmt::format("{}-{}", to, from), Direction::down};
+}
+
 std::string client_path(std::string_view number_or_address)
 {
     return fmt::format("{}{}", client_prefix, number_or_address);
@@ -216,6 +243,9 @@ std::string PathNames::refusal(std::string_view path) const
     path = of;
     if (path.starts_with(client_prefix)) {
         return fmt::format("there is no {}: clients are those of --upstream", path);
+    }
+    if (links.empty() && !without_links.empty()) {
+        return fmt::format("there is no link {}: {}", path, without_links);
     }
     if (links.empty()) {
         return fmt::format("there is no link {0}: start the emulator with --link {0}=LISTEN_A,"

@@ -19,6 +19,7 @@ namespace hapnet::emulator {
 // | the only one          | ""         | "up"       | "down"       |
 // | of two peers          | "1-2"      | "1-2"      | "2-1"        |
 // | of a link with a word | "wan"      | "wan.up"   | "wan.down"   |
+// | of two commands of several | "a-b" | "a-b.up"   | "a-b.down"   |
 // | of a client           | "client.3" | "client.3.up" | "client.3.down" |
 // | of a flow             | "flow.voice" | "flow.voice.up" | "flow.voice.down" |
 // | of one of several     | "1-2.flow.voice" | "1-2.flow.voice" | "2-1.flow.voice" |
@@ -44,6 +45,9 @@ struct PathParts {
 /// A way as the names of its random streams begin: with '/' instead of '.', "client/3/up".
 [[nodiscard]] std::string stream_name(std::string_view path, Direction direction);
 
+/// The same of what both ways share: "both", "client/3/both", "1-2/both".
+[[nodiscard]] std::string stream_name_of_both(std::string_view path);
+
 /// A way for people: "up: from A to B", "1-2: from 1 to 2", "2-1: from 2 to 1", "wan.up",
 /// "client.3.down: from the server".
 [[nodiscard]] std::string way_in_words(std::string_view path, Direction direction);
@@ -65,6 +69,16 @@ struct Way {
 /// "client.3.down", "flow.voice.up"; nullopt when it can be no such name.
 [[nodiscard]] std::optional<Way> parse_way(std::string_view text);
 
+/// Whether it is the letter of a command, "a" to "h".
+[[nodiscard]] bool is_command(std::string_view text);
+
+/// Whether it is the name of the path between two commands, "a-c".
+[[nodiscard]] bool is_of_commands(std::string_view path);
+
+/// The way from one to the other of two different peers, by their numbers, or commands, by their
+/// letters: the path has the name of the lower one first.
+[[nodiscard]] Way way_between(std::string_view from, std::string_view to);
+
 /// What a client is called.
 [[nodiscard]] std::string client_path(std::string_view number_or_address);
 
@@ -76,6 +90,7 @@ struct PathNames {
     std::vector<std::string> flows{};        // on each of them
     std::vector<std::string> without_rate{}; // those that share that of the rest
     std::vector<std::string> untouched{};    // those that have no conditions
+    std::string without_links{};             // why there are none; "": nobody asked for one
 
     [[nodiscard]] bool contains(std::string_view path) const;
     /// Why not: "there is no link 1-3: use one of 1-2, 2-3".

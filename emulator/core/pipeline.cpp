@@ -26,10 +26,44 @@ bool is_drawn(base::Probability share, const base::RandomStream& stream, std::ui
 
 } // namespace
 
+/// The regimes of a direction at work.
+struct Pipeline::InRegimes {
+    Regimes said;
+    RegimeChain chain;
+    std::vector<Pipeline> stages; // of each regime: what it sets, and nothing else
+};
+
+Pipeline::~Pipeline() = default;
+Pipeline::Pipeline(Pipeline&&) noexcept = default;
+Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
+
+Pipeline::Pipeline(const Pipeline& other)
+    : seed_{other.seed_},
+      way_{other.way_},
+      both_ways_{other.both_ways_},
+      mtu_{other.mtu_},
+      loss_{other.loss_},
+      corrupt_{other.corrupt_},
+      corrupt_stream_{other.corrupt_stream_},
+      duplicate_{other.duplicate_},
+      duplicate_stream_{other.duplicate_stream_},
+      delay_{other.delay_},
+      jitter_{other.jitter_},
+      reorder_{other.reorder_},
+      reorder_stream_{other.reorder_stream_},
+      regimes_{other.regimes_ ? std::make_unique<InRegimes>(*other.regimes_) : nullptr}
+{}
+
 Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction direction,
                    std::string_view path)
+    : Pipeline{conditions, seed, stream_name(path, direction), stream_name_of_both(path)}
+{}
+
+Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, std::string way,
+                   std::string both_ways)
     : seed_{seed},
-      way_{stream_name(path, direction)},
+      way_{std::move(way)},
+      both_ways_{std::move(both_ways)},
       mtu_{conditions.mtu},
       corrupt_{conditions.corrupt},
       corrupt_stream_{stream_of(seed, way_, "corrupt")},
@@ -41,9 +75,10 @@ Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction dire
       reorder_stream_{stream_of(seed, way_, "reorder")}
 {
     change_losses(conditions.loss);
+    change_regimes(conditions.regimes);
 }
 
-Fate Pipeline::on_packet(const Packet& packet)
+Fate Pipeline::own_fate(const Packet& packet)
 {
     Fate fate;
     if (is_above_mtu(packet)) fate.drop = DropCause::mtu;
@@ -55,17 +90,110 @@ Fate Pipeline::on_packet(const Packet& packet)
     // Delays may depend on the ones before: they are drawn for what is lost, too.
     const auto delay = delay_.on_packet(packet) + jitter_.on_packet(packet);
     if (fate.drop) return fate;
-    if (is_drawn(corrupt_.share, corrupt_stream_, packet.number)) {
-        fate.flips = draw_flips(packet.number);
-    }
-    if (is_drawn(duplicate_.share, duplicate_stream_, packet.number)) {
-        fate.copy_after = draw_copy(packet.number);
-    }
+    corrupt(fate, packet.number);
+    duplicate(fate, packet.number);
     fate.delay = std::max(delay, base::Duration{0});
-    if (is_drawn(reorder_.share, reorder_stream_, packet.number)) {
+    reorder(fate, packet.number);
+    return fate;
+}
+
+Fate Pipeline::fate_at(const Packet& packet)
+{
+    return on_packet(packet, regimes_->chain.at(packet.at));
+}
+
+Fate Pipeline::on_packet(const Packet& packet, std::size_t regime)
+{
+    base::ensure(regimes_ != nullptr);
+    const Patch& sets = regimes_->said.all[regime].own;
+    Draws chosen = draw(packet);
+    for (std::size_t i = 0; i < regimes_->stages.size(); ++i) {
+        const Draws own = regimes_->stages[i].draw(packet);
+        if (i != regime) continue;
+        if (sets.loss) {
+            chosen.lost = own.lost;
+            chosen.states = own.states;
+        }
+        if (sets.delay) chosen.delay = own.delay;
+        if (sets.jitter) chosen.jitter = own.jitter;
+    }
+    Fate fate{.drop = chosen.lost,
+              .regime = static_cast<std::uint8_t>(regime + 1),
+              .states = chosen.states};
+    if (is_above_mtu(packet)) fate.drop = DropCause::mtu;
+    if (fate.drop) return fate;
+    const Pipeline& stages = regimes_->stages[regime];
+    (sets.corrupt ? stages : *this).corrupt(fate, packet.number);
+    (sets.duplicate ? stages : *this).duplicate(fate, packet.number);
+    fate.delay = std::max(chosen.delay + chosen.jitter, base::Duration{0});
+    reorder(fate, packet.number);
+    return fate;
+}
+
+/// Every datagram is shown to all of them.
+Pipeline::Draws Pipeline::draw(const Packet& packet)
+{
+    Draws draws;
+    for (std::size_t i = 0; i < loss_.size(); ++i) {
+        const auto lost = loss_[i].process.on_packet(packet);
+        draws.states[i] = loss_[i].process.state();
+        if (!draws.lost) draws.lost = lost;
+    }
+    draws.delay = delay_.on_packet(packet);
+    draws.jitter = jitter_.on_packet(packet);
+    return draws;
+}
+
+void Pipeline::corrupt(Fate& fate, std::uint64_t number) const
+{
+    if (is_drawn(corrupt_.share, corrupt_stream_, number)) fate.flips = draw_flips(number);
+}
+
+void Pipeline::duplicate(Fate& fate, std::uint64_t number) const
+{
+    if (is_drawn(duplicate_.share, duplicate_stream_, number)) fate.copy_after = draw_copy(number);
+}
+
+void Pipeline::reorder(Fate& fate, std::uint64_t number) const
+{
+    if (is_drawn(reorder_.share, reorder_stream_, number)) {
         fate.displacement = reorder_.displacement;
     }
-    return fate;
+}
+
+std::optional<RegimeChain> Pipeline::chain() const
+{
+    if (regimes_ == nullptr) return std::nullopt;
+    const Regimes& said = regimes_->said;
+    return RegimeChain{said, stream_of(seed_, said.are_together ? both_ways_ : way_, "regime")};
+}
+
+std::vector<RegimeCourse> Pipeline::regime_course(base::Duration until) const
+{
+    if (regimes_ == nullptr) return {};
+    return regimes_->chain.course(until);
+}
+
+/// Regimes of the same course go on, whatever they set.
+void Pipeline::change_regimes(const Regimes& regimes)
+{
+    if (regimes.empty()) return regimes_.reset();
+    const std::vector<Regime>& all = regimes.all.get();
+    if (regimes_ && have_same_course(regimes_->said, regimes)) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            regimes_->stages[i].change(patched({}, all[i].own));
+        }
+        regimes_->said = regimes;
+        return;
+    }
+    const auto& way = regimes.are_together ? both_ways_ : way_;
+    regimes_ = std::make_unique<InRegimes>(
+        InRegimes{regimes, RegimeChain{regimes, stream_of(seed_, way, "regime")}, {}});
+    for (const Regime& regime : all) {
+        regimes_->stages.push_back(Pipeline{patched({}, regime.own), seed_,
+                                            fmt::format("{}/regime/{}", way_, regime.name),
+                                            both_ways_});
+    }
 }
 
 bool Pipeline::is_above_mtu(const Packet& packet) const
@@ -105,6 +233,7 @@ void Pipeline::change(const Conditions& conditions)
     delay_.change(conditions.delay);
     jitter_.change(conditions.jitter);
     change_losses(conditions.loss);
+    if (regimes_ || !conditions.regimes.empty()) change_regimes(conditions.regimes);
 }
 
 Pipeline::LawIndex Pipeline::index_of(const std::vector<LossLaw>& laws, std::size_t index)

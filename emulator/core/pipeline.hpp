@@ -7,8 +7,15 @@
 #include "emulator/core/fate.hpp"
 #include "emulator/core/loss/loss.hpp"
 #include "emulator/core/packet.hpp"
+#include "emulator/core/regime_chain.hpp"
 #include "proto/base/random.hpp"
+#include "proto/base/time.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,14 +29,36 @@ namespace hapnet::emulator {
 ///
 /// The stages, always in this order: mtu, loss (law after law), corrupt, duplicate, delay, jitter,
 /// reorder. The rate and the order of departure are kept by Link.
+///
+/// With regimes the fate of a datagram is drawn by the stages of the regime that holds when it
+/// arrives, and by the direction's own where the regime sets nothing. The stages of regime R draw
+/// from "D/regime/R/S", the chain of the regimes from "D/regime", or from "both/regime" if both
+/// directions are in the same one.
 class Pipeline {
 public:
     /// The streams of a path with a name begin with it: "client/1/up/jitter"; see stream_name().
     Pipeline(const Conditions& conditions, base::Seed seed, Direction direction,
              std::string_view path = {});
 
+    // Defined in pipeline.cpp, where it is known what regimes are.
+    ~Pipeline();
+    Pipeline(Pipeline&&) noexcept;
+    Pipeline& operator=(Pipeline&&) noexcept;
+    Pipeline(const Pipeline& other);
+    Pipeline& operator=(const Pipeline&) = delete;
+
     /// Packets are shown in the order of their numbers, none left out.
-    [[nodiscard]] Fate on_packet(const Packet& packet);
+    [[nodiscard]] Fate on_packet(const Packet& packet)
+    {
+        return regimes_ == nullptr ? own_fate(packet) : fate_at(packet);
+    }
+    /// The same as if that regime held, by its index. Ensures that there are regimes.
+    [[nodiscard]] Fate on_packet(const Packet& packet, std::size_t regime);
+
+    /// The chain of the regimes, at the beginning; nullopt: there are none.
+    [[nodiscard]] std::optional<RegimeChain> chain() const;
+    /// What has become of each regime until this time; empty: there are none.
+    [[nodiscard]] std::vector<RegimeCourse> regime_course(base::Duration until) const;
 
     /// That of a further stage of this direction.
     [[nodiscard]] base::RandomStream stream(std::string_view stage) const;
@@ -50,6 +79,24 @@ private:
         LossProcess process;
     };
 
+    /// What the stages with a memory have drawn for a datagram.
+    struct Draws {
+        std::optional<DropCause> lost{};
+        std::array<LossState, loss_laws_max> states{};
+        base::Duration delay{};
+        base::Duration jitter{};
+    };
+    struct InRegimes;
+
+    Pipeline(const Conditions& conditions, base::Seed seed, std::string way, std::string both_ways);
+
+    [[nodiscard]] Fate own_fate(const Packet& packet);
+    [[nodiscard]] Fate fate_at(const Packet& packet);
+    [[nodiscard]] Draws draw(const Packet& packet);
+    void corrupt(Fate& fate, std::uint64_t number) const;
+    void duplicate(Fate& fate, std::uint64_t number) const;
+    void reorder(Fate& fate, std::uint64_t number) const;
+    void change_regimes(const Regimes& regimes);
     static LawIndex index_of(const std::vector<LossLaw>& laws, std::size_t index);
     [[nodiscard]] LossStage loss_stage(const std::vector<LossLaw>& laws, std::size_t index) const;
     void change_losses(const std::vector<LossLaw>& laws);
@@ -58,7 +105,8 @@ private:
     [[nodiscard]] base::Duration draw_copy(std::uint64_t number) const;
 
     base::Seed seed_;
-    std::string way_; // what the names of its streams begin with
+    std::string way_;       // what the names of its streams begin with
+    std::string both_ways_; // and those of what it shares with the other direction
     Mtu mtu_;
     std::vector<LossStage> loss_;
     Corruption corrupt_;
@@ -69,6 +117,7 @@ private:
     DelayProcess jitter_;
     Reordering reorder_;
     base::RandomStream reorder_stream_;
+    std::unique_ptr<InRegimes> regimes_; // null: there are none
 };
 
 } // namespace hapnet::emulator

@@ -12,24 +12,10 @@
 #include <chrono>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
-#include <vector>
 
 namespace hapnet::emulator::ports {
 
 namespace {
-
-DropCause frame_cause_of(net::SendOutcome outcome)
-{
-    switch (outcome) {
-    case net::SendOutcome::buffer_full: return DropCause::send_buffer_full;
-    case net::SendOutcome::no_route: return DropCause::no_route;
-    case net::SendOutcome::too_big: return DropCause::too_big;
-    case net::SendOutcome::sent:
-    case net::SendOutcome::refused:
-    case net::SendOutcome::failed: break;
-    }
-    return DropCause::send_failed;
-}
 
 /// The laws know payloads, and add IP and UDP headers where those count (Mtu, Rate). So that they
 /// find the size of the IP packet, as much of it belongs to the envelope.
@@ -50,98 +36,63 @@ bool is_group(const MacAddress& address) { return (address[0] & std::byte{1}) !=
 
 } // namespace
 
-class Frames::Outgoing {
-public:
-    Outgoing(Frames& frames, Direction direction, Side& to)
-        : frames_{frames}, direction_{direction}, to_{to}
-    {}
-
-    void add(EmulatedPath& path, const Datagram& departure)
-    {
-        paths_[count_] = &path;
-        departures_[count_] = departure;
-        add_bytes(departure.bytes);
-    }
-    /// A frame that the conditions do not hold for.
-    void add_undisturbed(std::span<const std::byte> bytes)
-    {
-        departures_[count_].reset();
-        add_bytes(bytes);
-    }
-
-    void flush()
-    {
-        if (count_ == 0) return;
-        const auto outcomes = to_.socket.send_batch({bytes_.data(), count_});
-        const auto at = net::monotonic_now();
-        for (std::size_t i = 0; i < count_; ++i) {
-            const bool is_sent = outcomes[i] == net::SendOutcome::sent;
-            if (!departures_[i]) {
-                if (!is_sent) ++to_.lost_undisturbed;
-            } else if (is_sent) {
-                paths_[i]->on_sent(direction_, *departures_[i], at);
-            } else {
-                paths_[i]->on_failed(direction_, *departures_[i], frame_cause_of(outcomes[i]));
-            }
+std::vector<std::string> Frames::Setup::path_names() const
+{
+    if (ends.size() == 2) return {""};
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        for (std::size_t j = i + 1; j < ends.size(); ++j) {
+            names.push_back(fmt::format("{}-{}", ends[i].name, ends[j].name));
         }
-        count_ = 0;
-        fixed_.clear();
     }
+    return names;
+}
 
-private:
-    void add_bytes(std::span<const std::byte> bytes)
-    {
-        const auto& departure = departures_[count_];
-        const bool is_to_be_marked =
-            departure && departure->marks.is_congested() && !read_frame(bytes).marks.is_congested();
-        if (departure && (frames_.setup_.fix_checksums || is_to_be_marked)) {
-            fixed_.emplace_back(bytes.begin(), bytes.end());
-            if (is_to_be_marked) mark_congestion(fixed_.back());
-            if (frames_.setup_.fix_checksums) fix_checksums(fixed_.back());
-            bytes = fixed_.back();
-        }
-        bytes_[count_] = bytes;
-        ++count_;
-        if (count_ == bytes_.size()) flush();
-    }
-
-    Frames& frames_;
-    Direction direction_;
-    Side& to_;
-    std::size_t count_ = 0;
-    std::array<EmulatedPath*, net::PacketSocket::batch_max> paths_{}; // of the departures
-    std::array<std::optional<Datagram>, net::PacketSocket::batch_max> departures_{};
-    std::array<std::span<const std::byte>, net::PacketSocket::batch_max> bytes_{};
-    std::vector<std::vector<std::byte>> fixed_; // copies that are changed on the way out
-};
-
-Frames::Side::Side(Direction from_here, const std::string& name) : direction{from_here}, interface {
-    name
-}, socket{name}, frame_bytes_max{net::mtu_of(name) + Frame::header_bytes_min} {}
+Frames::End::End(const Place& place, Recorder::Lane& recorder, bool fixes_checksums)
+    : name{place.name}, interface {
+    place.interface
+}, machine{place.machine}, socket{interface}, leaving{socket, recorder, fixes_checksums},
+    frame_bytes_max{net::mtu_of(interface) + Frame::header_bytes_min}
+{}
 
 Frames::Frames(const Setup& setup, Paths& paths, Recorder& recorder)
-    : setup_{setup},
-      paths_{paths},
-      path_{paths.add("")},
-      recorder_{recorder.lane()},
-      recorded_as_{add_to(recorder, "", paths.flows())},
-      a_{Direction::up, setup.interface_a},
-      b_{Direction::down, setup.interface_b}
-{}
+    : setup_{setup}, paths_{paths}, recorder_{recorder.lane()}
+{
+    base::ensure(setup_.ends.size() >= 2);
+    for (const Place& place : setup_.ends) {
+        ends_.emplace_back(place, recorder_, setup_.fix_checksums);
+    }
+    const auto names = setup_.path_names();
+    for (std::size_t a = 0; a < ends_.size(); ++a) {
+        for (std::size_t b = a + 1; b < ends_.size(); ++b) {
+            const std::string& name = names[pairs_.size()];
+            const auto number = static_cast<std::uint32_t>(pairs_.size());
+            const auto recorded_as = add_to(recorder, name, paths.flows());
+            Pair& pair =
+                pairs_.emplace_back(Pair{name, paths.add(name), a, b, number, recorded_as});
+            put_by_number(by_path_, pair.path, &pair);
+        }
+    }
+}
+
+/// The pairs stand in the order of their first ends, and then of their second ones.
+Frames::Pair& Frames::pair_of(std::size_t one, std::size_t other)
+{
+    const auto [a, b] = std::minmax(one, other);
+    return pairs_[a * (2 * ends_.size() - a - 1) / 2 + b - a - 1];
+}
 
 void Frames::receive()
 {
-    pass(a_, b_);
-    pass(b_, a_);
-    watch_interface(a_);
-    watch_interface(b_);
+    for (std::size_t i = 0; i < ends_.size(); ++i) pass(i);
+    for (const End& end : ends_) watch_interface(end);
 }
 
 /// Without one of the interfaces nothing passes, and the run says nothing about its conditions.
-void Frames::watch_interface(const Side& side)
+void Frames::watch_interface(const End& end)
 {
-    if (side.socket.error() == 0 || is_end_expected_ || failure_) return;
-    const auto& name = side.interface;
+    if (end.socket.error() == 0 || is_end_expected_ || failure_) return;
+    const auto& name = end.interface;
     failure_ = net::has_interface(name)
                    ? fmt::format("the interface {0} is down, so nothing passes: set it up (ip link "
                                  "set {0} up), and start again",
@@ -151,123 +102,186 @@ void Frames::watch_interface(const Side& side)
                                  name);
 }
 
-void Frames::pass(Side& from, Side& to)
+/// The end of the machine that the frame is for; nullopt: it is for a group, or not known.
+std::optional<std::size_t> Frames::end_of(std::span<const std::byte> frame) const
 {
-    const auto arrived = from.socket.receive();
+    const auto machine = destination_of(frame);
+    if (!machine) return std::nullopt;
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+        if (ends_[i].machine == machine) return i;
+    }
+    return std::nullopt;
+}
+
+void Frames::pass(std::size_t from)
+{
+    End& end = ends_[from];
+    const auto arrived = end.socket.receive();
     if (arrived.empty()) return;
-    Outgoing undelayed{*this, from.direction, to};
     for (const net::ReceivedFrame& received : arrived) {
         const Frame frame = read_frame(received.bytes);
         arrival_ = received.at;
         if (setup_.stops_at_loop) watch_for_loop(from, frame);
         if (received.lacks_checksum) fix_checksums(received.bytes);
-        if (frame.kind != FrameKind::ip) ++from.not_ip;
-        if (says_port_unreachable(frame, received.bytes)) ++from.unreachable;
-        const auto tags = frame.header_bytes - std::min(frame.header_bytes, std::uint8_t{14});
-        if (received.bytes.size() > from.frame_bytes_max + static_cast<std::size_t>(tags)) {
-            ++from.oversized;
-        }
-        const bool is_disturbed = frame.kind == FrameKind::ip || setup_.all_frames;
-        if (!is_disturbed) {
-            ++from.undisturbed;
-            undelayed.add_undisturbed(received.bytes);
+        count(end, received, frame);
+        const auto to = end_of(received.bytes);
+        if (to && *to != from) {
+            pass(from, *to, received, frame);
             continue;
         }
-        paths_.advance(received.at);
-        EmulatedPath* path = &path_;
-        std::uint32_t recorded_as = recorded_as_;
-        base::TimePoint at = received.at;
-        if (Branches* branches = path_.branches()) {
-            at = branches->in_order(from.direction, at);
-            if (const auto flow = branches->flow_of(facts_of(frame, received.bytes), at)) {
-                path = branches->paths()[*flow];
-                recorded_as += static_cast<std::uint32_t>(*flow + 1);
-            }
-        }
-        const Admission admission = path->on_packet(
-            from.direction, received.bytes, at, true,
-            {.envelope_bytes = envelope_of(frame, received.bytes.size()), .marks = frame.marks});
-        recorder_.on_fate(recorded_as, from.direction, admission.number, admission.fate);
-        if (admission.departure) undelayed.add(*path, *admission.departure);
-        if (setup_.answers_too_big && admission.drop == DropCause::mtu) {
-            answer_too_big(from, *path, received.bytes);
+        for (std::size_t other = 0; other < ends_.size(); ++other) {
+            if (other != from) pass(from, other, received, frame);
         }
     }
-    undelayed.flush();
-    if (from.oversized > 0 && !std::exchange(has_told_of_oversized_, true)) {
-        const auto& cure = setup_.cure_of_oversized;
-        untold_ =
-            fmt::format("{} hands over packets that are longer than its MTU: {}", from.interface,
-                        cure.empty() ? fmt::format("it puts segments together. Switch that "
-                                                   "off: ethtool -K {} gro off lro off",
-                                                   from.interface)
-                                     : cure);
+    send_leaving();
+    tell_of_oversized(end);
+}
+
+void Frames::count(End& from, const net::ReceivedFrame& received, const Frame& frame)
+{
+    if (frame.kind != FrameKind::ip) ++from.not_ip;
+    if (frame.kind != FrameKind::ip && !setup_.all_frames) ++from.undisturbed;
+    const auto tags = frame.header_bytes - std::min(frame.header_bytes, std::uint8_t{14});
+    if (received.bytes.size() > from.frame_bytes_max + static_cast<std::size_t>(tags)) {
+        ++from.oversized;
     }
 }
 
-/// At once, as if the router were the emulator's interface.
-void Frames::answer_too_big(Side& from, const EmulatedPath& path, std::span<const std::byte> frame)
+/// Before the bytes go that have arrived.
+void Frames::send_leaving()
 {
-    const auto mtu = path.link(from.direction).conditions().mtu.bytes_max;
+    for (End& end : ends_) end.leaving.flush();
+}
+
+void Frames::pass(std::size_t from, std::size_t to, const net::ReceivedFrame& received,
+                  const Frame& frame)
+{
+    FrameBatch& leaving = ends_[to].leaving;
+    if (frame.kind != FrameKind::ip && !setup_.all_frames) {
+        return leaving.add_undisturbed(received.bytes, ends_[from].lost_undisturbed);
+    }
+    Pair& pair = pair_of(from, to);
+    const Direction direction = from < to ? Direction::up : Direction::down;
+    if (says_port_unreachable(frame, received.bytes)) {
+        ++(direction == Direction::up ? pair.unreachable_down : pair.unreachable_up);
+    }
+    paths_.advance(received.at);
+    EmulatedPath* path = &pair.path;
+    std::uint32_t recorded_as = pair.recorded_as;
+    base::TimePoint at = received.at;
+    if (Branches* branches = path->branches()) {
+        at = branches->in_order(direction, at);
+        if (const auto flow = branches->flow_of(facts_of(frame, received.bytes), at)) {
+            path = branches->paths()[*flow];
+            recorded_as += static_cast<std::uint32_t>(*flow + 1);
+        }
+    }
+    const Admission admission = path->on_packet(
+        direction, received.bytes, at, true,
+        {.envelope_bytes = envelope_of(frame, received.bytes.size()), .marks = frame.marks});
+    recorder_.on_fate(recorded_as, direction, admission.number, admission.fate);
+    if (recorder_.captures()) {
+        Fate fate = admission.fate;
+        fate.drop = admission.drop;
+        const auto packet = ip_packet_of(received.bytes);
+        if (!packet.empty()) {
+            recorder_.on_arrival(
+                {.side = direction == Direction::up ? CaptureSide::a : CaptureSide::b,
+                 .is_outbound = false,
+                 .at = received.at,
+                 .payload = packet,
+                 .pair = pair.number,
+                 .is_ip = true},
+                fate);
+        }
+    }
+    if (admission.departure) {
+        leaving.add({path, direction, pair.number}, *admission.departure);
+    } else if (setup_.answers_too_big && admission.drop == DropCause::mtu) {
+        answer_too_big(ends_[from], path->link(direction).conditions().mtu.bytes_max,
+                       received.bytes);
+    }
+}
+
+void Frames::tell_of_oversized(const End& from)
+{
+    if (from.oversized == 0 || std::exchange(has_told_of_oversized_, true)) return;
+    const auto& cure = setup_.cure_of_oversized;
+    untold_ = fmt::format("{} hands over packets that are longer than its MTU: {}", from.interface,
+                          cure.empty() ? fmt::format("it puts segments together. Switch that "
+                                                     "off: ethtool -K {} gro off lro off",
+                                                     from.interface)
+                                       : cure);
+}
+
+/// At once, as if the router were the emulator's interface.
+void Frames::answer_too_big(End& from, std::size_t mtu, std::span<const std::byte> frame)
+{
     const auto answer = too_big_answer(frame, mtu);
     if (answer.empty()) return;
     const std::array<std::span<const std::byte>, 1> batch{answer};
     if (from.socket.send_batch(batch).front() == net::SendOutcome::sent) ++from.told_too_big;
 }
 
-/// A machine that moves from one side to the other again and again stands behind both: frames would
+/// A machine that moves from one end to another again and again stands behind both: frames would
 /// go round for ever.
-void Frames::watch_for_loop(const Side& from, const Frame& frame)
+void Frames::watch_for_loop(std::size_t from, const Frame& frame)
 {
     constexpr base::Duration recent = std::chrono::seconds{1};
     constexpr unsigned moves_max = 5;
     if (frame.header_bytes < Frame::header_bytes_min || is_group(frame.source)) return;
     Heard& heard = heard_[place_of(frame.source)];
     if (heard.who != frame.source || arrival_ - heard.at > recent) {
-        heard = {frame.source, from.direction, arrival_, 0};
+        heard = {frame.source, from, arrival_, 0};
         return;
     }
     heard.at = arrival_;
-    if (std::exchange(heard.direction, from.direction) == from.direction) return;
+    const auto before = std::exchange(heard.end, from);
+    if (before == from) return;
     if (++heard.moves < moves_max || failure_) return;
     std::string address;
     for (const std::byte byte : frame.source) {
         address +=
             fmt::format("{}{:02x}", address.empty() ? "" : ":", std::to_integer<unsigned>(byte));
     }
+    const auto [first, second] = std::minmax(before, from);
     failure_ =
         fmt::format("a loop: {} sends on {} and on {}, so the two are joined elsewhere, too. "
                     "Take the other way between them away, and start again",
-                    address, a_.interface, b_.interface);
+                    address, ends_[first].interface, ends_[second].interface);
 }
 
-bool Frames::send_due(EmulatedPath& path, Direction direction, base::TimePoint now)
+bool Frames::send_due(const Pair& pair, const FrameWay& way, base::TimePoint now)
 {
-    if (!base::is_due(path.link(direction).next_deadline(), now)) return false;
-    Outgoing due{*this, direction, direction == Direction::up ? b_ : a_};
+    if (!base::is_due(way.path->link(way.direction).next_deadline(), now)) return false;
+    FrameBatch& leaving = ends_[way.direction == Direction::up ? pair.b : pair.a].leaving;
     for (std::size_t i = 0; i < net::PacketSocket::batch_max; ++i) {
-        const auto departure = path.poll(direction, now);
+        const auto departure = way.path->poll(way.direction, now);
         if (!departure) {
-            due.flush();
+            leaving.flush();
             return false;
         }
-        due.add(path, *departure);
+        leaving.add(way, *departure);
     }
+    leaving.flush();
     return true;
 }
 
 void Frames::release(base::TimePoint now)
 {
-    paths_.each_due(now, [&](std::size_t number) { release(paths_.at(number), now); });
+    paths_.each_due(
+        now, [&](std::size_t number) { release(*by_path_[number], paths_.at(number), now); });
 }
 
-void Frames::release(EmulatedPath& path, base::TimePoint now)
+void Frames::release(const Pair& pair, EmulatedPath& path, base::TimePoint now)
 {
+    const FrameWay up{&path, Direction::up, pair.number};
+    const FrameWay down{&path, Direction::down, pair.number};
     bool up_has_more = true;
     bool down_has_more = true;
     for (int round = 0; round < release_rounds_max && (up_has_more || down_has_more); ++round) {
-        if (up_has_more) up_has_more = send_due(path, Direction::up, now);
-        if (down_has_more) down_has_more = send_due(path, Direction::down, now);
+        if (up_has_more) up_has_more = send_due(pair, up, now);
+        if (down_has_more) down_has_more = send_due(pair, down, now);
     }
 }
 

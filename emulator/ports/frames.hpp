@@ -4,6 +4,7 @@
 
 #include "emulator/core/frame.hpp"
 #include "emulator/core/paths.hpp"
+#include "emulator/ports/frame_batch.hpp"
 #include "emulator/recorder.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/packet_socket.hpp"
@@ -11,21 +12,30 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace hapnet::emulator::ports {
 
-/// Two network interfaces and the path between them, as a bridge that impairs. The datagrams of the
-/// path are IP packets; their Ethernet headers go with them. ARP and neighbour discovery pass
-/// undisturbed. Moves frames; EmulatedPath takes every decision.
+/// Network interfaces and a path between each two of them, as a switch that impairs: a frame goes
+/// to the interface behind which the machine is that it is for, and to all others where it is for a
+/// group or a machine that is not known. The switch learns nothing. The datagrams of the paths are
+/// IP packets; their Ethernet headers go with them. ARP and neighbour discovery pass undisturbed.
+/// Moves frames; EmulatedPath takes every decision.
 class Frames {
 public:
+    /// An interface, and what stands behind it.
+    struct Place {
+        std::string name; // "a"
+        std::string interface;
+        std::optional<MacAddress> machine{}; // nullopt: it is not known
+    };
+
     struct Setup {
-        std::string interface_a;
-        std::string interface_b;
+        std::vector<Place> ends;      // two or more
         bool all_frames = false;      // the conditions hold for every frame
         bool fix_checksums = false;   // of what leaves: damage is then not found by them
         bool stops_at_loop = false;   // when one machine is heard on both sides
@@ -33,29 +43,46 @@ public:
         /// Why a packet may be longer than the MTU, and what a person can do; "": the interface
         /// puts segments together.
         std::string cure_of_oversized{};
+
+        /// The names of the paths between each two ends: "a-b", "a-c", "b-c"; of two ends the only
+        /// one has none. `up` is from the first to the second.
+        [[nodiscard]] std::vector<std::string> path_names() const;
     };
 
-    /// One interface, and the direction that begins there.
-    struct Side {
-        Side(Direction from_here, const std::string& name);
+    /// One interface, and what came from it.
+    struct End {
+        End(const Place& place, Recorder::Lane& recorder, bool fixes_checksums);
 
-        Direction direction;
+        std::string name;
         std::string interface;
+        std::optional<MacAddress> machine;
         net::PacketSocket socket;
+        FrameBatch leaving;
         std::size_t frame_bytes_max;   // of its MTU
         std::uint64_t undisturbed = 0; // frames that the conditions do not hold for
         std::uint64_t not_ip = 0;
         std::uint64_t oversized = 0;        // longer than the MTU: put together by an interface
         std::uint64_t lost_undisturbed = 0; // of `undisturbed`: the system did not take them
         std::uint64_t told_too_big = 0;     // of its packets: those whose sender got an answer
-        std::uint64_t unreachable = 0;      // its answers that no program listens there
     };
 
-    /// Adds the only path. Throws std::system_error when an interface cannot be used. The paths and
-    /// the recorder outlive it.
+    /// Two ends and the path between them.
+    struct Pair {
+        std::string name;
+        EmulatedPath& path;
+        std::size_t a; // `up` is from here
+        std::size_t b;
+        std::uint32_t number;             // of interfaces in the capture
+        std::uint32_t recorded_as;        // by its fates; those of its flows follow
+        std::uint64_t unreachable_up = 0; // answers that no program listens where those went
+        std::uint64_t unreachable_down = 0;
+    };
+
+    /// Adds the paths. Throws std::system_error when an interface cannot be used. The paths and the
+    /// recorder outlive it.
     Frames(const Setup& setup, Paths& paths, Recorder& recorder);
 
-    /// Takes what has arrived, at most one batch a side, and sends on at once what is not delayed.
+    /// Takes what has arrived, at most one batch an end, and sends on at once what is not delayed.
     void receive();
 
     /// Sends what is due at `now`; what is left is still due.
@@ -70,33 +97,36 @@ public:
     /// From now on an interface that goes is no failure: what stands behind it ends.
     void expect_end() { is_end_expected_ = true; }
 
-    [[nodiscard]] const EmulatedPath& path() const { return path_; }
-    [[nodiscard]] const Side& a() const { return a_; }
-    [[nodiscard]] const Side& b() const { return b_; }
+    [[nodiscard]] const std::deque<End>& ends() const { return ends_; }
+    /// In the order of Setup::path_names().
+    [[nodiscard]] const std::deque<Pair>& pairs() const { return pairs_; }
 
 private:
-    /// What leaves on one side, gathered and sent together.
-    class Outgoing;
-
-    void pass(Side& from, Side& to);
-    void watch_interface(const Side& side);
-    void release(EmulatedPath& path, base::TimePoint now);
-    bool send_due(EmulatedPath& path, Direction direction, base::TimePoint now);
-    void watch_for_loop(const Side& from, const Frame& frame);
-    void answer_too_big(Side& from, const EmulatedPath& path, std::span<const std::byte> frame);
+    void pass(std::size_t from);
+    void pass(std::size_t from, std::size_t to, const net::ReceivedFrame& received,
+              const Frame& frame);
+    void count(End& from, const net::ReceivedFrame& received, const Frame& frame);
+    void send_leaving();
+    void tell_of_oversized(const End& from);
+    void watch_interface(const End& end);
+    [[nodiscard]] std::optional<std::size_t> end_of(std::span<const std::byte> frame) const;
+    [[nodiscard]] Pair& pair_of(std::size_t one, std::size_t other);
+    void release(const Pair& pair, EmulatedPath& path, base::TimePoint now);
+    bool send_due(const Pair& pair, const FrameWay& way, base::TimePoint now);
+    void watch_for_loop(std::size_t from, const Frame& frame);
+    void answer_too_big(End& from, std::size_t mtu, std::span<const std::byte> frame);
 
     Setup setup_;
     Paths& paths_;
-    EmulatedPath& path_;
     Recorder::Lane& recorder_;
-    std::uint32_t recorded_as_;
-    Side a_;
-    Side b_;
+    std::deque<End> ends_;
+    std::deque<Pair> pairs_;
+    std::vector<Pair*> by_path_; // by the numbers of their paths, those of flows too
     /// The machines heard last, by a hash of their addresses, and where: enough to find a loop,
     /// which repeats them all the time.
     struct Heard {
         MacAddress who{};
-        Direction direction = Direction::up;
+        std::size_t end = 0;
         base::TimePoint at{};
         unsigned moves = 0;
     };

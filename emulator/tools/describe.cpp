@@ -5,11 +5,13 @@
 #include "emulator/core/delay/theory.hpp"
 #include "emulator/core/loss/loss.hpp"
 #include "emulator/core/queue_limits.hpp"
+#include "emulator/core/regime_chain.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator::tools {
@@ -173,13 +175,45 @@ bool varies(const Variation& variation)
     return !DelayTheory{variation.law}.constant().has_value();
 }
 
+/// "regime bad: 4.76 % of the time, stays of 150 ms on average, then good"
+std::string regime_in_words(std::span<const Regime> regimes, std::size_t index, bool are_together)
+{
+    const auto followers = followers_of(regimes, index);
+    std::vector<std::string> next;
+    for (std::size_t i = 0; i < regimes.size(); ++i) {
+        if (followers[i] <= 0.0) continue;
+        next.push_back(followers[i] < 1.0
+                           ? fmt::format("{} ({})", regimes[i].name, in_percent(followers[i]))
+                           : regimes[i].name);
+    }
+    return fmt::format("regime {}: {} of the time, stays of {} on average, then {}{}",
+                       regimes[index].name, in_percent(shares_of(regimes)[index]),
+                       in_ms(regimes[index].stay), fmt::join(next, " or "),
+                       are_together ? "; both ways at once" : "");
+}
+
+/// What holds in each regime.
+std::vector<std::string> describe_regimes(const Conditions& conditions, const Stream& stream)
+{
+    const std::span<const Regime> regimes{conditions.regimes.all.get()};
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < regimes.size(); ++i) {
+        words.push_back(regime_in_words(regimes, i, conditions.regimes.are_together));
+        for (const std::string& stage : describe(in_regime(conditions, i), stream)) {
+            words.push_back(fmt::format("  {}: {}", regimes[i].name, stage));
+        }
+    }
+    return words;
+}
+
 } // namespace
 
 std::vector<std::string> describe(const Conditions& conditions, const Stream& stream)
 {
+    if (!conditions.regimes.empty()) return describe_regimes(conditions, stream);
     std::vector<std::string> words;
-    const auto& [mtu, rate, queue, loss, corrupt, duplicate, delay, jitter, order, reorder] =
-        conditions;
+    const auto& [mtu, rate, queue, loss, corrupt, duplicate, delay, jitter, order, reorder,
+                 regimes] = conditions;
     const auto is_on = [](base::Probability share) { return share.fraction() > 0.0; };
     if (mtu.bytes_max > 0) {
         words.push_back(fmt::format("mtu: what is larger than {} with its headers is dropped",
@@ -262,6 +296,15 @@ std::string why_unsettled(const Conditions& conditions, const Stream& stream,
 {
     if (changes) return "the conditions change: these figures are of all of them together";
     if (prediction.is_settled()) return "";
+    if (!conditions.regimes.empty()) {
+        const auto& all = conditions.regimes.all.get();
+        const auto longest = std::ranges::max_element(all, {}, &Regime::stay);
+        return fmt::format("the regimes last up to {} on average, and {:.6g} s have too few of "
+                           "their stays: raise --packets",
+                           in_ms(longest->stay),
+                           base::to_seconds(stream.spacing) *
+                               static_cast<double>(prediction.statistics.received));
+    }
     for (const Variation* variation : {&conditions.delay, &conditions.jitter}) {
         if (!DelayTheory{variation->law}.sd()) {
             return fmt::format("the deviation of law {} is infinite: it never settles; read the "

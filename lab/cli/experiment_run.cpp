@@ -8,6 +8,7 @@
 #include "lab/results/found.hpp"
 #include "lab/results/manifest.hpp"
 #include "lab/results/precision_table.hpp"
+#include "lab/results/ranking_table.hpp"
 #include "lab/results/table_text.hpp"
 #include "lab/runner/checksums.hpp"
 #include "lab/runner/progress.hpp"
@@ -61,7 +62,9 @@ void tell_of_damage(const runner::SessionStore& store)
 std::string name_of_point(const LoadedExperiment::Part& part)
 {
     if (part.values.empty()) return {};
-    return part.values.size() == 1 ? part.values.front() : fmt::format("point-{}", part.point + 1);
+    const bool is_name =
+        part.values.size() == 1 && part.values.front().find('/') == std::string::npos;
+    return is_name ? part.values.front() : fmt::format("point-{}", part.point + 1);
 }
 
 /// What the lines of a table have before their own cells: at which point of the axes they are.
@@ -75,14 +78,15 @@ std::vector<results::LeadingCell> leading_cells(const std::vector<experiment::Ax
     return cells;
 }
 
-/// records/[POINT/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed.
+/// records/[POINT/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed, of people in their
+/// first trial.
 void write_records(const fs::path& out, const LoadedExperiment::Part& part)
 {
     const experiment::Experiment& experiment = part.experiment;
     for (const experiment::Job& job : make_jobs(experiment)) {
         const auto* one = std::get_if<experiment::SessionJob>(&job);
-        const bool is_first =
-            one != nullptr && one->spec.setting.seed.value() == experiment.first_seed;
+        const bool is_first = one != nullptr && one->trial == 0 &&
+                              one->spec.setting.seed.value() == experiment.first_seed;
         if (!is_first) continue;
         const auto kept = records::play_and_keep(one->spec.setting);
         if (!kept) throw std::runtime_error{kept.error().message};
@@ -198,7 +202,8 @@ public:
     {
         forget_old_checksums();
         if (part.experiment.record) write_records(out_, part);
-        if (has_reference()) findings_.push_back({part.values.front(), &part.experiment, found});
+        if (has_reference() || ranks_hands())
+            findings_.push_back({part.values.front(), &part.experiment, found});
         auto results = results::find_results(part.experiment, experiment_.criteria, found);
         if (!results) throw std::runtime_error{results.error().message};
         for (results::Table& table : results->tables) add(part, std::move(table));
@@ -217,6 +222,10 @@ public:
         if (has_reference()) {
             const auto& axis = experiment_.whole.axes.front();
             tables_.add(results::precision_table(axis, findings_, experiment_.criteria));
+        }
+        if (ranks_hands()) {
+            const auto& axis = experiment_.whole.axes.front();
+            tables_.add(results::ranking_table(axis, findings_, experiment_.criteria));
         }
         for (std::string& name : tables_.commit()) names_.push_back(std::move(name));
         const auto checksums = runner::checksums_of(out_, names_);
@@ -237,8 +246,10 @@ public:
                                                    host(),
                                                    base::version_line(program_name),
                                                    base::to_seconds(net::program_processor_time())};
-        const results::RunOutcome outcome{print_criteria(experiment_.criteria), counts.played,
-                                          counts.reused, std::move(invalid), digest};
+        results::RunOutcome outcome{print_criteria(experiment_.criteria), counts.played,
+                                    counts.reused, std::move(invalid), digest};
+        for (const LoadedExperiment::Part& part : experiment_.parts)
+            if (part.experiment.hands.people) outcome.people = part.experiment.hands.people;
         write_text(out_ / "manifest.json",
                    make_manifest(experiment_.whole, circumstances, outcome).dump(2) + '\n');
     }
@@ -254,6 +265,17 @@ private:
     {
         const auto& axes = experiment_.whole.axes;
         return !axes.empty() && axes.front().reference.has_value();
+    }
+
+    /// Whether the results say in which order the algorithms are with each hand.
+    [[nodiscard]] bool ranks_hands() const
+    {
+        const auto& axes = experiment_.whole.axes;
+        const bool is_of_hands = axes.size() == 1 && axes.front().key == "hands" &&
+                                 std::holds_alternative<experiment::Table1>(experiment_.whole.kind);
+        return is_of_hands && std::ranges::any_of(experiment_.parts, [](const auto& part) {
+                   return part.experiment.hands.people != nullptr;
+               });
     }
 
     void add(const LoadedExperiment::Part& part, results::Table table)
@@ -280,7 +302,7 @@ private:
     std::vector<std::string> names_;
     std::vector<results::Table> short_;
     std::string shown_;                           // on standard output
-    std::vector<results::AxisFindings> findings_; // of an axis with a reference
+    std::vector<results::AxisFindings> findings_; // of an axis with a reference, or over hands
     bool has_written_ = false;
     base::TimePoint start_;
     double start_s_;

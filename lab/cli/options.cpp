@@ -3,7 +3,7 @@
 #include "lab/cli/options.hpp"
 
 #include "emulator/core/profile/settings.hpp"
-
+#include "lab/cli/import_command.hpp"
 #include "lab/cli/schemas.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/fields.hpp"
@@ -41,6 +41,7 @@ constexpr const char* footer =
   hapnet-lab run sweep --shard 0/16
   hapnet-lab merge sweep
   hapnet-lab compare results/a results/b
+  hapnet-lab import hands a.csv b.csv --units mm --rate 120Hz --out people
   hapnet-lab report results
   hapnet-lab report a.rec b.rec
   hapnet-lab analyse a.rec b.rec --json
@@ -142,8 +143,9 @@ void add_circumstances(cli::Command& command, auto& run)
                    cli::into(run.wall_time_s, base::Number{0.0, seconds_max}));
 }
 
-void add_demo_report(cli::Command& command, DemoReportCommand& demo)
+cli::Command& add_demo_report(cli::Command& program, DemoReportCommand& demo)
 {
+    auto& command = program.command("demo-report", "The last step of scripts/demo.sh");
     command.describe("The last step of scripts/demo.sh: reads the records in a folder, prints them "
                      "beside the paper's Table 1, and writes manifest.json and report.html. For T7 "
                      "and T8 it writes manifest.json and says whether the run is valid.");
@@ -151,6 +153,7 @@ void add_demo_report(cli::Command& command, DemoReportCommand& demo)
         .required("results/demo");
     command.add_exit_codes(demo_exit_codes);
     add_circumstances(command, demo);
+    return command;
 }
 
 void add_report(cli::Command& command, ReportCommand& report)
@@ -194,8 +197,9 @@ void add_replay(cli::Command& command, ReplayCommand& replay)
     command.add_exit_codes(replay_exit_codes);
 }
 
-void add_real_time(cli::Command& command, RealTimeCommand& real_time)
+cli::Command& add_real_time(cli::Command& program, RealTimeCommand& real_time)
 {
+    auto& command = program.command("real-time", "The last step of scripts/real-time.sh");
     constexpr std::uint64_t attempts_max = 100;
     command.describe("The last step of scripts/real-time.sh: reads the sessions that ran in real "
                      "time, plays the same in virtual time, and writes real_time.csv; or, in the "
@@ -219,6 +223,7 @@ void add_real_time(cli::Command& command, RealTimeCommand& real_time)
                  real_time.keep_records);
     command.add_exit_codes(exit_codes_without_run);
     add_circumstances(command, real_time);
+    return command;
 }
 
 void add_explain(cli::Command& command, ExplainCommand& explain, bool& no_sleeping)
@@ -552,12 +557,14 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     auto& report_command =
         program.command("report", "Writes a page with the results of a folder or session");
     add_report(report_command, report);
+    ImportHandsCommand import_hands;
+    auto& import_command = add_import(program, import_hands);
     AnalyseCommand analyse;
     auto& analyse_command =
         program.command("analyse", "Compares the records of the peers of a session");
     add_analyse(analyse_command, analyse);
     ExportCommand exported;
-    bool as_csv = true;
+    bool as_csv = true, no_sleeping = false;
     auto& export_command = program.command("export", "Prints the rows of a record as CSV");
     add_export(export_command, exported, as_csv);
     ReplayCommand replay;
@@ -567,22 +574,18 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     auto& play_command = program.command("play", "Plays one session in virtual time");
     add_play(play_command, play);
     ExplainCommand explain;
-    bool no_sleeping = false;
     auto& explain_command = program.command("explain", "Describes a scene and its stepper");
     add_explain(explain_command, explain, no_sleeping);
     DemoReportCommand demo;
-    auto& demo_command = program.command("demo-report", "The last step of scripts/demo.sh");
-    add_demo_report(demo_command, demo);
+    auto& demo_command = add_demo_report(program, demo);
     RealTimeCommand real_time;
-    auto& real_time_command = program.command("real-time", "The last step of scripts/real-time.sh");
-    add_real_time(real_time_command, real_time);
+    auto& real_time_command = add_real_time(program, real_time);
     const cli::SchemaCommand schema{program, schemas()};
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (schema.is_chosen()) return net::Answer{schema.text()};
     if (list_command.is_chosen()) return net::Answer{list_of_names()};
-    if (auto good = check(replay, compare, exported, export_command); !good)
-        return tl::unexpected{good.error()};
-    if (auto fine = complete(play, play_command); !fine) return tl::unexpected{fine.error()};
+    auto fine = check(replay, compare, exported, export_command);
+    if (!fine || !(fine = complete(play, play_command))) return tl::unexpected{fine.error()};
     explain.sleeping = !no_sleeping;
     run.command = merge.command = fmt::format("{}", fmt::join(words, " "));
     return chosen_of(std::tie(analyse_command, analyse), std::tie(export_command, exported),
@@ -590,7 +593,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
                      std::tie(play_command, play), std::tie(replay_command, replay),
                      std::tie(report_command, report), std::tie(explain_command, explain),
                      std::tie(run_command, run), std::tie(plan_command, plan),
-                     std::tie(merge_command, merge), std::tie(compare_command, compare));
+                     std::tie(merge_command, merge), std::tie(compare_command, compare),
+                     std::tie(import_command, import_hands));
 }
 
 } // namespace hapnet::lab

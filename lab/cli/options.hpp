@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/experiment/shard.hpp"
+#include "lab/hands/import.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/program.hpp"
 
@@ -132,9 +133,16 @@ struct CompareCommand {
     bool csv = false;
 };
 
-using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
-                             PlayCommand, RealTimeCommand, ReplayCommand, ReportCommand, RunCommand,
-                             PlanCommand, MergeCommand, CompareCommand>;
+/// `hapnet-lab import hands FILE [FILE] --units mm --rate 120Hz ... --out DIR`
+struct ImportHandsCommand {
+    std::vector<std::string> files;
+    hands::ImportRules rules;
+    std::string out; // the folder of trials that these are added to
+};
+
+using Command = std::variant<AnalyseCommand, ImportHandsCommand, ExportCommand, DemoReportCommand,
+                             ExplainCommand, PlayCommand, RealTimeCommand, ReplayCommand,
+                             ReportCommand, RunCommand, PlanCommand, MergeCommand, CompareCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

@@ -100,6 +100,7 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
             {algorithm, experiment.hands, experiment.tasks.front(), experiment.first_seed,
              experiment::parties_of(experiment).front()},
             experiment.path);
+        report.duration = spec.setting.length;
         const auto trace = virtual_time::play(spec.setting, nullptr, virtual_time::PlaysOn::always);
         if (!trace) return tl::unexpected{trace.error()};
         report.sessions.push_back({algorithm.name, metrics::metrics_of(*trace)});

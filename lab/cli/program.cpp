@@ -5,6 +5,7 @@
 #include "lab/cli/compare_command.hpp"
 #include "lab/cli/demo_command.hpp"
 #include "lab/cli/files.hpp"
+#include "lab/cli/import_command.hpp"
 #include "lab/cli/options.hpp"
 #include "lab/cli/play_command.hpp"
 #include "lab/cli/real_time_command.hpp"
@@ -202,6 +203,14 @@ base::Result<int> run(const RunCommand& command)
 {
     runner::keep_freed_memory();
     return run_experiment(command);
+}
+
+base::Result<int> run(const ImportHandsCommand& command)
+{
+    return import_files(command).map([](const std::string& text) {
+        print(text);
+        return 0;
+    });
 }
 
 base::Result<int> run(const PlanCommand& command) { return plan_experiment(command); }

@@ -3,6 +3,7 @@
 #include "lab/cli/schemas.hpp"
 
 #include "lab/cli/play_command.hpp"
+#include "lab/hands/manifest.hpp"
 #include "lab/records/analysis_report.hpp"
 #include "lab/records/replay.hpp"
 #include "lab/scenes/explain.hpp"
@@ -21,6 +22,10 @@ std::vector<cli::DocumentSchema> schemas()
     all.push_back({.name = "explanation", .written = {}, .make = [] {
                        return output::schema_text<scenes::Explanation>(
                            "What hapnet-lab explain --json prints (docs/formats/scene.md)");
+                   }});
+    all.push_back({.name = "hands", .written = {}, .make = [] {
+                       return output::schema_text<hands::Manifest>(
+                           "manifest.json of a folder of recorded hands (docs/formats/hands.md)");
                    }});
     all.push_back({.name = "play", .written = {}, .make = [] {
                        return output::schema_text<PlayReport>(

@@ -35,6 +35,8 @@ base::Result<void> check(const Experiment& experiment)
         Obstacle{experiment.keyed, "leave 'keyed' out: this plays without keys"},
         Obstacle{experiment.task_options != device::TaskOptions{}, "leave 'task_options' out"},
         Obstacle{!experiment.replay.empty(), "leave 'replay' out: hands are simulated"},
+        Obstacle{experiment.hands.people != nullptr,
+                 "leave recorded 'hands' out: hands are simulated"},
         Obstacle{!experiment.script.empty(), "leave 'script' out: hands do what the task says"}};
     for (const Obstacle& obstacle : obstacles) {
         if (obstacle.is_there)

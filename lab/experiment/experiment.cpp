@@ -4,10 +4,21 @@
 
 #include "lab/experiment/fields.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hapnet::lab::experiment {
+
+device::Operator hand_of_people()
+{
+    device::Operator person = *device::operator_named("nominal");
+    person.wander.amplitude_m = 0.0;
+    return person;
+}
 
 std::string name_of(const Hands& hands)
 {
+    if (hands.people) return hands.people->name();
     if (hands.left == hands.right) return hands.left.name;
     return hands.left.name + "/" + hands.right.name;
 }
@@ -21,6 +32,14 @@ std::vector<SearchRange> ranges_of(const Limits& limits)
         },
         limits.ranges);
     return ranges;
+}
+
+base::Duration session_length(double end_s)
+{
+    using namespace std::chrono_literals;
+    const auto hands_on =
+        std::chrono::milliseconds{static_cast<std::int64_t>(std::ceil(1e3 * end_s - 1e-6))};
+    return hands_on + std::min<base::Duration>(3s, hands_on);
 }
 
 std::vector<Party> parties_of(const Experiment& experiment)

@@ -8,7 +8,9 @@
 #include "device/simulated/task_options.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "lab/experiment/impairment.hpp"
+#include "lab/hands/population.hpp"
 #include "lab/metrics/criteria.hpp"
+#include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/time.hpp"
 #include "scene/description.hpp"
@@ -35,11 +37,29 @@ struct NamedAlgorithm {
 struct Hands {
     device::Operator left{};
     device::Operator right{};
+    /// What recorded people meant to do, instead of a task; nullptr: simulated hands play.
+    std::shared_ptr<const hands::Population> people{};
 
-    friend bool operator==(const Hands&, const Hands&) = default;
+    /// How often each seed is played: once for each of the people's trials.
+    [[nodiscard]] std::size_t trials() const { return people ? people->trials.size() : 1; }
+    /// nullptr: there are no people.
+    [[nodiscard]] const hands::Trial* trial(std::size_t index) const
+    {
+        return people ? &people->trials.at(index) : nullptr;
+    }
+
+    friend bool operator==(const Hands& a, const Hands& b)
+    {
+        const auto folder = [](const Hands& of) { return of.people ? of.people->folder : ""; };
+        return a.left == b.left && a.right == b.right && folder(a) == folder(b);
+    }
 };
 
-/// "nominal", or "relaxed/firm" when they differ.
+/// The hand that follows the script of a recorded person: the nominal one, which does not wander:
+/// the recording does.
+[[nodiscard]] device::Operator hand_of_people();
+
+/// "nominal", or "relaxed/firm" when they differ; of people the name of their folder.
 [[nodiscard]] std::string name_of(const Hands& hands);
 
 /// A scene under the name that the experiment gives it.
@@ -204,6 +224,9 @@ struct Experiment {
     device::TaskOptions task_options{};
     std::vector<NamedTrace> replay{}; // none, or of those that act as A and as B
     std::vector<NamedTrace> script{}; // likewise: where their simulated hands mean to be
+    peer::SendPolicy send{};
+    /// A session is as long as its own script, and `duration` is that of the longest.
+    bool is_as_long_as_scripts = false;
     bool energy_limit = false;
     bool keyed = false;    // the players seal their messages
     bool record = false;   // keeps records of the first seed's sessions
@@ -217,6 +240,10 @@ struct Experiment {
     /// Every file that was read for it, by name. No key of the text has them.
     std::vector<NamedContents> files{};
 };
+
+/// The length of a session whose scripts end after so many seconds: hands are off for the last 3 s,
+/// below 6 s for the last half.
+[[nodiscard]] base::Duration session_length(double end_s);
 
 /// Every number of peers in every scene.
 [[nodiscard]] std::vector<Party> parties_of(const Experiment& experiment);

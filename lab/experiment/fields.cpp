@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <utility>
@@ -203,8 +204,59 @@ std::string TracesFormat::print(const std::vector<NamedTrace>& traces) const
     return base::List<base::Text>{}.print(names);
 }
 
+namespace {
+
+/// Recorded people, in the folder that a text names; nullptr when a complaint was made.
+std::shared_ptr<const hands::Population> read_people(const Node& node, Reading& reading)
+{
+    std::string folder;
+    base::read_value(node, folder, reading);
+    if (!reading.is_good()) return nullptr;
+    auto people = hands::read_population(folder, reading);
+    if (people) return std::make_shared<const hands::Population>(*std::move(people));
+    std::string why = people.error().message;
+    if (folder.find('/') == std::string::npos) {
+        why = fmt::format("'{}' is neither an operator ({}) nor a folder of recorded hands: {}",
+                          folder, fmt::join(device::operator_names, ", "), why);
+    }
+    reading.complain(node.place, why);
+    return nullptr;
+}
+
+/// The hand that follows people, as a table says.
+std::optional<device::Operator> read_follower(const Node::Table& table, base::Place place,
+                                              Reading& reading)
+{
+    Node rest{place, Node::Table{}};
+    auto& entries = std::get<Node::Table>(rest.value);
+    std::ranges::copy_if(table, std::back_inserter(entries),
+                         [](const base::Entry& entry) { return entry.key != "people"; });
+    auto person = device::read_operator(rest, reading);
+    const bool says_wander =
+        std::ranges::find(entries, "wander", &base::Entry::key) != entries.end();
+    if (person && !says_wander) person->wander = hand_of_people().wander;
+    return person;
+}
+
+} // namespace
+
 void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const
 {
+    const auto* text = std::get_if<std::string>(&node.value);
+    if (text != nullptr && !device::operator_named(*text)) {
+        if (auto people = read_people(node, reading))
+            target = {hand_of_people(), hand_of_people(), std::move(people)};
+        return;
+    }
+    if (const auto* table = std::get_if<Node::Table>(&node.value)) {
+        const auto entry = std::ranges::find(*table, "people", &base::Entry::key);
+        if (entry != table->end()) {
+            auto people = read_people(entry->value, reading);
+            const auto person = read_follower(*table, node.place, reading);
+            if (people && person) target = {*person, *person, std::move(people)};
+            return;
+        }
+    }
     const auto* list = std::get_if<Node::List>(&node.value);
     if (list != nullptr && list->size() != 2) {
         return reading.complain(node.place, "one operator for both hands, or a list of two: "
@@ -212,11 +264,18 @@ void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const
     }
     const auto left = device::read_operator(list == nullptr ? node : list->front(), reading);
     const auto right = list == nullptr ? left : device::read_operator(list->back(), reading);
-    if (left && right) target = {*left, *right};
+    if (left && right) target = {*left, *right, nullptr};
 }
 
 std::string HandsFormat::print(const Hands& hands) const
 {
+    if (hands.people) {
+        const auto folder = base::quoted(hands.people->folder);
+        if (hands.left == hand_of_people()) return folder;
+        auto entries = base::field_texts(hands.left);
+        entries.insert(entries.begin(), "people = " + folder);
+        return base::table_text(entries);
+    }
     std::string left = operator_text(hands.left);
     if (hands.left == hands.right) return left;
     return fmt::format("[{}, {}]", left, operator_text(hands.right));

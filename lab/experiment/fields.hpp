@@ -64,13 +64,14 @@ struct TracesFormat {
     }
 };
 
-/// One operator for both, or a list of two: A and B.
+/// One operator for both, or a list of two: A and B; or people: a folder of recorded hands, or a
+/// table with `people = "folder"` and what the hand has that follows them.
 struct HandsFormat {
     void read(const base::Node& node, Hands& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const Hands& hands) const;
     [[nodiscard]] std::string describe() const
     {
-        return "an operator, or a list of two: of A and of B";
+        return "an operator, a list of two: of A and of B, or the folder of recorded people";
     }
 };
 
@@ -259,14 +260,17 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
         "experiment",
         base::field("title", &Experiment::title, "names the folder's contents, with the kind"),
         base::field("kind", &Experiment::kind, KindFormat{}, "what to find out").required(),
-        base::field("duration", &Experiment::duration, DurationFormat{},
-                    "of a session, hands off included: the last 3 s, below 6 s the last half; "
-                    "`\"script\"`: as long as the longest `script` or `replay`, and hands off")
+        base::field(
+            "duration", &Experiment::duration, DurationFormat{},
+            "of a session, hands off included: the last 3 s, below 6 s the last half; "
+            "`\"script\"`: as long as the longest `script` or `replay`, of people each trial "
+            "as long as its own scripts, and hands off")
             .always(),
         base::field("tick", &Experiment::tick, base::Time{100us, 10ms}, "of the haptic loops")
             .always(),
         base::field("seeds", &Experiment::seeds, base::Count{1, seeds_max},
-                    "number of seeds, each of the hands and of the network")
+                    "number of seeds, each of the hands and of the network; each trial of people "
+                    "is played with all of them")
             .always(),
         base::field("first_seed", &Experiment::first_seed, base::Count{1, 1'000'000'000},
                     "the first of them; the others follow")
@@ -285,6 +289,8 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "hands that move as recorded, CSV as for `hapnet-peer --device replay:FILE`"),
         base::field("script", &Experiment::script, TracesFormat{},
                     "where simulated hands mean to be instead of the task's: such files, too"),
+        base::field("send", &Experiment::send, peer::SendPolicyFormat{},
+                    "when a player sends a message, as `hapnet-peer --send`"),
         base::field("energy_limit", &Experiment::energy_limit,
                     "limits the energy into each hand as hapnet-peer does"),
         base::field("keyed", &Experiment::keyed,

@@ -39,7 +39,7 @@ bool has_chance(const emulator::Path& path)
     return path != delayed || !is_constant(path.up) || !is_constant(path.down);
 }
 
-/// The sessions of all algorithms, tasks and seeds under the same conditions.
+/// The sessions of all algorithms, tasks, trials and seeds under the same conditions.
 struct SessionJobs {
     const Experiment& experiment;
     std::vector<Job>& jobs;
@@ -65,11 +65,15 @@ private:
         // P1 is a prescribed path: without lots every seed gives the same bits.
         const bool is_one =
             one.task == device::Task::p1 && !has_chance(path) && experiment.links.empty();
-        for (; one.seed < seeds_end(experiment, is_one ? 1 : experiment.seeds); ++one.seed) {
-            auto spec = make_session_spec(experiment, one, path);
-            const bool is_first = one.seed == experiment.first_seed;
-            spec.rows_per_s = is_first ? rows_per_s_of_first_seed : 0;
-            jobs.emplace_back(SessionJob{algorithm, one.task, std::move(spec), one.party});
+        for (one.trial = 0; one.trial < one.hands.trials(); ++one.trial) {
+            one.seed = experiment.first_seed;
+            for (; one.seed < seeds_end(experiment, is_one ? 1 : experiment.seeds); ++one.seed) {
+                auto spec = make_session_spec(experiment, one, path);
+                const bool is_first = one.trial == 0 && one.seed == experiment.first_seed;
+                spec.rows_per_s = is_first ? rows_per_s_of_first_seed : 0;
+                jobs.emplace_back(
+                    SessionJob{algorithm, one.task, std::move(spec), one.party, one.trial});
+            }
         }
     }
 };

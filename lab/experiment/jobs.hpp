@@ -23,6 +23,7 @@ struct SessionJob {
     device::Task task{};
     SessionSpec spec{};
     Party party{};
+    std::size_t trial = 0; // of the people whose hands play
 };
 
 /// One limit.

@@ -67,7 +67,9 @@ std::string to_text(const Experiment& experiment)
 {
     std::string out;
     for (const std::string& line : base::field_texts(experiment, base::Print::needed)) {
-        out += line + '\n';
+        const bool is_of_scripts =
+            experiment.is_as_long_as_scripts && line.starts_with("duration = ");
+        out += (is_of_scripts ? "duration = \"script\"" : line) + '\n';
     }
     const Written kind = written_kind(experiment.kind);
     out += kind.lines + emulator::to_text(emulator::Profile{

@@ -179,6 +179,27 @@ void check_record(const Experiment& experiment, base::Place place, Reading& read
     if (experiment.keyed) reading.complain(place, "a record holds messages without keys");
 }
 
+/// Complains of people whose sessions no result of the kind tells apart.
+void check_people(const Experiment& experiment, base::Place place, Reading& reading)
+{
+    const auto* limits = std::get_if<Limits>(&experiment.kind);
+    const auto is_people = [](const Hands& hands) { return hands.people != nullptr; };
+    const bool has_people =
+        is_people(experiment.hands) || (limits != nullptr && limits->sensitivity &&
+                                        std::ranges::any_of(limits->sensitivity->hands, is_people));
+    if (!has_people) return;
+    const bool is_known_kind = std::holds_alternative<Table1>(experiment.kind) ||
+                               std::holds_alternative<Trajectories>(experiment.kind) ||
+                               std::holds_alternative<ImpairmentGrid>(experiment.kind);
+    if (!is_known_kind) {
+        return reading.complain(place, "recorded hands play in the kinds table1, plane and "
+                                       "trajectories");
+    }
+    if (experiment.script.empty() && experiment.replay.empty()) return;
+    reading.complain(place, "recorded hands have scripts of their own: leave script and replay "
+                            "out");
+}
+
 /// Complains of a hand that has both a way to go and one to mean.
 void check_ways(const Experiment& experiment, base::Place place, Reading& reading)
 {
@@ -189,20 +210,21 @@ void check_ways(const Experiment& experiment, base::Place place, Reading& readin
     }
 }
 
-/// A session that is to be as long as its scripts: hands are off for the last 3 s, below 6 s for
-/// the last half.
+/// A session that is to be as long as its scripts.
 void take_length_of_scripts(Experiment& experiment, base::Place place, Reading& reading)
 {
-    using namespace std::chrono_literals;
     if (experiment.duration != base::Duration{0}) return;
     double end_s = 0.0;
     for (const auto* traces : {&experiment.script, &experiment.replay}) {
         for (const NamedTrace& named : *traces)
             if (named.trace) end_s = std::max(end_s, named.trace->back().time_s);
     }
+    for (std::size_t i = 0; i < experiment.hands.trials(); ++i) {
+        if (const auto* trial = experiment.hands.trial(i)) end_s = std::max(end_s, trial->end_s());
+    }
     if (end_s <= 0.0) {
         return reading.complain(place, "there is no script or replay to take the duration from: "
-                                       "name one, or write a time");
+                                       "name one, or recorded hands, or write a time");
     }
     constexpr double longest_s = 597.0;
     if (end_s > longest_s) {
@@ -210,9 +232,8 @@ void take_length_of_scripts(Experiment& experiment, base::Place place, Reading& 
                                                    "600s at most, hands off included",
                                                    end_s));
     }
-    const auto hands_on =
-        std::chrono::milliseconds{static_cast<std::int64_t>(std::ceil(1e3 * end_s - 1e-6))};
-    experiment.duration = hands_on + std::min<base::Duration>(3s, hands_on);
+    experiment.duration = session_length(end_s);
+    experiment.is_as_long_as_scripts = true;
 }
 
 /// Complains of a reference that nothing can be held against.
@@ -262,6 +283,10 @@ Experiment read_experiment(const Node& document, Reading& reading)
     if (const Node* node = table.find("duration"); node != nullptr && reading.is_good())
         take_length_of_scripts(experiment, node->place, reading);
     check_axes(table, experiment);
+    for (const char* key : {"hands", "convention"}) {
+        const Node* node = table.find(key);
+        if (node != nullptr && reading.is_good()) check_people(experiment, node->place, reading);
+    }
     if (const Node* node = table.find("record"); node != nullptr && reading.is_good())
         check_record(experiment, node->place, reading);
     if (const Node* node = table.find("script"); node != nullptr && reading.is_good())

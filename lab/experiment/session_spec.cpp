@@ -51,13 +51,19 @@ std::string ticks_text(const std::shared_ptr<const std::vector<base::Duration>>&
     return text + '\n';
 }
 
+/// How a player sends; empty: in each tick.
+std::string send_text(const peer::SendPolicy& send)
+{
+    return send.is_each_tick() ? "" : fmt::format("send = {}\n", text_of(send));
+}
+
 std::string player_text(const virtual_time::PlayerSetting& player)
 {
-    return fmt::format("{}{}clock_ahead = {}\nphase = {}\n{}{}{}",
-                       peer::print_algorithm(player.algorithm),
-                       device::print_operator(player.person), player.clock_ahead.count(),
-                       player.phase.count(), way_text("replay", player.replay),
-                       way_text("script", player.way), ticks_text(player.ticks));
+    return fmt::format(
+        "{}{}clock_ahead = {}\nphase = {}\n{}{}{}{}", peer::print_algorithm(player.algorithm),
+        device::print_operator(player.person), player.clock_ahead.count(), player.phase.count(),
+        way_text("replay", player.replay), way_text("script", player.way), ticks_text(player.ticks),
+        send_text(player.send));
 }
 
 /// What the files contain that a setting's text names: a trace of delays stands there by its name.
@@ -86,7 +92,9 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     const auto& scene = one.party.scene;
     setting.scene = scene ? experiment.scenes[*scene].scene : scene_for(one.task, one.party.peers);
     setting.seed = base::Seed{one.seed};
-    setting.length = experiment.duration;
+    const hands::Trial* trial = one.hands.trial(one.trial);
+    const bool is_own_length = experiment.is_as_long_as_scripts && trial != nullptr;
+    setting.length = is_own_length ? session_length(trial->end_s()) : experiment.duration;
     setting.tick = experiment.tick;
     setting.energy_limit = experiment.energy_limit;
     setting.profile.path = path;
@@ -95,11 +103,13 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     setting.players.resize(one.party.peers);
     for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
         setting.players[seat].algorithm = one.algorithm.algorithm;
+        setting.players[seat].send = experiment.send;
         setting.players[seat].person = seat % 2 == 0 ? one.hands.left : one.hands.right;
         if (!experiment.replay.empty())
             setting.players[seat].replay = experiment.replay[seat % 2].trace;
         if (!experiment.script.empty())
             setting.players[seat].way = experiment.script[seat % 2].trace;
+        if (trial != nullptr) setting.players[seat].way = trial->ways.at(seat % 2);
         if (experiment.keyed) setting.players[seat].circle = setting.seed;
     }
     return spec;

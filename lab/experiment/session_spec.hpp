@@ -43,6 +43,7 @@ struct SessionCase {
     device::Task task{};
     std::uint32_t seed = 1;
     Party party{};
+    std::size_t trial = 0; // of the people whose hands these are
 };
 
 [[nodiscard]] SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,

@@ -187,6 +187,7 @@ Metrics metrics_of(const virtual_time::Trace& trace)
     metrics.discrepancy_m = widest_discrepancy_x(metrics.bodies);
     metrics.turned_apart_rad = widest_turned_apart(metrics.bodies);
     metrics.energy_taken_j = energy_taken_of(work);
+    if (trace.rate_bit_per_s > 0.0) metrics.rate_bit_per_s = trace.rate_bit_per_s;
     if (columns.exercise.taps) metrics.response_s = response_of(left, right, columns.tick_s);
     return metrics;
 }

@@ -76,6 +76,8 @@ struct Metrics {
     std::optional<double> response_s{};
     /// L: of what the resting hand feels to what the pressing hand does.
     std::optional<Similarity> similarity{};
+    /// Traffic of the busiest direction between any two, with the headers of UDP over IPv4, bit/s.
+    std::optional<double> rate_bit_per_s{};
 
     friend bool operator==(const Metrics&, const Metrics&) = default;
 };
@@ -118,7 +120,10 @@ constexpr auto fields_of(base::Tag<Metrics>)
                      "J: how far a body was beyond where the static cube stops it."),
         base::member("response_s", &M::response_s, "K: from a tap of A to the motion of B's body."),
         base::member("similarity", &M::similarity,
-                     "L: of what the resting hand feels to what the pressing hand does."));
+                     "L: of what the resting hand feels to what the pressing hand does."),
+        base::member("rate_bit_per_s", &M::rate_bit_per_s,
+                     "Traffic of the busiest direction between any two, with the headers of UDP "
+                     "over IPv4."));
 }
 
 [[nodiscard]] Metrics metrics_of(const virtual_time::Trace& trace);

@@ -143,7 +143,8 @@ Scores scores_of(const Metrics& impaired, const Metrics& reference)
         .drops = impaired.drops,
         .overshoot_m = worse_side(impaired.overshoot_m),
         .response_added_s = difference(impaired.response_s, reference.response_s),
-        .similarity = impaired.similarity};
+        .similarity = impaired.similarity,
+        .rate_bit_per_s = impaired.rate_bit_per_s};
     score_stiffness(impaired, reference, scores);
     return scores;
 }

@@ -56,6 +56,8 @@ struct Scores {
     std::optional<double> response_added_s{};
     /// L as measured.
     std::optional<Similarity> similarity{};
+    /// As measured.
+    std::optional<double> rate_bit_per_s{};
 
     friend bool operator==(const Scores&, const Scores&) = default;
 };

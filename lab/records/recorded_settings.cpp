@@ -53,6 +53,7 @@ struct WrittenConfig {
     std::optional<std::uint16_t> wait_for{};
     std::string scene_toml;
     std::string algorithm_toml;
+    std::optional<std::string> send{}; // older records do not have it
     std::string governor_toml;
     WrittenMount mount{};
 };
@@ -68,7 +69,7 @@ constexpr auto fields_of(base::Tag<WrittenConfig>)
         base::member("duration_s", &Own::duration_s), base::member("task", &Own::task),
         base::member("boot_id", &Own::boot_id), base::member("peers", &Own::peers),
         base::member("wait_for", &Own::wait_for), base::member("scene_toml", &Own::scene_toml),
-        base::member("algorithm_toml", &Own::algorithm_toml),
+        base::member("algorithm_toml", &Own::algorithm_toml), base::member("send", &Own::send),
         base::member("governor_toml", &Own::governor_toml), base::member("mount", &Own::mount));
 }
 
@@ -99,6 +100,25 @@ std::string_view validate(const WrittenConfig& config)
         return "'peers' are not up to seven others by their ids, ascending";
     }
     return config.mount.scale > 0.0 ? "" : "'mount': the scale is not positive";
+}
+
+/// How the peer played these bodies with the others: its algorithm, and when it sent.
+base::Result<void> read_play(const WrittenConfig& written, std::span<const peer::SharedBody> bodies,
+                             peer::Settings& settings)
+{
+    auto algorithm = peer::parse_algorithm(written.algorithm_toml, "algorithm_toml");
+    if (!algorithm) return tl::unexpected{algorithm.error()};
+    settings.algorithm = *std::move(algorithm);
+    if (settings.roster.others.size() > 1 && !peer::plays_with_many(settings.algorithm))
+        return base::fail("its config: this algorithm is for two peers");
+    if (const auto fine = peer::check_bodies_of(settings.algorithm, bodies); !fine)
+        return base::fail("its config: 'algorithm_toml': " + fine.error().message);
+    if (const auto fine = peer::check_hands_of(settings.algorithm, settings.scene.hands); !fine)
+        return base::fail("its config: 'algorithm_toml': " + fine.error().message);
+    const auto send = peer::parse_send_policy(written.send.value_or("every:1"));
+    if (!send) return base::fail("its config: 'send': " + send.error().message);
+    settings.send = *send;
+    return {};
 }
 
 } // namespace
@@ -146,15 +166,8 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     if (!bodies) return base::fail("its config: 'scene_toml': " + bodies.error().message);
     settings.scene = *std::move(scene);
     settings.introduction.scene_hash = scene::hash(settings.scene);
-    auto algorithm = peer::parse_algorithm(written->algorithm_toml, "algorithm_toml");
-    if (!algorithm) return tl::unexpected{algorithm.error()};
-    settings.algorithm = *std::move(algorithm);
-    if (settings.roster.others.size() > 1 && !peer::plays_with_many(settings.algorithm))
-        return base::fail("its config: this algorithm is for two peers");
-    if (const auto fine = peer::check_bodies_of(settings.algorithm, *bodies); !fine)
-        return base::fail("its config: 'algorithm_toml': " + fine.error().message);
-    if (const auto fine = peer::check_hands_of(settings.algorithm, settings.scene.hands); !fine)
-        return base::fail("its config: 'algorithm_toml': " + fine.error().message);
+    if (const auto fine = read_play(*written, *bodies, settings); !fine)
+        return tl::unexpected{fine.error()};
     const auto limits =
         device::parse_limits(written->governor_toml, "governor_toml", device::known_mechanisms);
     if (!limits) return tl::unexpected{limits.error()};

@@ -181,6 +181,68 @@ page::Figure figure_of_limits(const Rows& rows, const std::optional<std::string>
     return figure;
 }
 
+/// The mean of a measure where all sessions of a value have it.
+std::optional<double> mean_at(const Rows& rows, std::string_view key)
+{
+    std::vector<double> values;
+    for (const TableRow& row : rows)
+        if (const auto value = row.number(key)) values.push_back(*value);
+    return values.empty() ? std::nullopt : std::optional{mean_of(values)};
+}
+
+/// "every" or "deadband": the kind of a way of sending.
+std::string kind_of(const std::string& sending) { return sending.substr(0, sending.find(':')); }
+
+/// A measure against the traffic that each way of sending needs: a curve for each algorithm, one of
+/// fixed rates and one of deadbands. nullopt: it was not measured.
+std::optional<page::Figure> frontier_of(const Rows& rows, const Measure& measure)
+{
+    const TableRow& first = rows.front();
+    std::vector<page::Curve> curves;
+    for (const Rows& played : split(rows, Keys{"algorithm"})) {
+        const std::string algorithm = played.front().text("algorithm");
+        for (const Rows& at_value : split(played, Keys{"value"})) {
+            const auto rate = mean_at(at_value, "rate_kbit_s"), y = mean_at(at_value, measure.key);
+            if (!rate || !y) continue;
+            const std::string kind = kind_of(at_value.front().text("value"));
+            const std::string name = fmt::format("{}, {}", algorithm, kind);
+            auto curve = std::ranges::find(curves, name, &page::Curve::name);
+            if (curve == curves.end()) {
+                curve = curves.insert(curve, {.name = name, .colour = colour_of(algorithm)});
+                curve->is_dashed = kind != "every";
+                curve->shows_points = true;
+            }
+            curve->points.push_back({*rate, *y});
+        }
+    }
+    if (curves.empty()) return std::nullopt;
+    for (page::Curve& curve : curves) std::ranges::sort(curve.points, {}, &page::Point::x);
+    return page::Figure{
+        .id = page::plain_id(fmt::format("rate-{}-{}", first.text("task"), measure.key)),
+        .title = "Task " + first.text("task"),
+        .x = {"rate of the busiest direction", "kbit/s", page::Scale::logarithmic},
+        .y = {std::string{measure.label}, std::string{measure.unit}},
+        .content = page::Curves{std::move(curves)},
+        .size = panel,
+        .caption = "Each point is a way of sending, the mean of its seeds; dashed: deadbands."};
+}
+
+/// What the rate of the network buys, where ways of sending were compared.
+void add_frontiers(const Rows& rows, const std::vector<std::string>& sources, FigureGroups& groups)
+{
+    if (rows.front().text("parameter") != "send") return;
+    for (const Measure& measure : measures) {
+        FigureGroup group{std::string{measure.title} + ", by the rate", {}};
+        for (const Rows& of_task : split(rows, Keys{"task"})) {
+            auto figure = frontier_of(of_task, measure);
+            if (!figure) continue;
+            figure->sources = sources;
+            group.figures.push_back(*std::move(figure));
+        }
+        if (!group.figures.empty()) groups.push_back(std::move(group));
+    }
+}
+
 Table with_numbers(const Table& table)
 {
     return with_column(table, "value_number", [](const TableRow& row) -> results::Cell {
@@ -212,6 +274,7 @@ FigureGroups axis_figures(const results::Results& results)
     const Table table = with_numbers(results.table("sessions_by_axis"));
     for (const Rows& rows : split(rows_of(table), Keys{"parameter"})) {
         const auto unit = unit_in(rows);
+        add_frontiers(rows, results.files_of("sessions_by_axis"), groups);
         for (const Measure& measure : measures) {
             FigureGroup group{std::string{measure.title}, {}};
             for (const Rows& of_task : split(rows, Keys{"task"})) {

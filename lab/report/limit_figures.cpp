@@ -115,7 +115,7 @@ page::Curve failing_curve(const TableRow& limit, const Rows& sessions)
     const std::string algorithm = limit.text("algorithm");
     page::Curve curve{.name = fmt::format("{} in {}", algorithm, limit.text("task")),
                       .colour = colour_of(algorithm),
-                      .width = 1.8};
+                      .width = curve_width(algorithm)};
     std::vector<metrics::FailCount> fails;
     for (const auto& [level, count] : counts) {
         fails.push_back(count);

@@ -55,9 +55,6 @@ page::Bar bar_of(const BarPattern& pattern, const TableRow& row)
     return bar;
 }
 
-/// Sep often lies under base, and is to be seen there.
-double curve_width(std::string_view algorithm) { return algorithm == "sep" ? 4.0 : 1.2; }
-
 page::Curve curve_of(const Rows& rows, const CurvePattern& pattern)
 {
     const std::string algorithm = rows.front().text("algorithm");
@@ -150,6 +147,8 @@ bool has_interval(const TableRow& row)
 {
     return row.number("ci_low") && row.number("seeds").value_or(2.0) > 1.0;
 }
+
+double curve_width(std::string_view algorithm) { return algorithm == "sep" ? 4.0 : 1.2; }
 
 std::string about_spread(double seeds)
 {

@@ -38,6 +38,9 @@ using results::TableRow;
 
 /// Whether a value has an interval in the columns ci_low and ci_high: of one seed there is none.
 [[nodiscard]] bool has_interval(const TableRow& row);
+/// How wide the curve of an algorithm is, in pixels: sep often lies under base, and is to be seen
+/// there.
+[[nodiscard]] double curve_width(std::string_view algorithm);
 /// What a line about the result of so many seeds is: "its 95 % interval"; "from the least to the
 /// most of the 3 seeds" of fewer than can give one; "" of one seed, which has no line.
 [[nodiscard]] std::string about_spread(double seeds);

@@ -5,11 +5,13 @@
 #include "lab/experiment/claims.hpp"
 #include "lab/experiment/session_spec.hpp"
 #include "lab/experiment/text.hpp"
+#include "lab/hands/manifest.hpp"
 #include "lab/report/patterns.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <utility>
@@ -153,26 +155,66 @@ std::string party_of(const Experiment& experiment)
     return text;
 }
 
-std::string words_of(const Experiment& experiment)
+/// "18 trials of 9 people", where recorded hands played; empty: they did not.
+std::string people_of(const results::Run& run)
+{
+    const auto found = run.manifest.find("people");
+    if (found == run.manifest.end() || !found->is_object()) return "";
+    const auto count = [&](const char* key) {
+        const auto value = found->find(key);
+        return value != found->end() && value->is_number_unsigned() ? value->get<std::size_t>() : 0;
+    };
+    const auto subjects = count("subjects");
+    return fmt::format("{} of {}", counted(count("trials"), "trial"),
+                       subjects == 1 ? "1 subject" : fmt::format("{} subjects", subjects));
+}
+
+/// Whose hands played: "Simulated hands (nominal)".
+std::string hands_of(const Experiment& experiment, const std::string& people)
+{
+    const bool is_varied = varies(experiment, {"hands"});
+    if (is_varied && !people.empty())
+        return fmt::format("Hands, simulated ones and those of recorded people ({}),", people);
+    if (experiment.hands.people) return fmt::format("Hands of recorded people ({})", people);
+    const bool has_hands =
+        !std::holds_alternative<experiment::Claims>(experiment.kind) && !is_varied;
+    return fmt::format("Simulated hands{}",
+                       has_hands ? fmt::format(" ({})", name_of(experiment.hands)) : "");
+}
+
+std::string words_of(const Experiment& experiment, const std::string& people)
 {
     Words algorithms;
     for (const auto& one : experiment.algorithms) algorithms.push_back(one.name);
-    const bool has_hands = !std::holds_alternative<experiment::Claims>(experiment.kind) &&
-                           !varies(experiment, {"hands"});
-    std::string text = fmt::format("Simulated hands{} played {}{} with the algorithm{} {}",
-                                   has_hands ? fmt::format(" ({})", name_of(experiment.hands)) : "",
-                                   tasks_of(experiment), party_of(experiment),
-                                   algorithms.size() == 1 ? "" : "s", listed(algorithms));
+    std::string text =
+        fmt::format("{} played {}{} with the algorithm{} {}", hands_of(experiment, people),
+                    tasks_of(experiment), party_of(experiment), algorithms.size() == 1 ? "" : "s",
+                    listed(algorithms));
     for (const std::string& part :
          {std::visit(Circumstances{experiment}, experiment.kind), axes_of(experiment)})
         if (!part.empty()) text += ", " + part;
-    return text + fmt::format("; {}.", counted(experiment.seeds, "seed"));
+    if (!varies(experiment, {"duration"}))
+        text += fmt::format(", in sessions of {:g} s", base::to_seconds(experiment.duration));
+    text += fmt::format("; {}{}.", counted(experiment.seeds, "seed"),
+                        people.empty() ? "" : " for each trial");
+    if (people.empty()) return text;
+    return text + " The people moved without Hapnet: none of them reacted to its forces. Hands "
+                  "that follow their recordings give way to a force as the simulated hand does.";
 }
 
-/// A scene and the ways of hands are told by their names alone: any that can be read will do.
+/// A scene, the ways of hands and people are told by their names alone: any that can be read will
+/// do.
 base::Result<std::string> any_file(const std::string& name)
 {
     if (name.ends_with(".csv")) return std::string{"time_s,x_m,y_m,z_m\n0,0,0,0\n1,0,0,0\n"};
+    if (name.ends_with(hands::manifest_name)) {
+        hands::ImportedTrial trial;
+        trial.subject = trial.trial = "1";
+        trial.a.script = "1.csv";
+        hands::Manifest manifest;
+        put(manifest, trial);
+        return to_text(manifest);
+    }
     return scene::to_text(scene::paper_scene());
 }
 
@@ -181,6 +223,22 @@ base::Result<Experiment> experiment_of(const results::Run& run)
     const auto found = run.manifest.find("configuration");
     if (found == run.manifest.end() || !found->is_string()) return base::fail("no configuration");
     return experiment::parse_experiment(found->get<std::string>(), "configuration", {}, any_file);
+}
+
+base::Result<Experiment> built_in(std::string_view name)
+{
+    const base::OpenFile none = [](const std::string& file) { return base::fail(file); };
+    return experiment::load_experiment(std::string{name}, none, {});
+}
+
+/// The built-in experiment of that title; nullopt of one's own.
+std::optional<Experiment> built_in_titled(const std::string& title)
+{
+    for (const experiment::BuiltInExperiment& one : experiment::built_in_experiments()) {
+        auto found = built_in(one.name);
+        if (found && found->title == title) return std::move(*found);
+    }
+    return std::nullopt;
 }
 
 /// The built-in experiment whose seeds and seconds settle a limit or a claim; "" of other kinds.
@@ -220,7 +278,7 @@ std::string network_in_words(const emulator::Profile& profile)
 std::string sentence_of(const results::Run& run)
 {
     const auto experiment = experiment_of(run);
-    return experiment ? words_of(*experiment) : "";
+    return experiment ? words_of(*experiment, people_of(run)) : "";
 }
 
 page::Json amounts_of(const results::Run& run)
@@ -228,11 +286,24 @@ page::Json amounts_of(const results::Run& run)
     const auto experiment = experiment_of(run);
     if (!experiment) return nullptr;
     page::Json amounts{{"played", amount_of(*experiment)}};
-    const base::OpenFile none = [](const std::string& file) { return base::fail(file); };
-    const std::string name{built_in_of(experiment->kind)};
-    if (const auto meant = experiment::load_experiment(name, none, {}); !name.empty() && meant)
+    const auto same = built_in_titled(experiment->title);
+    amounts["built_in"] = same.has_value();
+    const std::string_view name = built_in_of(experiment->kind);
+    if (same)
+        amounts["meant"] = amount_of(*same);
+    else if (const auto meant = built_in(name); !name.empty() && meant)
         amounts["meant"] = amount_of(*meant);
     return amounts;
+}
+
+std::string own_title_of(const results::Run& run)
+{
+    const auto title = run.manifest.find("title");
+    if (title == run.manifest.end() || !title->is_string()) return "";
+    const auto experiment = experiment_of(run);
+    const auto same = built_in_titled(title->get<std::string>());
+    const bool is_another = experiment && same && !experiment->axes.empty() && same->axes.empty();
+    return is_another ? "" : title->get<std::string>();
 }
 
 } // namespace hapnet::lab::report

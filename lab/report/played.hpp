@@ -17,9 +17,14 @@ namespace hapnet::lab::report {
 /// that it changes where it does. Empty of a perfect one.
 [[nodiscard]] std::string network_in_words(const emulator::Profile& profile);
 
-/// How much was played, and how much the built-in experiment of that kind plays, which settles a
-/// limit or a claim: `played` and `meant`, each with `seeds` and `duration_s`. null where the
-/// configuration cannot be read; without `meant` of other kinds.
+/// How much was played, and how much is meant to be: `played` and `meant`, each with `seeds` and
+/// `duration_s`. Meant is what the built-in experiment of the same title plays, which `built_in`
+/// says is there, or that which settles a limit or a claim of one's own. null where the
+/// configuration cannot be read; without `meant` of other experiments.
 [[nodiscard]] page::Json amounts_of(const results::Run& run);
+
+/// The title of an experiment. Empty where it has none, and where an axis of one's own makes
+/// another experiment of the built-in one whose title it has.
+[[nodiscard]] std::string own_title_of(const results::Run& run);
 
 } // namespace hapnet::lab::report

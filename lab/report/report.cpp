@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/report.hpp"
 
+#include "lab/metrics/psychometric.hpp"
 #include "lab/records/analysis_report.hpp"
 #include "lab/report/assets.hpp"
 #include "lab/report/figures.hpp"
@@ -116,6 +117,7 @@ constexpr std::array section_kinds{
     SectionKind{"points", "Conditions varied together", "qos_by_point", points_figures},
     SectionKind{"precision", "What accuracy costs", "precision", precision_figures},
     SectionKind{"fig7", "Where each side has the cube, over time", "trajectories", fig7_figures},
+    SectionKind{"rankings", "Whether recorded people rank the algorithms alike", "rankings"},
     SectionKind{"tasks", "Tasks in which both hands act on what they feel", "tasks", tasks_figures},
     SectionKind{.id = "replay",
                 .title = "Look at it",
@@ -149,11 +151,10 @@ std::string subject_of(const Results& results)
 
 std::string title_of(const Results& results)
 {
-    // An axis makes another experiment of the one whose title it has.
-    if (results.runs.size() == 1 && has_axis(results)) return axis_title(results);
     if (results.runs.size() == 1) {
-        const auto title = results.runs.front().manifest.value("title", Json{});
-        if (title.is_string()) return title.get<std::string>();
+        auto title = own_title_of(results.runs.front());
+        if (!title.empty()) return title;
+        if (has_axis(results)) return axis_title(results);
     }
     if (subject_of(results) != "session") return "Two people, one cube, a bad network";
     if (results.sessions.size() > 1) return "Recorded sessions";
@@ -247,11 +248,11 @@ Json runs_of(const Results& results)
 /// The tables that a page shows, and not only draws.
 Json tables_of(const Results& results)
 {
-    constexpr std::array<std::string_view, 13> are_shown{
+    constexpr std::array<std::string_view, 14> are_shown{
         "table1",           "tasks",          "limits",        "limits_by_convention",
         "paired",           "claims",         "precision",     "claims_numbers",
         "claims_quantiles", "claim_sessions", "tasks_by_axis", "limits_by_axis",
-        "real_time"};
+        "real_time",        "rankings"};
     std::vector<results::Table> tables;
     for (const std::string_view name : are_shown)
         if (!results.table(name).is_empty()) tables.push_back(results.table(name));
@@ -267,10 +268,14 @@ public:
         for (const SectionKind& kind : section_kinds)
             if (auto section = section_of(kind); !section.is_null())
                 sections.push_back(std::move(section));
-        data_ = {{"subject", subject_of(results)},  {"title", title_of(results)},
-                 {"sections", std::move(sections)}, {"played", played_of(results)},
-                 {"runs", runs_of(results)},        {"tables", tables_of(results)},
-                 {"sessions", sessions_of(results)}};
+        data_ = {{"subject", subject_of(results)},
+                 {"title", title_of(results)},
+                 {"sections", std::move(sections)},
+                 {"played", played_of(results)},
+                 {"runs", runs_of(results)},
+                 {"tables", tables_of(results)},
+                 {"sessions", sessions_of(results)},
+                 {"interval_seeds_min", metrics::interval_seeds_min}};
         if (const auto criteria = results.criteria()) data_["criteria"] = json_of(*criteria);
         if (results.demo) data_["demo"] = json_of(demo_tables(*results.demo));
         data_["figures"] = std::move(figures_);

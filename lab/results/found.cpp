@@ -25,7 +25,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// What the sessions of one algorithm and task found, in the order of the seeds.
+/// What the sessions of one algorithm and task found, in the order of the trials and the seeds.
 struct Group {
     std::string_view algorithm;
     device::Task task{};
@@ -33,6 +33,7 @@ struct Group {
     std::string_view rows{}; // of the first seed
     experiment::Party party{};
     scene::Description scene{};
+    std::vector<std::string> subjects{}; // of each session; of simulated hands none
 };
 
 /// The results of single sessions, by algorithm and task; each point of a grid begins anew.
@@ -44,7 +45,7 @@ std::vector<Group> groups_of(const experiment::Experiment& experiment,
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const auto& job = std::get<experiment::SessionJob>(jobs[i]);
         const auto& result = std::get<experiment::SessionResult>(results[i]);
-        if (job.spec.setting.seed.value() == experiment.first_seed) {
+        if (job.trial == 0 && job.spec.setting.seed.value() == experiment.first_seed) {
             groups.push_back({experiment.algorithms[job.algorithm].name,
                               job.task,
                               {},
@@ -53,6 +54,8 @@ std::vector<Group> groups_of(const experiment::Experiment& experiment,
                               job.spec.setting.scene});
         }
         groups.back().scores.push_back(scores_of(result.metrics, result.reference));
+        if (const hands::Trial* trial = experiment.hands.trial(job.trial))
+            groups.back().subjects.push_back(trial->subject);
     }
     return groups;
 }
@@ -67,7 +70,7 @@ std::optional<metrics::Spread> base_in_mm(const std::vector<Group>& groups,
 {
     for (const Group& group : groups) {
         if (group.algorithm != "base" || group.task != device::Task::p1) continue;
-        const auto typical = summarize(group.scores, criteria).typical_m;
+        const auto typical = summarize(group.scores, criteria, group.subjects).typical_m;
         if (typical) return in_mm(*typical);
     }
     return std::nullopt;
@@ -76,6 +79,11 @@ std::optional<metrics::Spread> base_in_mm(const std::vector<Group>& groups,
 std::optional<double> in_thousandths(std::optional<double> value)
 {
     return value ? std::optional{1e3 * *value} : std::nullopt;
+}
+
+std::optional<double> in_thousands(std::optional<double> value)
+{
+    return value ? std::optional{1e-3 * *value} : std::nullopt;
 }
 
 /// `is_papers`: it was played as the paper's table is.
@@ -135,7 +143,8 @@ void add_task_row(const Group& group, const Summary& summary, const metrics::Cri
         judged.force_vibration_n, summary.worst.force_discrepancy, summary.worst.contact_lost,
         summary.force_step_n, summary.worst.drag_n, in_thousandths(summary.worst.energy_taken_j),
         judged.tier, summary.limited_by, turned_deg, party.scene, swings_n, judged.stiffness_error,
-        judged.slow_stiffness_error, in_thousandths(low_m), in_thousandths(high_m), summary.usable);
+        judged.slow_stiffness_error, in_thousandths(low_m), in_thousandths(high_m), summary.usable,
+        in_thousands(summary.worst.rate_bit_per_s), party.subjects, party.trials);
 }
 
 /// Which command wrote the criteria.
@@ -168,11 +177,11 @@ struct ResultsOf {
                                "contact_lost:4,force_step_n:4,drag_n:4,energy_mj:3,tier,"
                                "limited_by,turned_apart_deg:3?,scene?,force_above_2hz_n:4?,"
                                "stiffness_error:4?,slow_stiffness_error:4?,ci_low_mm:3?,ci_high_mm:"
-                               "3?,usable_seeds")};
+                               "3?,usable_seeds,rate_kbit_s:1?,subjects?,trials?")};
         Found found;
         Table scenes = replay_scenes();
         for (const Group& group : groups) {
-            const Summary summary = summarize(group.scores, criteria);
+            const Summary summary = summarize(group.scores, criteria, group.subjects);
             if (group.task == device::Task::p1) {
                 add_table1_row(group, summary, base_mm,
                                is_papers_row(experiment, criteria, group.algorithm), table1);
@@ -240,18 +249,19 @@ struct ResultsOf {
         const std::size_t groups_per_point = groups.size() / points.size();
         Table table{
             "qos", columns_in(fmt::format("algorithm,task,delay_ms,jitter_ms,loss_percent,{},{},"
-                                          "{},limited_by+",
+                                          "{},limited_by+,subjects?,trials?",
                                           judged_columns, party_columns, stiffness_error_columns))};
         for (std::size_t i = 0; i < groups.size(); ++i) {
             const experiment::GridPoint& point = points[i / groups_per_point];
-            const Summary summary = summarize(groups[i].scores, criteria);
+            const Summary summary = summarize(groups[i].scores, criteria, groups[i].subjects);
             const Judged judged = make_judged(summary, criteria);
             const auto party = party_cells(experiment, groups[i].party);
             table.add(groups[i].algorithm, name_of(groups[i].task), in_units(point.delay),
                       in_units(point.jitter), in_units(point.loss), judged.mean_mm,
                       judged.vibration_mm, judged.stiffness_ratio, judged.force_vibration_n,
                       judged.tier, judged.turned_apart_deg, party.peers, party.scene,
-                      judged.stiffness_error, judged.slow_stiffness_error, summary.limited_by);
+                      judged.stiffness_error, judged.slow_stiffness_error, summary.limited_by,
+                      party.subjects, party.trials);
         }
         return Found{{std::move(table), sessions()}, {}};
     }

@@ -23,6 +23,17 @@ Json seeds_of(const experiment::Experiment& experiment)
     return seeds;
 }
 
+/// Of a session; of people the mean over their trials.
+double mean_length_s(const experiment::Experiment& experiment, const hands::Population* people)
+{
+    if (people == nullptr || !experiment.is_as_long_as_scripts)
+        return base::to_seconds(experiment.duration);
+    double sum_s = 0.0;
+    for (const hands::Trial& trial : people->trials)
+        sum_s += base::to_seconds(experiment::session_length(trial.end_s()));
+    return sum_s / static_cast<double>(people->trials.size());
+}
+
 } // namespace
 
 std::string utc_text(double since_1970_s)
@@ -55,7 +66,7 @@ Json make_manifest(const experiment::Experiment& experiment, const Circumstances
                    const RunOutcome& outcome)
 {
     const double simulated_s =
-        static_cast<double>(outcome.played) * base::to_seconds(experiment.duration);
+        static_cast<double>(outcome.played) * mean_length_s(experiment, outcome.people.get());
     Json speed_ratio; // null when nothing was played
     if (outcome.played > 0 && circumstances.wall_time_s > 0.0) {
         speed_ratio = simulated_s / circumstances.wall_time_s;
@@ -71,6 +82,11 @@ Json make_manifest(const experiment::Experiment& experiment, const Circumstances
                      {"sessions", {{"played", outcome.played}, {"reused", outcome.reused}}},
                      {"simulated_s", simulated_s},
                      {"speed_ratio", speed_ratio}});
+    if (outcome.people) {
+        manifest["people"] = {{"folder", outcome.people->folder},
+                              {"subjects", outcome.people->subjects()},
+                              {"trials", outcome.people->trials.size()}};
+    }
     if (!outcome.digest.empty()) manifest["digest"] = outcome.digest;
     return manifest;
 }

@@ -5,6 +5,7 @@
 #include "lab/experiment/experiment.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ struct RunOutcome {
     std::size_t reused = 0;
     std::vector<std::string> invalid_because{};
     std::string digest{}; // of all results; empty: there are none
+    /// Recorded people whose hands played, with some of the values of an axis at least.
+    std::shared_ptr<const hands::Population> people{};
 };
 
 /// manifest.json of an experiment's folder of results.

@@ -5,6 +5,7 @@
 #include "lab/experiment/experiment.hpp"
 #include "lab/results/table.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ namespace hapnet::lab::results {
 struct PartyCells {
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};
+    /// Of recorded people, where such hands played.
+    std::optional<std::size_t> subjects{};
+    std::optional<std::size_t> trials{};
 };
 [[nodiscard]] inline PartyCells party_cells(const experiment::Experiment& experiment,
                                             const experiment::Party& party)
@@ -24,6 +28,10 @@ struct PartyCells {
     const bool are_always_two = experiment.peers.size() == 1 && experiment.peers.front() == 2;
     if (!are_always_two) cells.peers = party.peers;
     if (party.scene) cells.scene = experiment.scenes[*party.scene].name;
+    if (const auto& people = experiment.hands.people) {
+        cells.subjects = people->subjects();
+        cells.trials = people->trials.size();
+    }
     return cells;
 }
 

@@ -39,6 +39,7 @@ Outcome add_run(const File& file, Results& results)
         false);
     if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
     if (is_of_several(json)) return {}; // the folders that it names have their own
+    if (json.value("kind", Json{}) == "hands") return {}; // of recordings, not of results
     Run run{folder_of(file.path), std::move(json), std::nullopt};
     const auto criteria = run.manifest.find("criteria");
     if (criteria != run.manifest.end() && criteria->is_string()) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/session_rows.hpp"
 
+#include "lab/metrics/subjects.hpp"
+
 #include <algorithm>
 #include <map>
 #include <spdlog/fmt/fmt.h>
@@ -94,6 +96,7 @@ void note_scores(const metrics::Scores& scores, const metrics::Criteria& criteri
     row.tier = judge(scores, criteria).tier;
     row.stiffness_error = scores.stiffness_error;
     row.slow_stiffness_error = scores.slow_stiffness_error;
+    row.rate_kbit_s = times(1e-3, scores.rate_bit_per_s);
 }
 
 /// What is known of the sessions of an algorithm before one is played.
@@ -172,20 +175,28 @@ struct Pairs {
     std::vector<double> b;
 };
 
-using BySeed = std::map<std::uint64_t, const SessionRow*>;
+/// A session among those of one condition: subject, trial and seed.
+using SessionId = std::tuple<std::string, std::string, std::uint64_t>;
+using ById = std::map<SessionId, const SessionRow*>;
 
-Pairs pairs_of(const BySeed& a, const BySeed& b, const PairedMeasure& measure)
+SessionId id_of(const SessionRow& row)
 {
-    Pairs pairs;
-    for (const auto& [seed, row] : a) {
-        const auto other = b.find(seed);
+    return {row.subject.value_or(""), row.trial.value_or(""), row.seed};
+}
+
+/// A pair for each seed; of people one for each subject, of the means of its sessions.
+Pairs pairs_of(const ById& a, const ById& b, const PairedMeasure& measure)
+{
+    metrics::SubjectMeans of_a, of_b;
+    for (const auto& [id, row] : a) {
+        const auto other = b.find(id);
         if (other == b.end()) continue;
         const auto x = row->*measure.value, y = other->second->*measure.value;
         if (!x || !y) continue;
-        pairs.a.push_back(*x);
-        pairs.b.push_back(*y);
+        of_a.add(row->subject, *x);
+        of_b.add(row->subject, *y);
     }
-    return pairs;
+    return {of_a.means(), of_b.means()};
 }
 
 } // namespace
@@ -197,6 +208,11 @@ SessionRow make_session_row(const experiment::Experiment& experiment,
     SessionRow row = started(experiment, job.algorithm, job.task, job.party);
     note_network(job.spec.setting.profile, row);
     row.seed = job.spec.setting.seed.value();
+    row.duration_s = base::to_seconds(job.spec.setting.length);
+    if (const hands::Trial* trial = experiment.hands.trial(job.trial)) {
+        row.subject = trial->subject;
+        row.trial = trial->name;
+    }
     note_scores(scores, criteria, row);
     return row;
 }
@@ -219,13 +235,13 @@ std::vector<SessionRow> make_session_rows(const experiment::Experiment& experime
 
 Table paired_table(const std::vector<SessionRow>& sessions)
 {
-    std::map<std::pair<SharedCondition, std::string>, BySeed> played;
+    std::map<std::pair<SharedCondition, std::string>, ById> played;
     std::vector<std::pair<SharedCondition, std::string>> order; // as they come
     for (const SessionRow& row : sessions) {
         const std::pair key{condition_of(row), row.algorithm};
-        BySeed& seeds = played[key];
-        if (seeds.empty()) order.push_back(key);
-        seeds.emplace(row.seed, &row);
+        ById& rows = played[key];
+        if (rows.empty()) order.push_back(key);
+        rows.emplace(id_of(row), &row);
     }
     Table table{"paired", columns_in(paired_columns)};
     for (const auto& key : order) {

@@ -45,6 +45,9 @@ struct SessionRow {
     metrics::Tier tier{};
     std::optional<double> stiffness_error{};
     std::optional<double> slow_stiffness_error{};
+    std::optional<double> rate_kbit_s{};
+    std::optional<std::string> subject{}; // whose recorded hands played
+    std::optional<std::string> trial{};
 };
 constexpr auto fields_of(base::Tag<SessionRow>)
 {
@@ -52,6 +55,7 @@ constexpr auto fields_of(base::Tag<SessionRow>)
     constexpr base::Decimals three{3};
     constexpr base::Decimals four{4};
     constexpr base::Spare<base::Decimals> four_or_none{four};
+    constexpr base::Spare<base::Text> text_or_none{};
     return base::fields(
         "sessions", base::field("algorithm", &Row::algorithm), base::field("task", &Row::task),
         base::field("hands", &Row::hands), base::field("peers", &Row::peers),
@@ -71,7 +75,10 @@ constexpr auto fields_of(base::Tag<SessionRow>)
         base::field("drag_n", &Row::drag_n, four), base::field("energy_mj", &Row::energy_mj, three),
         base::field("scored_share", &Row::scored_share, four), base::field("tier", &Row::tier),
         base::field("stiffness_error", &Row::stiffness_error, four_or_none),
-        base::field("slow_stiffness_error", &Row::slow_stiffness_error, four_or_none));
+        base::field("slow_stiffness_error", &Row::slow_stiffness_error, four_or_none),
+        base::field("rate_kbit_s", &Row::rate_kbit_s, base::Decimals{1}),
+        base::field("subject", &Row::subject, text_or_none),
+        base::field("trial", &Row::trial, text_or_none));
 }
 
 /// Of one session of an experiment, whoever has played it.
@@ -86,9 +93,10 @@ constexpr auto fields_of(base::Tag<SessionRow>)
 make_session_rows(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
                   std::span<const experiment::JobResult> results);
 
-/// The columns of the table paired: `algorithm` - `reference` of a measure, seed by seed. Of limits
-/// the difference is that of p50, and there is none where one of the two was not reached; else it
-/// is the median of the seeds.
+/// The columns of the table paired: `algorithm` - `reference` of a measure, seed by seed, or
+/// subject by subject: the mean of all sessions of a subject counts once. Of limits the difference
+/// is that of p50, and there is none where one of the two was not reached; else it is the median of
+/// the seeds.
 inline constexpr std::string_view paired_columns =
     "algorithm,reference,task,measure,seeds,difference:4,ci_low:4,ci_high:4,sign_test_p";
 /// Each algorithm against the first, in each task and condition that both played.

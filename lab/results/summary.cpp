@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/summary.hpp"
 
+#include "lab/metrics/subjects.hpp"
 #include "lab/metrics/worse.hpp"
 #include "proto/base/quantity.hpp"
 
@@ -58,34 +59,47 @@ metrics::Scores worst_of(std::span<const metrics::Scores> all)
         raise(worst.contact_lost, scores.contact_lost);
         raise(worst.drag_n, scores.drag_n);
         raise(worst.energy_taken_j, scores.energy_taken_j);
+        raise(worst.rate_bit_per_s, scores.rate_bit_per_s);
     }
     return worst;
 }
 
-std::optional<metrics::Spread> mean_spread(std::span<const metrics::Scores> all)
+/// A figure of the discrepancy, of each seed or subject that has one.
+std::vector<double> discrepancies(std::span<const metrics::Scores> all,
+                                  std::span<const std::string> subjects,
+                                  double metrics::Spread::*figure)
 {
-    metrics::Spread sum;
-    double count = 0.0;
-    for (const metrics::Scores& scores : all) {
-        if (!scores.discrepancy_m) continue;
-        sum.mean += scores.discrepancy_m->mean;
-        sum.min += scores.discrepancy_m->min;
-        sum.max += scores.discrepancy_m->max;
-        sum.std += scores.discrepancy_m->std;
-        count += 1.0;
+    metrics::SubjectMeans means;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].discrepancy_m) continue;
+        const auto subject = subjects.empty() ? std::nullopt : std::optional{subjects[i]};
+        means.add(subject, *all[i].discrepancy_m.*figure);
     }
-    if (count == 0.0) return std::nullopt;
-    return metrics::Spread{sum.mean / count, sum.min / count, sum.max / count, sum.std / count};
+    return means.means();
+}
+
+std::optional<metrics::Spread> mean_spread(std::span<const metrics::Scores> all,
+                                           std::span<const std::string> subjects)
+{
+    const auto mean = [&](double metrics::Spread::*figure) {
+        double sum = 0.0;
+        const auto values = discrepancies(all, subjects, figure);
+        for (const double value : values) sum += value;
+        return sum / static_cast<double>(values.size());
+    };
+    using metrics::Spread;
+    if (discrepancies(all, subjects, &Spread::mean).empty()) return std::nullopt;
+    return Spread{mean(&Spread::mean), mean(&Spread::min), mean(&Spread::max), mean(&Spread::std)};
 }
 
 } // namespace
 
-Summary summarize(std::span<const metrics::Scores> scores, const metrics::Criteria& criteria)
+Summary summarize(std::span<const metrics::Scores> scores, const metrics::Criteria& criteria,
+                  std::span<const std::string> subjects)
 {
-    Summary summary{.typical_m = mean_spread(scores), .worst = worst_of(scores)};
-    std::vector<double> means_m;
+    Summary summary{.typical_m = mean_spread(scores, subjects), .worst = worst_of(scores)};
+    const auto means_m = discrepancies(scores, subjects, &metrics::Spread::mean);
     for (const metrics::Scores& one : scores) {
-        if (one.discrepancy_m) means_m.push_back(one.discrepancy_m->mean);
         if (judge(one, criteria).tier != metrics::Tier::unusable) ++summary.usable;
         if (one.discrepancy_m) raise(summary.discrepancy_max_m, one.discrepancy_m->max);
         if (one.turned_apart_rad) raise(summary.turned_apart_max_rad, one.turned_apart_rad->max);

@@ -13,13 +13,13 @@
 
 namespace hapnet::lab::results {
 
-/// What the sessions of all seeds say together.
+/// What the sessions of all seeds say together. Means and their interval are over the seeds, or of
+/// recorded people over the subjects, each with the mean of its sessions.
 struct Summary {
-    std::optional<metrics::Spread>
-        typical_m{}; // the means over the seeds of the discrepancy's figures
-    std::optional<metrics::Interval> mean_m{}; // 95 % of the mean over the seeds of the mean
-    std::optional<double> discrepancy_max_m{}; // the largest of any seed
-    std::optional<double> force_step_n{};      // as well
+    std::optional<metrics::Spread> typical_m{}; // the means of the discrepancy's figures
+    std::optional<metrics::Interval> mean_m{};  // 95 % of the mean of the mean
+    std::optional<double> discrepancy_max_m{};  // the largest of any seed
+    std::optional<double> force_step_n{};       // as well
     std::optional<double> turned_apart_max_rad{};
     metrics::Scores worst{};                  // in every respect as bad as that of the worst seed
     metrics::Tier tier = metrics::Tier::good; // of the worst
@@ -27,9 +27,11 @@ struct Summary {
     std::string limited_by{};                 // what keeps it from the next tier
 };
 
-/// A task's scores by seed; at least one.
+/// A task's scores by session; at least one. `subjects` has the subject of each; empty: they have
+/// none.
 [[nodiscard]] Summary summarize(std::span<const metrics::Scores> scores,
-                                const metrics::Criteria& criteria);
+                                const metrics::Criteria& criteria,
+                                std::span<const std::string> subjects = {});
 
 /// By what a session is judged.
 struct Judged {

@@ -43,6 +43,38 @@ bool has_overflowed(const VirtualWorld& world)
     return false;
 }
 
+/// What each direction between two sides has carried so far, with the headers of UDP over IPv4.
+struct Traffic {
+    base::TimePoint at;
+    std::vector<double> bits;
+};
+
+Traffic traffic_of(const VirtualWorld& world)
+{
+    constexpr double header_bytes = 28.0;
+    Traffic traffic{world.now(), {}};
+    const std::size_t players = world.setting().players.size();
+    for (std::size_t from = 0; from < players; ++from) {
+        for (std::size_t to = 0; to < players; ++to) {
+            if (from == to) continue;
+            const emulator::Statistics& sent = world.link(from, to).statistics();
+            traffic.bits.push_back(8.0 * (static_cast<double>(sent.bytes_in) +
+                                          header_bytes * static_cast<double>(sent.received)));
+        }
+    }
+    return traffic;
+}
+
+/// Of the busiest direction between the two moments, bit/s.
+double rate_between(const Traffic& begin, const Traffic& end)
+{
+    double most = 0.0;
+    for (std::size_t i = 0; i < begin.bits.size(); ++i)
+        most = std::max(most, end.bits[i] - begin.bits[i]);
+    const double seconds = base::to_seconds(end.at - begin.at);
+    return seconds > 0.0 ? most / seconds : 0.0;
+}
+
 bool has_own_ticks(const PlayerSetting& player) { return player.ticks != nullptr; }
 
 bool is_playing(const VirtualPlayer& player) { return player.last().phase == peer::Phase::running; }
@@ -67,6 +99,7 @@ public:
             world_.step();
             for (std::size_t side = 0; side < tracks_.size(); ++side) note(side);
         }
+        if (!begun_.bits.empty()) rate_bit_per_s_ = rate_between(begun_, traffic_of(world_));
         settle();
         return true;
     }
@@ -87,6 +120,8 @@ private:
     std::vector<Track> tracks_; // of each side
     bool are_even_;             // all sides tick so
     std::vector<Settled> settled_;
+    Traffic begun_; // when the first side began; without bits before
+    double rate_bit_per_s_ = 0.0;
     bool over_ = false;
 };
 
@@ -103,6 +138,7 @@ void Play::note(std::size_t side)
     }
     if (track.samples.empty()) {
         track.first = world_.now();
+        if (begun_.bits.empty()) begun_ = traffic_of(world_);
         const auto ticks = player.peer().hands_on() / tick_;
         track.samples.reserve(static_cast<std::size_t>(ticks) + 1);
     }
@@ -260,6 +296,7 @@ Trace Play::trace() &&
     Trace trace{.task = world_.setting().task, .tick = tick_};
     trace.simulated = world_.now() - VirtualWorld::start;
     trace.settled = settled_;
+    trace.rate_bit_per_s = rate_bit_per_s_;
     trace.sides.assign(tracks_.size(), {});
     const auto is_empty = [](const Track& track) { return track.samples.empty(); };
     if (std::ranges::any_of(tracks_, is_empty)) return trace;

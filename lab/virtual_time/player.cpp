@@ -43,6 +43,7 @@ peer::Settings settings_of(const Setting& setting, const PlayerId& id,
     peer::Settings settings;
     settings.scene = setting.scene;
     settings.algorithm = player.algorithm;
+    settings.send = player.send;
     settings.tick = setting.tick;
     settings.length = setting.length;
     settings.roster = roster_of(setting, id);

@@ -8,6 +8,7 @@
 #include "device/simulated/task.hpp"
 #include "device/simulated/task_options.hpp"
 #include "emulator/core/profile/profile.hpp"
+#include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
@@ -26,6 +27,7 @@ namespace hapnet::lab::virtual_time {
 /// One of the players of a session in virtual time.
 struct PlayerSetting {
     peer::Algorithm algorithm{};
+    peer::SendPolicy send{};
     device::Operator person{};
     std::shared_ptr<const device::HandTrace> replay{}; // plays instead of the person; at least one
                                                        // moment, in the order of time

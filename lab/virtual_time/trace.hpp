@@ -57,6 +57,9 @@ struct Trace {
     std::vector<Settled> settled{};
     /// The share of the session, 0 to 1, in which all were running; hands off not counted.
     double overlap = 0.0;
+    /// The traffic of the busiest direction between any two sides with the headers of UDP over
+    /// IPv4, bit/s; 0 for records.
+    double rate_bit_per_s = 0.0;
     base::Duration simulated{}; // that was played for it, from the first hello; 0 for records
 };
 

@@ -331,6 +331,11 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
                               return parse_algorithm_name(text).map(explain_algorithm);
                           }))
         .instead();
+    program.option("--send", "every:N|deadband:P%[,TIME]",
+                   "When a message is sent: every N ticks of 1 ms (default every:1), or when what "
+                   "the others can predict is off by P percent, and after TIME of silence (default "
+                   "50ms). All peers of a session should have the same",
+                   cli::into(options.send, parse_send_policy));
     program.option("--seed", "NUMBER",
                    "Seed for every random draw of the hands; the lower id's counts (default 1)",
                    cli::into(options.seed, cli::seed));

@@ -6,6 +6,7 @@
 #include "peer/cli/device_options.hpp"
 #include "peer/cli/key_options.hpp"
 #include "peer/core/others.hpp"
+#include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/ensure.hpp"
 #include "proto/base/random.hpp"
@@ -37,6 +38,7 @@ struct Options {
     double force_max_n = 3.3; // that the hand is given at most
     device::Task task = device::Task::p1;
     Algorithm algorithm;
+    SendPolicy send{};
     base::Seed seed{1};
     base::Duration duration{std::chrono::seconds{30}};
     bool insecure = false;

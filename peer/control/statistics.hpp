@@ -50,6 +50,10 @@ constexpr auto fields_of(base::Tag<Counters>)
         "messages",
         base::member("states_sent", &C::sent, "State messages of all sessions.")
             .counter("hapnet_peer_states_sent"),
+        base::member("sending", &C::sending,
+                     "Ticks of all sessions: those whose message was held back, and the others by "
+                     "what their message was [sent for](../use/peer.md#sending-less).")
+            .counter("hapnet_peer_ticks_by_message", "cause"),
         base::member("states_received", &C::states, "State messages that were used.")
             .counter("hapnet_peer_states_received"),
         base::member("outdated", &C::outdated,

@@ -39,7 +39,8 @@ Peer::Peer(const Settings& settings)
     : settings_{settings},
       others_{settings.roster, config_of(settings)},
       scene_{settings},
-      intention_{dynamics_of(settings.introduction.hand)}
+      intention_{dynamics_of(settings.introduction.hand)},
+      gate_{settings.send}
 {
     base::ensure(others_.is_pair() || plays_with_many(settings.algorithm));
     prepare(settings_.algorithm, others_.size(), scene_.world());
@@ -132,8 +133,11 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
     ++(heard.taken ? counters_.states : counters_.outdated);
     if (heard.body_missed) tell(Event::no_body, &other);
     if (heard.clock_jumped) tell(Event::clock_jumped, &other);
+    const TickCount::Counted counted = other.tick_of(state);
     const ReceivedState received{.state = state,
                                  .arrived = arrived,
+                                 .tick_number = counted.number,
+                                 .span = counted.span,
                                  .taken = heard.taken,
                                  .clock = RemoteClock{other.handshake().clock_sync()},
                                  .tick = settings_.tick,
@@ -261,13 +265,17 @@ void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
     state.work_uj = static_cast<std::uint32_t>(base::nearest(1e6 * hand.work_j));
     intention_.say(state, hand.hip, hand.velocity);
     state.contact_force = tick.touched.on_body;
+    const SendCause cause = gate_.judge(state, ticks_played_ - 1);
+    ++counters_.sending[cause];
+    if (cause == SendCause::held_back) return;
     BodySet said = 0; // that the state has, which is mostly the same for all
     for (Remote& other : others_.all()) {
         if (!other.session() || other.is_gone()) continue;
         state.session = other.numbering().number;
         state.sequence = other.next_sequence();
         state.echo = other.handshake().echo(now);
-        const BodySet due = scene_.bodies_to_say(other.is_body_due(), now);
+        const BodySet due =
+            scene_.bodies_to_say(other.is_body_due(now, settings_.send.is_each_tick()), now);
         if (due != std::exchange(said, due)) scene_.say(state, due);
         other.post(state);
         ++counters_.sent;

@@ -7,8 +7,10 @@
 #include "peer/core/others.hpp"
 #include "peer/core/outbox.hpp"
 #include "peer/core/scene_copy.hpp"
+#include "peer/core/send_policy.hpp"
 #include "peer/core/settings.hpp"
 #include "peer/core/tick.hpp"
+#include "proto/base/value_kind.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -46,6 +48,7 @@ struct Counters {
     std::uint64_t implausible = 0;   // out of any scene's reach, or numbered ahead of time
     std::uint64_t unusable_hand = 0; // ticks in which the device's sample was not usable
     std::uint64_t sent = 0;
+    base::ByName<SendCause, std::uint64_t> sending{}; // ticks of all sessions
 };
 
 /// An event, and the id of the other that it is about; 0: it is about all, or that one's id is not
@@ -153,6 +156,7 @@ private:
     Others others_;
     SceneCopy scene_;
     Intention intention_; // of this hand
+    SendGate gate_;
     Farewell farewell_;
     Outbox<Notice, 32> notices_;
     Counters counters_;

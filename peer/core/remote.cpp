@@ -43,6 +43,7 @@ void Remote::begin_session(base::TimePoint now)
     agreed_at_ = now;
     forget_state();
     sequences_.forget();
+    tick_count_.forget();
     if (meter_) *meter_ = PathMeter{};
     last_body_ = now;
     states_without_body_ = 0;

@@ -6,6 +6,7 @@
 #include "peer/core/outbox.hpp"
 #include "peer/core/path_meter.hpp"
 #include "peer/core/sequence_guard.hpp"
+#include "peer/core/tick_count.hpp"
 #include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
 #include "proto/wire/message.hpp"
@@ -82,6 +83,11 @@ public:
     [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint arrived);
     /// The part of it that algorithms see: the newest state. False when it is stale and dropped.
     bool update(const wire::State& state, base::TimePoint arrived);
+    /// The tick of the remote that a state tells of, from 1 in the session.
+    [[nodiscard]] TickCount::Counted tick_of(const wire::State& state)
+    {
+        return tick_count_.of(state, tick_);
+    }
     /// A state of another session. Where nothing is heard in this one, a late hello of a former run
     /// may have made this peer change back to that: it says hello, so that the present run does.
     void on_state_of_another(base::TimePoint arrived)
@@ -145,8 +151,16 @@ public:
     };
     [[nodiscard]] const Numbering& numbering() const { return current_; }
     std::uint32_t next_sequence() { return ++current_.sequence; }
-    /// Whether its next state has the body although nothing moves: the first, and every 64th.
-    [[nodiscard]] bool is_body_due() const { return current_.sequence % body_every == 1; }
+    /// Whether its next state has the body although nothing moves: the first, and every 64th, or
+    /// where not every tick has a state, one in 64 ticks.
+    [[nodiscard]] bool is_body_due(base::TimePoint now, bool is_each_tick)
+    {
+        const bool is_due =
+            current_.sequence % body_every == 1 ||
+            (!is_each_tick && now - last_body_told_ >= base::Duration::rep{body_every} * tick_);
+        if (is_due) last_body_told_ = now;
+        return is_due;
+    }
 
     void post(const auto& message)
     {
@@ -177,6 +191,7 @@ private:
     std::uint16_t id_;
     Handshake handshake_;
     SequenceGuard sequences_;
+    TickCount tick_count_;
     std::unique_ptr<PathMeter> meter_; // large, and only where asked for
     base::Duration tick_;
     Outbox<wire::Datagram, 8> outbox_;
@@ -191,7 +206,8 @@ private:
         std::optional<base::TimePoint> last_sent; // of its states until then, on its clock
     };
     Goodbye goodbye_;
-    base::TimePoint last_body_; // that it told of, or the session's agreement
+    base::TimePoint last_body_;      // that it told of, or the session's agreement
+    base::TimePoint last_body_told_; // to it, although nothing moved
     std::uint32_t states_without_body_ = 0;
     bool body_missed_ = false;     // and a person has been told
     bool lost_ = false;            // it fell silent

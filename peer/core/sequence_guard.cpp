@@ -13,9 +13,10 @@ namespace {
 constexpr base::Duration lead_step{std::chrono::microseconds{125}};
 constexpr base::Duration transit_step{std::chrono::milliseconds{1}};
 
-base::Duration stepped(base::Duration from, base::Duration to, base::Duration step)
+base::Duration stepped(base::Duration from, base::Duration to, base::Duration down,
+                       base::Duration up)
 {
-    return from + std::clamp(to - from, -step, step);
+    return from + std::clamp(to - from, -down, up);
 }
 
 } // namespace
@@ -41,8 +42,10 @@ void SequenceGuard::on_taken(const wire::State& state, base::TimePoint arrived)
         usual_ = now;
         return;
     }
-    usual_->lead = stepped(usual_->lead, now.lead, lead_step);
-    usual_->transit = stepped(usual_->transit, now.transit, transit_step);
+    // Who sends in fewer ticks falls behind its stamps by the time between two messages.
+    const base::Duration pause = std::max(lead_step, arrived - usual_->last);
+    usual_->lead = stepped(usual_->lead, now.lead, pause, lead_step);
+    usual_->transit = stepped(usual_->transit, now.transit, transit_step, transit_step);
     usual_->last = std::max(usual_->last, arrived);
 }
 

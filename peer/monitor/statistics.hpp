@@ -97,6 +97,8 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "algorithm_toml", [](const C& one) { return print_algorithm(one.options->algorithm); },
             "All its parameters."),
         base::computed<C>(
+            "send", [](const C& one) { return text_of(one.options->send); }, "The `--send`."),
+        base::computed<C>(
             "seed", [](const C& one) { return one.options->seed.value(); }, "The `--seed`."),
         base::member("device", &C::device, "The device in words."),
         base::computed<C>(
@@ -115,7 +117,7 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "wait_for", [](const C& one) { return one.options->wait_for; },
             "How many must be there to start, 0: all."),
         base::computed<C>(
-            "tick_ns", [](const C&) { return std::uint64_t{1'000'000}; }, "The length of a tick."),
+            "tick_ns", [](const C&) { return 1'000'000ULL; }, "The length of a tick."),
         base::computed<C>(
             "wire", [](const C&) { return wire::protocol_version; },
             "The version of the messages."),

@@ -27,7 +27,7 @@ std::string_view without_blanks(std::string_view text)
     return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-std::optional<double> number_in(std::string_view text)
+std::optional<double> limit_in(std::string_view text)
 {
     if (text == "true") return 1.0;
     if (text == "false") return 0.0;
@@ -75,7 +75,7 @@ Result<Condition> parse_condition(std::string_view text, std::string_view exampl
         for (const Comparison comparison : comparisons) {
             const auto sign = to_text(comparison);
             if (!text.substr(at).starts_with(sign)) continue;
-            const auto number = number_in(without_blanks(text.substr(at + sign.size())));
+            const auto number = limit_in(without_blanks(text.substr(at + sign.size())));
             if (!number || path.empty() || path.size() > path_bytes_max) break;
             return Condition{std::string{path}, comparison, *number};
         }

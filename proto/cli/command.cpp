@@ -364,6 +364,12 @@ Command& Command::command(std::string name, std::string summary)
 base::Result<std::optional<std::string>> Command::parse(std::span<char*> words)
 {
     const auto behind_name = words.subspan(std::min<std::size_t>(words.size(), 1));
+    // A command of commands reads what follows it.
+    for (Command& command : commands_) {
+        if (!command.commands_.empty() && !behind_name.empty() &&
+            command.name() == behind_name.front())
+            return command.parse(behind_name);
+    }
     const Words typed = without_help_word({behind_name.begin(), behind_name.end()}, *this);
     if (auto text = answer(typed, *this)) return text;
     if (auto text = generated(typed, *this)) {

@@ -5,14 +5,52 @@
 #include "proto/net/clock.hpp"
 #include "proto/net/real_time.hpp"
 
-#include <array>
+#include <fstream>
 #include <poll.h>
+#include <spdlog/fmt/fmt.h>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace hapnet::net {
 
-CommandStart::CommandStart(ChildCommand& last, std::optional<Before> before)
+namespace {
+
+/// As the descriptor of a command is once that has ended, which nothing but poll() asks here: its
+/// exit code belongs to another thread.
+bool is_readable(int descriptor)
+{
+    pollfd polled{descriptor, POLLIN, 0};
+    return poll(&polled, 1, 0) > 0;
+}
+
+/// A command that the last one waits for.
+struct Awaited {
+    const CommandStart::Before* before;
+    bool has_ended;
+};
+
+/// True if processes are left of a command that has ended: they are children of its init now.
+/// False, too, where the kernel does not tell.
+bool has_left_processes(pid_t init)
+{
+    std::ifstream children{fmt::format("/proc/{0}/task/{0}/children", init)};
+    std::string first;
+    return static_cast<bool>(children >> first);
+}
+
+bool is_settled(Awaited& one)
+{
+    if (one.before->is_ready()) return true;
+    const ChildCommand& command = one.before->command;
+    one.has_ended = is_readable(command.descriptor());
+    return one.has_ended && !has_left_processes(command.pid());
+}
+
+} // namespace
+
+CommandStart::CommandStart(ChildCommand& last, std::vector<Before> before)
     : last_{last}, before_{std::move(before)}, thread_{[this] { run(); }}
 {}
 
@@ -40,8 +78,8 @@ void CommandStart::run() noexcept
 {
     leave_real_time(); // the scheduling of the relay is inherited
     try {
-        if (before_) before_->command.go();
-        if (!before_ || awaits_last()) last_.go();
+        for (const Before& one : before_) one.command.go();
+        if (awaits_last()) last_.go();
     } catch (...) {
         failure_ = std::current_exception();
     }
@@ -53,17 +91,20 @@ void CommandStart::run() noexcept
 bool CommandStart::awaits_last()
 {
     constexpr int pause_ms = 10;
-    const auto deadline = monotonic_now() + before_->patience;
-    // The first is readable once the command has ended, which nothing but poll() asks here: its
-    // exit code belongs to another thread.
-    std::array<pollfd, 2> polled{
-        {{before_->command.descriptor(), POLLIN, 0}, {told_.descriptor(), POLLIN, 0}}};
-    const auto has_ended = [&] { return polled[0].revents != 0; };
-    while (!is_over_.load() && !is_hurried_.load() && !has_ended() && monotonic_now() < deadline &&
-           !before_->is_ready()) {
+    const auto deadline = monotonic_now() + patience;
+    std::vector<Awaited> awaited;
+    for (const Before& one : before_) awaited.push_back({&one, false});
+    std::vector<pollfd> polled;
+    while (true) {
+        std::erase_if(awaited, is_settled);
+        const bool is_told = is_over_.load() || is_hurried_.load();
+        if (awaited.empty() || is_told || monotonic_now() >= deadline) return !is_over_.load();
+        polled.assign(1, {told_.descriptor(), POLLIN, 0});
+        for (const Awaited& one : awaited) {
+            if (!one.has_ended) polled.push_back({one.before->command.descriptor(), POLLIN, 0});
+        }
         std::ignore = poll(polled.data(), polled.size(), pause_ms);
     }
-    return !is_over_.load();
 }
 
 } // namespace hapnet::net

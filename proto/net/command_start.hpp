@@ -10,27 +10,30 @@
 #include <chrono>
 #include <exception>
 #include <functional>
-#include <optional>
 #include <thread>
+#include <vector>
 
 namespace hapnet::net {
 
-/// Starts one or two commands on a thread of its own. Starting a program and looking for its
+/// Starts commands on a thread of its own. Starting a program and looking for its
 /// listener take milliseconds, in which the thread that relays their frames would be late.
 class CommandStart {
 public:
     /// A command that starts first.
     struct Before {
         ChildCommand& command;
-        /// True once the last command may start. Called every 10 ms, on the thread of the start.
+        /// True once the last command may start, as far as this one is concerned. Called every
+        /// 10 ms until then, on the thread of the start.
         std::function<bool()> is_ready;
-        /// The last command starts after this time in any case.
-        base::Duration patience = std::chrono::seconds{1};
     };
 
-    /// Starts `before`, if there is one, and `last` once `before` is ready or has ended. Until
-    /// is_done(), only the exit codes of both commands may be asked for elsewhere.
-    CommandStart(ChildCommand& last, std::optional<Before> before);
+    /// The last command starts after this time in any case.
+    static constexpr base::Duration patience = std::chrono::seconds{1};
+
+    /// Starts all of `before`, in their order, and `last` once each of them is ready, or has ended
+    /// and left nothing in the background that may be about to listen.
+    /// Until is_done(), only the exit codes of the commands may be asked for elsewhere.
+    CommandStart(ChildCommand& last, std::vector<Before> before);
     /// Ends the thread. Does not start what has not started yet.
     ~CommandStart();
     CommandStart(const CommandStart&) = delete;
@@ -49,7 +52,7 @@ private:
     [[nodiscard]] bool awaits_last();
 
     ChildCommand& last_;
-    std::optional<Before> before_;
+    std::vector<Before> before_;
     WakeEvent told_; // to hurry, or that it is over
     WakeEvent done_;
     std::atomic<bool> is_hurried_{false};

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <fstream>
 #include <linux/ethtool.h>
 #include <linux/if_link.h>
 #include <linux/rtnetlink.h>
@@ -193,7 +194,8 @@ std::size_t mtu_of(const std::string& interface)
 
 bool has_interface(const std::string& interface) { return if_nametoindex(interface.c_str()) != 0; }
 
-void make_veth(const std::string& here, const std::string& there, pid_t process_there)
+void make_veth(const std::string& here, const std::string& there, pid_t process_there,
+               std::span<const std::byte> machine_there)
 {
     NetlinkRequest request{RTM_NEWLINK, NLM_F_CREATE | NLM_F_EXCL, ifinfomsg{}};
     request.attribute(IFLA_IFNAME, here);
@@ -204,6 +206,7 @@ void make_veth(const std::string& here, const std::string& there, pid_t process_
     request.append(ifinfomsg{});
     request.attribute(IFLA_IFNAME, there);
     request.attribute(IFLA_NET_NS_PID, static_cast<std::uint32_t>(process_there));
+    if (!machine_there.empty()) request.attribute(IFLA_ADDRESS, machine_there);
     request.end(peer);
     request.end(data);
     request.end(info);
@@ -265,6 +268,11 @@ void add_default_route(const std::string& interface, const std::string& router)
     request.attribute(RTA_GATEWAY, ip.used());
     request.attribute(RTA_OIF, static_cast<std::uint32_t>(index_of(interface)));
     require(request.ask(), fmt::format("cannot route by {}", router));
+}
+
+void ignore_router_advertisements(const std::string& interface)
+{
+    std::ofstream{fmt::format("/proc/sys/net/ipv6/conf/{}/accept_ra", interface)} << "0";
 }
 
 void switch_off_offloads(const std::string& interface)

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <sys/types.h>
 
@@ -17,8 +19,10 @@ namespace hapnet::net {
 [[nodiscard]] bool has_interface(const std::string& interface);
 
 /// Makes two interfaces that are joined: what is sent on one arrives at the other. The second one
-/// is made in the network namespace of another process.
-void make_veth(const std::string& here, const std::string& there, pid_t process_there);
+/// is made in the network namespace of another process, with this hardware address; empty: the
+/// kernel makes one up.
+void make_veth(const std::string& here, const std::string& there, pid_t process_there,
+               std::span<const std::byte> machine_there = {});
 
 void set_up(const std::string& interface);
 
@@ -32,6 +36,10 @@ void add_group_routes(const std::string& interface);
 
 /// Sends what is for no known network to this router.
 void add_default_route(const std::string& interface, const std::string& router);
+
+/// It takes no addresses and routes from what routers of IPv6 say, as far as the system lets it be
+/// told so; throws nothing.
+void ignore_router_advertisements(const std::string& interface);
 
 /// Work that the kernel leaves to a device, off: checksums, and frames that are cut up or put
 /// together there. Then what leaves is what would be on a wire. Throws nothing: features that the

@@ -14,7 +14,7 @@ namespace hapnet::net {
 
 bool wait_readable(std::span<const int> descriptors, std::optional<base::TimePoint> deadline)
 {
-    std::array<pollfd, 8> polled{};
+    std::array<pollfd, descriptors_max> polled; // NOLINT(*-member-init): as many as are used
     base::ensure(descriptors.size() <= polled.size());
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
         polled[i] = {.fd = descriptors[i], .events = POLLIN, .revents = 0};

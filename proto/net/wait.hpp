@@ -4,10 +4,14 @@
 
 #include "proto/base/time.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
 namespace hapnet::net {
+
+/// The most descriptors that wait_readable() takes.
+inline constexpr std::size_t descriptors_max = 32;
 
 /// Sleeps until one of the descriptors is readable or `deadline` has come, whichever is first;
 /// nullopt waits for the descriptors alone. A signal may end it early. Returns whether one is

@@ -72,16 +72,24 @@ class Emulator(Daemon):
         *,
         for_: Optional[str] = None,
         flow: Optional[str] = None,
+        regime: Optional[str] = None,
         files: Optional[Mapping[str, str]] = None,
         **settings: str,
     ) -> Reply:
         """Changes conditions from the next datagram on: `set(loss="5%", up_delay="80ms")`, or
-        those of a flow: `set(flow="voice", up_delay="80ms")`. With `for_="2s"` they end by
-        themselves. `files`: the texts of files that laws name, by these names, 1 MiB together at
-        most. The reply says from which datagram on they hold."""
+        those of a flow: `set(flow="voice", up_delay="80ms")`, or of a regime: `set(regime="bad",
+        up_delay="80ms")`. With `for_="2s"` they end by themselves. `files`: the texts of
+        files that laws name, by these names, 1 MiB together at most. The reply says from which
+        datagram on they hold."""
         before = "" if flow is None else f"flow.{flow}."
+
+        def full(key: str) -> str:
+            way, dot, name = key.rpartition(".")
+            of = "" if regime is None else f"regime.{regime}."
+            return f"{before}{way}{dot}{of}{name}"
+
         members: Dict[str, Any] = {
-            "settings": {before + key_of(key): str(value) for key, value in settings.items()}
+            "settings": {full(key_of(key)): str(value) for key, value in settings.items()}
         }
         if for_ is not None:
             members["for"] = for_

@@ -55,7 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::uint8_t byte : std::span{data, size}) bytes += static_cast<char>(byte);
     const auto end = std::min(bytes.find('\n'), bytes.size());
     const auto format = emulator::parse_format(bytes.substr(0, end));
-    const auto text = emulator::plain_text(bytes.substr(std::min(end + 1, bytes.size())));
+    const auto text = base::plain_text(bytes.substr(std::min(end + 1, bytes.size())));
     if (!format || !text) {
         base::ensure(!(format ? text.error() : format.error()).message.empty());
         return 0;

@@ -171,6 +171,7 @@ with Link("lte", seed=1) as link:
     link.push(UP, b"hello", now=0.0)
     print("through the library:", link.pop(now=9.0))' ||
     fail "python3-hapnet does not find libhapnet-link0"
+inside hapnet-study --version || fail "python3-hapnet brings no hapnet-study"
 inside test -s /usr/include/hapnet_link.h || fail "hapnet-dev has no hapnet_link.h"
 grep -q three.module.min.js "$root/usr/bin/hapnet-web" ||
     fail "the page of hapnet-web has no modules"

@@ -11,6 +11,7 @@ try_wheel() {
     /usr/bin/python3 -m venv --without-pip "$3"
     /usr/bin/python3 -m pip --quiet --disable-pip-version-check --python "$3/bin/python" install \
         --no-index --no-cache-dir "$1" || fail "${1##*/} cannot be installed"
+    "$3/bin/hapnet-study" --version || fail "${1##*/} brings no hapnet-study"
     HAPNET_BIN=$2 "$3/bin/python" -I - "$3" <<'PYTHON' || fail "${1##*/} does not drive the emulator"
 import sys
 

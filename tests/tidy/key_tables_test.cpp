@@ -14,6 +14,7 @@
 #include "emulator/tools/probe_statistics.hpp"
 #include "emulator/tools/verify/verify.hpp"
 #include "lab/experiment/fields.hpp"
+#include "lab/hands/manifest.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/fields.hpp"
@@ -156,6 +157,9 @@ std::vector<KeyTable> tables_of_outputs()
         {"probe", output::key_table<emulator::tools::ProbeReport>()},
         {"emulator-frame", output::key_table<emulator::EmulatorFrame>()},
         {"emulator-frame-way", output::key_table<emulator::WayFrame>()},
+        {"hands", output::key_table<lab::hands::Manifest>()},
+        {"hands-trial", output::key_table<lab::hands::ImportedTrial>()},
+        {"hands-hand", output::key_table<lab::hands::ImportedHand>()},
     };
 }
 
@@ -182,6 +186,7 @@ std::vector<KeyTable> tables_of_inputs()
                  emulator::Duplication, emulator::Reordering>("stage")},
         {"rate-trace", rows_of<emulator::RateTraceLaw>()},
         {"flow", rows_of<emulator::Flow>()},
+        {"regime", rows_of<emulator::Regime>()},
         {"scene", rows_of<scene::Description>()},
         {"hips", rows_of<scene::HandDescription>()},
         {"hand", rows_of<scene::Feel>()},
@@ -224,9 +229,9 @@ const std::set<std::string>& without_table()
         // parts of the outputs above
         "Counters", "ProgramReport", "EndsReport", "FilesReport", "StreamReport", "TimesReport",
         "DelayReport", "CorrelationAt", "LossWhenSlow", "ReorderReport", "Configuration",
-        "FirstDatagrams", "CourseReport", "InterfaceReports", "FlowReport", "RealTimeReport",
-        "DelaySpread", "LateSpread", "PathFrame", "Precision", "LossReport", "ProbeDelays",
-        "ProbeWay", "ProbeSummary",
+        "FirstDatagrams", "CourseReport", "RegimeReport", "LinkEnds", "FlowReport",
+        "RealTimeReport", "DelaySpread", "LateSpread", "PathFrame", "Precision", "LossReport",
+        "ProbeDelays", "ProbeWay", "ProbeSummary",
         // JSON, CSV and the settings in a record's header
         "BuildReport", "TickFrame", "PeerConfiguration", "SessionReport", "ClockReport",
         "AgeReport", "PathTimes", "InwardPath", "OtherReport", "MessagesReport", "ForceReport",
@@ -251,11 +256,11 @@ const std::set<std::string>& with_table()
         "BaseOptions", "DeadReckoningOptions", "EstimatorPredictorOptions", "RemoteProxyOptions",
         "BaseTdpaOptions", "WaveOptions", "CoupleOptions", "LagOptions", "RollbackOptions",
         "SharedObjectOptions", "WrittenLimits", "Operator", "TaskOptions", "Axis", "Mtu", "Rate",
-        "Corruption", "Duplication", "Reordering", "RateTraceLaw", "Flow", "QueueControl",
+        "Corruption", "Duplication", "Reordering", "RateTraceLaw", "Flow", "Regime", "QueueControl",
         "Description", "HandDescription", "Feel", "FieldDescription", "PlaneDescription",
         "BodyDescription", "PartDescription", "Density", "Array", "Criteria", "Experiment",
         "Table1", "Limits", "Trajectories", "ImpairmentGrid", "Calibration", "Claims", "TickRow",
-        "BodyRow", "MessageRow", "SessionRow",
+        "BodyRow", "MessageRow", "SessionRow", "Manifest", "ImportedTrial", "ImportedHand",
         // that programs print
         "RunStatistics", "DirectionReport", "ChangeReport", "StreamShape", "StretchReport",
         "ClientReport", "LinkReport", "InterfaceReport", "CheckReport", "PredictionReport",

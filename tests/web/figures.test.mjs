@@ -85,6 +85,19 @@ test("an axis spans its levels, bands and range too, and never nothing", () => {
     [[0, 1], [0, 320], [-5, 0]], "a single value stands at the end of an axis from zero");
 });
 
+test("the name of a level makes way for points", () => {
+  const anchorOf = (points, more = {}) => {
+    const svg = drawnCurves(figure([curve("base", points, more)],
+      { levels: [{ y: 5, name: "usable" }], y: { label: "", range: [0, 10] } }), size);
+    const all = (node) => [node, ...node.children.flatMap(all)];
+    return all(svg).find((node) => node.textContent === "usable").attributes["text-anchor"];
+  };
+  assert.equal(anchorOf([[0, 1], [10, 1]]), "end");
+  assert.equal(anchorOf([[0, 1], [10, 5.3]]), "start");
+  assert.equal(anchorOf([], { scatter: [[0, 1], [9.9, 5.3]] }), "start");
+  assert.equal(anchorOf([[0, 5.3], [10, 5.3]]), "end", "no room at either end");
+});
+
 test("marks are round and lie within", () => {
   assert.deepEqual(roundMarks(-0.3, 0.31, 5), [-0.2, 0, 0.2]);
   assert.deepEqual(roundMarks(0, 30, 5), [0, 10, 20, 30]);

@@ -124,7 +124,7 @@ export const plotsOf = (model, path, ends) => [
     source: "datagrams that the emulator counted",
     needsEmulator: true,
     span: 1,
-    curves: wayCurves("spread_ms", ends)(path),
+    curves: [...wayCurves("spread_ms", ends)(path), ...asked("asked_spread_ms", ends)(path)],
   },
   {
     key: "force",

@@ -34,19 +34,44 @@ export const askedDelay = (conditions) => {
   return [mean, Math.max(0, mean - spread), mean + spread];
 };
 
-/** Keeps the last second of each direction, for shares and spreads that one frame cannot show. */
+/** How far the longest of the delays asked for is from the shortest, in ms. */
+export const askedSpread = (conditions) => {
+  const [, least, most] = askedDelay(conditions);
+  return most - least;
+};
+
+/**
+ * Keeps the last second of each direction, for shares and spreads that one frame cannot show. The
+ * spread is that of one setting: what was sent under an earlier one does not count once the last of
+ * it can have arrived.
+ */
 export class RowMaker {
   constructor() {
     this.recent = new Map();
+    this.settings = new Map();
   }
 
   clear() {
     this.recent.clear();
+    this.settings.clear();
   }
 
-  #lastSecond(name, at, direction) {
+  /** The time from which all delays are of the newest setting of a direction. */
+  #settled(name, at, asked) {
+    const setting = `${asked.delay} ${asked.jitter}`;
+    const longest = askedDelay(asked)[2];
+    const before = this.settings.get(name);
+    if (before?.setting === setting) return before.from;
+    const rest = Number.isFinite(before?.longest) ? before.longest / 1000 : 0;
+    const from = before ? at + rest : -Infinity;
+    this.settings.set(name, { setting, longest, from });
+    return from;
+  }
+
+  #lastSecond(name, at, direction, asked) {
     const recent = this.recent.get(name) ?? [];
     this.recent.set(name, recent);
+    const from = this.#settled(name, at, asked);
     recent.push({
       at,
       received: direction.received,
@@ -57,7 +82,7 @@ export class RowMaker {
     while (recent[0].at < at - 1) recent.shift();
     const received = recent.reduce((total, one) => total + one.received, 0);
     const dropped = recent.reduce((total, one) => total + one.dropped, 0);
-    const delays = recent.filter((one) => one.most >= 0);
+    const delays = recent.filter((one) => one.most >= 0 && (at < from || one.at >= from));
     const spread =
       Math.max(...delays.map((one) => one.most)) - Math.min(...delays.map((one) => one.least));
     return {
@@ -82,13 +107,15 @@ export class RowMaker {
       for (const way of ["up", "down"]) {
         const direction = path[way];
         if (!direction) continue;
-        const { loss, spread } = this.#lastSecond(`${way}:${path.name}`, frame.at_s, direction);
         const asked = conditionsOf(conditions, path.name, way);
+        const { loss, spread } =
+          this.#lastSecond(`${way}:${path.name}`, frame.at_s, direction, asked);
         row[`${way}.delay_ms:${path.name}`] = band(direction.delay_ms);
         row[`${way}.asked_ms:${path.name}`] = askedDelay(asked);
         row[`${way}.loss:${path.name}`] = loss;
         row[`${way}.asked_loss:${path.name}`] = lossOf(asked.loss);
         row[`${way}.spread_ms:${path.name}`] = spread;
+        row[`${way}.asked_spread_ms:${path.name}`] = askedSpread(asked);
         row[`${way}.late_us:${path.name}`] = direction.late_us?.max;
       }
     }

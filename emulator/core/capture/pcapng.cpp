@@ -242,7 +242,11 @@ void append_packet(std::string& bytes, const CapturedPacket& packet, base::Durat
     const auto lengths_at = bytes.size();
     put(bytes, std::uint64_t{0}); // captured and original length, once they are known
     const auto start = bytes.size();
-    put_ip_packet(bytes, packet);
+    if (packet.is_ip) {
+        bytes += text_of(packet.payload);
+    } else {
+        put_ip_packet(bytes, packet);
+    }
     const auto length = bytes.size() - start;
     for (std::size_t i = 0; i < 4; ++i) {
         bytes[lengths_at + i] = static_cast<char>(length >> (8 * i) & 0xffU);

@@ -16,8 +16,8 @@
 namespace hapnet::emulator {
 
 // A capture as pcapng (draft-ietf-opsawg-pcapng), which Wireshark and tshark open: two interfaces,
-// "side A" and "side B", of raw IP packets, whole, with times in nanoseconds. The relay sees of IP
-// headers only their marks: the rest is made up, with correct lengths and checksums.
+// "side A" and "side B", of raw IP packets, whole, with times in nanoseconds. A relay of datagrams
+// sees of IP headers only their marks: the rest is made up, with correct lengths and checksums.
 
 enum class CaptureSide : std::uint8_t { a, b };
 
@@ -28,7 +28,7 @@ struct UdpAddress {
     bool is_v6 = false;
 };
 
-/// A datagram that came or went.
+/// A datagram or an IP packet that came or went.
 struct CapturedPacket {
     CaptureSide side = CaptureSide::a; // whose socket it passed
     bool is_outbound = false;          // sent by the emulator
@@ -38,6 +38,7 @@ struct CapturedPacket {
     std::span<const std::byte> payload{}; // at most payload_bytes_max
     std::uint32_t pair = 0;               // of sides, where there are several
     base::IpMarks marks{};                // hop limit 0: 64
+    bool is_ip = false; // the payload is the whole IP packet: no addresses and marks are needed
 
     static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
 };
@@ -53,9 +54,9 @@ struct CaptureNames {
 void append_capture_head(std::string& bytes, std::string_view program,
                          std::span<const CaptureNames> pairs);
 
-/// Appends one packet, with a comment of at most 65535 bytes. An IPv4 packet when both addresses
-/// are IPv4, or IPv4 in an IPv6 address (::ffff:1.2.3.4); otherwise IPv6. `since_1970`: of the time
-/// point 0, such that no packet is from before 1970.
+/// Appends one packet, with a comment of at most 65535 bytes. A datagram is an IPv4 packet when
+/// both addresses are IPv4, or IPv4 in an IPv6 address (::ffff:1.2.3.4); otherwise IPv6.
+/// `since_1970`: of the time point 0, such that no packet is from before 1970.
 void append_packet(std::string& bytes, const CapturedPacket& packet, base::Duration since_1970,
                    std::string_view comment);
 

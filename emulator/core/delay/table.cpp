@@ -59,7 +59,7 @@ base::Result<void> TableLaw::load(const base::Reading& reading)
 {
     const auto format = parse_format(columns);
     if (!format) return tl::unexpected{format.error()};
-    const auto text = open_measured(reading, file);
+    const auto text = base::open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
     const bool is_dist = file.ends_with(".dist");
     auto read = is_dist ? parse_dist(*text) : parse_samples(*text, *format);
@@ -109,7 +109,7 @@ base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view t
 {
     constexpr std::string_view blanks = " \t\r\f\v";
     std::vector<double> values;
-    LineReader lines{text};
+    base::LineReader lines{text};
     while (const auto line = lines.next()) {
         auto rest = *line;
         while (!rest.empty()) {
@@ -117,7 +117,7 @@ base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view t
             std::int32_t value = 0;
             const auto [end, error] = std::from_chars(word.begin(), word.end(), value);
             if (error != std::errc{} || end != word.end()) {
-                return lines.fail(fmt::format("'{}' is not a whole number", shortened(word)));
+                return lines.fail(fmt::format("'{}' is not a whole number", base::shortened(word)));
             }
             if (values.size() == QuantileTable::values_max) return lines.fail(too_many_values);
             values.push_back(value);

@@ -75,7 +75,7 @@ base::Result<void> TraceLaw::load(const base::Reading& reading)
 {
     const auto format = parse_format(columns, timing.slot);
     if (!format) return tl::unexpected{format.error()};
-    const auto text = open_measured(reading, file);
+    const auto text = base::open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
     auto read = parse_delay_trace(*text, *format);
     if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};

@@ -57,7 +57,8 @@ void append_delivery(std::string& text, const Fate& fate)
 
 } // namespace
 
-void append_row(std::string& text, Direction direction, std::uint64_t number, const Fate& fate)
+void append_row(std::string& text, Direction direction, std::uint64_t number, const Fate& fate,
+                const RegimeNames* regimes)
 {
     text += to_text(direction);
     text += ',';
@@ -67,6 +68,10 @@ void append_row(std::string& text, Direction direction, std::uint64_t number, co
     text += ',';
     append_states(text, fate);
     text += ',';
+    if (regimes != nullptr) {
+        if (fate.regime > 0 && fate.regime <= regimes->size()) text += (*regimes)[fate.regime - 1U];
+        text += ',';
+    }
     if (fate.drop) {
         text += ",,,,";
     } else {
@@ -77,13 +82,9 @@ void append_row(std::string& text, Direction direction, std::uint64_t number, co
 
 std::string to_text(const Fates& fates)
 {
-    std::string text{fates_header};
-    text += '\n';
-    std::uint64_t number = 0;
-    for (const Fate& fate : fates.up) append_row(text, Direction::up, number++, fate);
-    number = 0;
-    for (const Fate& fate : fates.down) append_row(text, Direction::down, number++, fate);
-    return text;
+    FatesOfPaths only;
+    only.emplace("", fates);
+    return to_text(only);
 }
 
 // Reading.
@@ -116,16 +117,37 @@ std::string_view take(std::string_view& text, char separator)
     return taken;
 }
 
-base::Result<FateCells> columns_of(std::string_view line)
+/// `regime`: takes the cell of that column; null: there is none.
+base::Result<FateCells> columns_of(std::string_view line, std::string_view* regime)
 {
     const auto separators = std::count(line.begin(), line.end(), ',');
-    if (separators != column_count - 1) {
-        return base::fail(
-            fmt::format("expected {} columns, found {}", int{column_count}, separators + 1));
+    const int count = column_count + (regime != nullptr ? 1 : 0);
+    if (separators != count - 1) {
+        return base::fail(fmt::format("expected {} columns, found {}", count, separators + 1));
     }
     FateCells columns;
-    for (auto& column : columns) column = take(line, ',');
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        columns[i] = take(line, ',');
+        if (i == states && regime != nullptr) *regime = take(line, ',');
+    }
     return columns;
+}
+
+/// What a fate counts for the regime in a cell.
+base::Result<std::uint8_t> regime_of(std::string_view cell, RegimeNames& known)
+{
+    if (cell.empty()) return 0;
+    const auto found = std::ranges::find(known, cell);
+    if (found == known.end()) {
+        if (!validate_flow_name(cell) || known.size() == regimes_max) {
+            return base::fail(fmt::format("{}: expected one of at most {} names of regimes, found "
+                                          "'{}'",
+                                          regime_column, regimes_max, cell));
+        }
+        known.emplace_back(cell);
+        return static_cast<std::uint8_t>(known.size());
+    }
+    return static_cast<std::uint8_t>(found - known.begin() + 1);
 }
 
 /// A whole number without leading zeros.
@@ -261,9 +283,10 @@ base::Result<Fate> fate_of(const FateCells& columns)
 }
 
 /// Adds the fate in `line` to those before it.
-base::Result<void> read_row(std::string_view line, Fates& fates)
+base::Result<void> read_row(std::string_view line, Fates& fates, bool has_regimes)
 {
-    const auto columns = columns_of(line);
+    std::string_view regime;
+    const auto columns = columns_of(line, has_regimes ? &regime : nullptr);
     if (!columns) return tl::unexpected{columns.error()};
     const auto way = base::named<Direction>((*columns)[direction]);
     if (!way) {
@@ -280,6 +303,9 @@ base::Result<void> read_row(std::string_view line, Fates& fates)
     }
     auto fate = fate_of(*columns);
     if (!fate) return tl::unexpected{fate.error()};
+    const auto of = regime_of(regime, way == Direction::up ? fates.regimes_up : fates.regimes_down);
+    if (!of) return tl::unexpected{of.error()};
+    fate->regime = *of;
     list.push_back(*fate);
     return {};
 }
@@ -331,7 +357,7 @@ base::Result<void> read_row_of_path(std::string_view row, FateColumns columns, F
         last = &place->second;
         path = name;
     }
-    return read_row(row, *last);
+    return read_row(row, *last, columns.has_regimes);
 }
 
 } // namespace
@@ -339,15 +365,48 @@ base::Result<void> read_row_of_path(std::string_view row, FateColumns columns, F
 base::Result<Fates> parse_fates(std::string_view text)
 {
     Fates fates;
-    return read_rows(text, fates_header, [&](std::string_view row) { return read_row(row, fates); })
+    return read_rows(text, fates_header,
+                     [&](std::string_view row) { return read_row(row, fates, false); })
         .map([&] { return std::move(fates); });
+}
+
+base::Result<Fates> with_regimes(Fates fates, const RegimeNames& up, const RegimeNames& down)
+{
+    const auto recount = [](std::vector<Fate>& list, const RegimeNames& from,
+                            const RegimeNames& to) -> base::Result<void> {
+        std::vector<std::uint8_t> counts{0};
+        for (const std::string& name : from) {
+            const auto found = std::ranges::find(to, name);
+            if (found == to.end()) {
+                return base::fail(fmt::format("these fates are of a run with the regime '{}', "
+                                              "which the profile does not have",
+                                              name));
+            }
+            counts.push_back(static_cast<std::uint8_t>(found - to.begin() + 1));
+        }
+        for (Fate& fate : list) fate.regime = counts[fate.regime];
+        return {};
+    };
+    for (const auto& done :
+         {recount(fates.up, fates.regimes_up, up), recount(fates.down, fates.regimes_down, down)}) {
+        if (!done) return tl::unexpected{done.error()};
+    }
+    fates.regimes_up = up;
+    fates.regimes_down = down;
+    return fates;
 }
 
 std::string head_of_fates(FateColumns columns)
 {
+    constexpr std::string_view last_before_regime = "states,";
+    std::string head{fates_header};
+    if (columns.has_regimes) {
+        head.insert(head.find(last_before_regime) + last_before_regime.size(),
+                    fmt::format("{},", regime_column));
+    }
     return fmt::format("{}{}{}{}{}", columns.has_paths ? path_column : "",
                        columns.has_paths ? "," : "", columns.has_flows ? flow_column : "",
-                       columns.has_flows ? "," : "", fates_header);
+                       columns.has_flows ? "," : "", head);
 }
 
 std::string row_begin(FateColumns columns, std::string_view path)
@@ -365,15 +424,20 @@ std::string to_text(const FatesOfPaths& fates)
     for (const auto& [path, own] : fates) {
         columns.has_paths = columns.has_paths || !parts_of(path).path.empty();
         columns.has_flows = columns.has_flows || !parts_of(path).flow.empty();
+        columns.has_regimes =
+            columns.has_regimes || !own.regimes_up.empty() || !own.regimes_down.empty();
     }
     std::string text = head_of_fates(columns) + "\n";
     for (const auto& [path, own] : fates) {
         const auto begin = row_begin(columns, path);
         for (const Direction direction : {Direction::up, Direction::down}) {
+            const bool is_up = direction == Direction::up;
+            const RegimeNames& regimes = is_up ? own.regimes_up : own.regimes_down;
             std::uint64_t number = 0;
-            for (const Fate& fate : direction == Direction::up ? own.up : own.down) {
+            for (const Fate& fate : is_up ? own.up : own.down) {
                 text += begin;
-                append_row(text, direction, number++, fate);
+                append_row(text, direction, number++, fate,
+                           columns.has_regimes ? &regimes : nullptr);
             }
         }
     }
@@ -382,10 +446,11 @@ std::string to_text(const FatesOfPaths& fates)
 
 base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text)
 {
+    const auto head = text.substr(0, text.find('\n'));
+    const auto has = [&](std::string_view column) { return head.find(column) != head.npos; };
     const FateColumns columns{.has_paths = text.starts_with(path_column),
-                              .has_flows = text.substr(0, text.find('\n')).find(",flow,") !=
-                                               std::string_view::npos ||
-                                           text.starts_with(flow_column)};
+                              .has_flows = has(",flow,") || text.starts_with(flow_column),
+                              .has_regimes = has(",regime,")};
     if (columns == FateColumns{}) {
         return parse_fates(text).map([](Fates only) {
             FatesOfPaths all;

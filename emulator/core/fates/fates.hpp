@@ -40,14 +40,20 @@ inline constexpr std::string_view fates_header =
 /// The longest time that a fate may hold: so that no sum of them and of a moment overflows.
 inline constexpr base::Duration fate_time_max = std::chrono::hours{24 * 1000};
 
+/// The names of the regimes of one direction, in their order.
+using RegimeNames = std::vector<std::string>;
+
 /// Appends the row of a fate, with its end of line, to `text`; allocates only when `text` has to
-/// grow.
-void append_row(std::string& text, Direction direction, std::uint64_t number, const Fate& fate);
+/// grow. `regimes`: of its direction, in a table with that column; null: it has none.
+void append_row(std::string& text, Direction direction, std::uint64_t number, const Fate& fate,
+                const RegimeNames* regimes = nullptr);
 
 /// What became of the datagrams of both directions: fate n is that of datagram n.
 struct Fates {
     std::vector<Fate> up;
     std::vector<Fate> down;
+    RegimeNames regimes_up{}; // that their fates count, in the order in which they were met
+    RegimeNames regimes_down{};
 
     friend bool operator==(const Fates&, const Fates&) = default;
 };
@@ -59,16 +65,24 @@ struct Fates {
 /// would not have written.
 [[nodiscard]] base::Result<Fates> parse_fates(std::string_view text);
 
+/// The same fates, whose regimes are counted as in these lists. The error: they speak of others.
+[[nodiscard]] base::Result<Fates> with_regimes(Fates fates, const RegimeNames& up,
+                                               const RegimeNames& down);
+
 // A run with several paths has one more column in front, the name of the path; a run with flows
-// has another one, the name of the flow, or "rest". The tables of the paths follow each other.
+// has another one, the name of the flow, or "rest". A run with regimes has one behind the states,
+// the name of the regime; it is empty where a direction has none. The tables of the paths follow
+// each other.
 
 inline constexpr std::string_view path_column = "link";
 inline constexpr std::string_view flow_column = "flow";
+inline constexpr std::string_view regime_column = "regime";
 
-/// The columns before those of a single path.
+/// The columns besides those of a single path without regimes.
 struct FateColumns {
     bool has_paths = false;
     bool has_flows = false;
+    bool has_regimes = false;
 
     friend bool operator==(const FateColumns&, const FateColumns&) = default;
 };

@@ -10,22 +10,22 @@
 
 namespace hapnet::emulator {
 
-base::Result<void> validate_flow_name(std::string_view name)
+base::Result<void> validate_name(std::string_view name, std::string_view what)
 {
     constexpr std::size_t longest = 32;
-    constexpr std::array<std::string_view, 6> taken{"up",   "down", "both",
-                                                    "flow", "all",  rest_of_flows};
+    constexpr std::array<std::string_view, 7> taken{"up",  "down",        "both",  "flow",
+                                                    "all", rest_of_flows, "regime"};
     const auto fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
     };
     if (name.empty() || name.size() > longest || !std::ranges::all_of(name, fits)) {
-        return base::fail(fmt::format("{} is not the name of a flow: write 1 to {} characters of "
+        return base::fail(fmt::format("{} is not the name of a {}: write 1 to {} characters of "
                                       "a-z, 0-9 and -",
-                                      base::in_quotes(name), longest));
+                                      base::in_quotes(name), what, longest));
     }
     if (std::ranges::find(taken, name) == taken.end()) return {};
     return base::fail(
-        fmt::format("a flow cannot be called '{}', as that has a meaning in keys", name));
+        fmt::format("a {} cannot be called '{}', as that has a meaning in keys", what, name));
 }
 
 void FlowNameFormat::read(const base::Node& node, std::string& target, base::Reading& reading) const

@@ -20,7 +20,12 @@ inline constexpr std::size_t flows_max = 16;
 inline constexpr std::string_view rest_of_flows = "rest";
 
 /// Refuses a name that has other characters than a-z, 0-9 and '-', or that keys of profiles use.
-[[nodiscard]] base::Result<void> validate_flow_name(std::string_view name);
+/// `what` it is to be the name of, for people: "flow".
+[[nodiscard]] base::Result<void> validate_name(std::string_view name, std::string_view what);
+[[nodiscard]] inline base::Result<void> validate_flow_name(std::string_view name)
+{
+    return validate_name(name, "flow");
+}
 
 struct FlowNameFormat {
     void read(const base::Node& node, std::string& target, base::Reading& reading) const;

@@ -73,7 +73,7 @@ base::Result<LossTrace> parse_loss_table(std::string_view text, const TableForma
     auto delays = read_trace_rows(text, Measure::delay, format);
     if (delays) return trace_of(std::move(delays->lost));
     const bool has_delays = std::ranges::any_of(
-        format.columns, [](const Column& column) { return column.what == "delay"; });
+        format.columns, [](const base::Column& column) { return column.what == "delay"; });
     return tl::unexpected{has_delays ? delays.error() : rows.error()};
 }
 
@@ -81,7 +81,7 @@ base::Result<void> TraceLoss::load(const base::Reading& reading)
 {
     const auto format = parse_format(columns);
     if (!format) return tl::unexpected{format.error()};
-    const auto text = open_measured(reading, file);
+    const auto text = base::open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
     // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
     const bool is_table = !columns.empty() || text->find_first_of(",abcdefghijklmnopqrstuvwxyz") <

@@ -32,11 +32,18 @@ std::vector<Setting> read_flow_settings(TableReader& table, const std::string& p
     return settings;
 }
 
+/// Whether it, or a regime in it, sets a rate or a queue.
+bool has_rate(const Patch& patch)
+{
+    const auto sets_rate = [](const Regime& regime) { return regime.own.rate.has_value(); };
+    return patch.rate || patch.queue ||
+           (patch.regimes && std::ranges::any_of(patch.regimes->all, sets_rate));
+}
+
 /// What contradicts itself in a flow; "": nothing.
 std::string contradiction_of(const Flow& flow, const PathPatch& own)
 {
     const bool has_settings = own.up != Patch{} || own.down != Patch{};
-    const auto has_rate = [](const Patch& patch) { return patch.rate || patch.queue; };
     if (flow.passes && (has_settings || flow.shares_rate)) {
         return "pass = true leaves its packets untouched: write that alone, or conditions";
     }
@@ -126,7 +133,7 @@ base::Result<void> validate_patch(const Patch& patch, std::string_view path, con
                                       "it conditions",
                                       flow));
     }
-    if (!is_in(names.without_rate) || (!patch.rate && !patch.queue)) return {};
+    if (!is_in(names.without_rate) || !has_rate(patch)) return {};
     return base::fail(fmt::format("the flow {} shares the rate and the queue of the profile: set "
                                   "those, or leave out rate = \"shared\"",
                                   flow));

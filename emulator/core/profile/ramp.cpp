@@ -112,6 +112,11 @@ std::optional<QueueControl> between(const QueueControl& a, const QueueControl& b
     return only_equal(a, b);
 }
 
+std::optional<Regimes> between(const Regimes& a, const Regimes& b, double)
+{
+    return only_equal(a, b);
+}
+
 std::optional<Order> between(Order a, Order b, double) { return only_equal(a, b); }
 
 std::optional<Rate> between(const Rate& a, const Rate& b, double progress)
@@ -151,6 +156,7 @@ std::string obstacle(const Rate& a, const Rate& b)
 }
 std::string obstacle(const Mtu&, const Mtu&) { return ""; }
 std::string obstacle(const QueueControl&, const QueueControl&) { return ""; }
+std::string obstacle(const Regimes&, const Regimes&) { return ""; }
 std::string obstacle(Order, Order) { return ""; }
 
 } // namespace

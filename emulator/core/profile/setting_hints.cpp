@@ -85,6 +85,7 @@ std::vector<PlaceOfKeys> places_of_keys()
             {{"require"}, "it belongs to a check: write it below [[check]]"},
             {{"peers"}, "write it below [matrix]"},
             {{"match", "pass"}, "it belongs to a flow: write it below [[flow]]"},
+            {{"stay", "to"}, "it belongs to a regime: write it below [[up.regime]]"},
             {{"flow"}, "write flows as [[flow]], at the top level"}};
 }
 

@@ -11,10 +11,15 @@
 #include <algorithm>
 #include <array>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::emulator {
 
 namespace {
+
+/// How the regimes of both directions may change.
+constexpr std::string_view together = "together";
+constexpr std::string_view apart = "apart";
 
 /// Of the rate; a trace has none.
 constexpr std::string_view limit_key = "limit";
@@ -161,6 +166,30 @@ void read_correlation_time(const Node& node, DirectionSettings& settings, Readin
     settings.correlation_time = time;
 }
 
+std::string setting_text(const Regimes& regimes, std::string_view /*key*/)
+{
+    return regimes_text(regimes);
+}
+
+/// A list is all of them; a table has conditions of those that are there.
+void read_regime_setting(const Node& node, DirectionSettings& settings, Reading& reading)
+{
+    if (std::holds_alternative<Node::Table>(node.value)) {
+        settings.of_regimes = read_regime_patches(node, reading);
+    } else {
+        settings.patch.regimes = Regimes{read_regimes(node, reading)};
+    }
+}
+
+void read_togetherness(const Node& node, DirectionSettings& settings, Reading& reading)
+{
+    const auto* text = std::get_if<std::string>(&node.value);
+    if (text == nullptr || (*text != together && *text != apart)) {
+        return base::complain_of(node, fmt::format("\"{}\" or \"{}\"", together, apart), reading);
+    }
+    settings.are_together = *text == together;
+}
+
 void add_bursts(std::vector<LossLaw>& laws, const std::vector<LossLaw>& bursts)
 {
     std::erase_if(laws, [](const LossLaw& law) {
@@ -180,8 +209,25 @@ void for_each_of(Path& path, std::optional<Direction> direction, Use use)
 /// The setting that a key names.
 struct Target {
     Way way;
-    std::string name; // one of setting_keys
+    std::string regime{}; // that it is of; empty: of the direction
+    std::string name;     // one of setting_keys
 };
+
+/// Takes "regime.NAME" off the end of `front`, and returns the name; "": it does not end so.
+std::string_view take_regime(std::string_view& front)
+{
+    constexpr std::string_view word = "regime.";
+    const auto dot = front.rfind('.');
+    if (dot == std::string_view::npos) return "";
+    const auto name = front.substr(dot + 1);
+    const auto before = front.substr(0, dot + 1);
+    const auto way = parse_way(name);
+    if (!before.ends_with(word) || (way && way->path.empty())) return "";
+    const auto rest = before.substr(0, before.size() - word.size());
+    if (!rest.empty() && !rest.ends_with('.')) return "";
+    front = rest.substr(0, rest.size() - (rest.empty() ? 0 : 1));
+    return name;
+}
 
 bool is_setting(std::string_view name)
 {
@@ -214,12 +260,15 @@ base::Result<Target> target_of(std::string_view key, const PathNames& names)
         return base::fail("seed: the seed of a run cannot change: start the emulator with --seed");
     }
     const auto dot = key.rfind('.');
-    const auto front = dot == std::string_view::npos ? "" : key.substr(0, dot);
+    const auto whole_front = dot == std::string_view::npos ? "" : key.substr(0, dot);
+    auto front = whole_front;
+    const auto regime = take_regime(front);
     const auto name = with_underscores(dot == std::string_view::npos ? key : key.substr(dot + 1));
     const auto way = parse_way(front);
     const bool can_be_many = !names.links.empty() || names.clients || names.any;
-    const bool is_other = way && (is_pair(way->path) || way->path.starts_with("client.") ||
-                                  !parts_of(way->path).flow.empty());
+    const bool is_other =
+        way && (is_pair(way->path) || is_of_commands(way->path) ||
+                way->path.starts_with("client.") || !parts_of(way->path).flow.empty());
     if (!way || !(names.contains(way->path) || can_be_many || is_other)) {
         return refusal_of_parts(key, front);
     }
@@ -227,14 +276,25 @@ base::Result<Target> target_of(std::string_view key, const PathNames& names)
         return base::fail(fmt::format("{}: {}", key, names.refusal(way->path)));
     }
     if (!is_setting(name)) {
-        const std::string_view in = front.empty() ? "" : key.substr(0, dot + 1);
+        const std::string_view in = whole_front.empty() ? "" : key.substr(0, dot + 1);
         if (const auto meant = base::nearest(name, setting_keys)) {
             return base::fail(
                 fmt::format("unknown key '{}': did you mean '{}{}'?", key, in, *meant));
         }
         return base::fail(fmt::format("unknown key '{}': {}", key, suggestion(name, setting_keys)));
     }
-    return Target{*way, name};
+    if (!regime.empty() && std::ranges::find(regime_keys, name) == regime_keys.end()) {
+        return base::fail(fmt::format("{}: a regime sets {}; the rest is of the direction, and the "
+                                      "course of the regimes is of the whole run",
+                                      key, fmt::join(regime_keys, ", ")));
+    }
+    return Target{*way, std::string{regime}, name};
+}
+
+/// Whether what it says of regimes depends on those that are there, or are said beside it.
+bool changes_regimes(const DirectionSettings& settings)
+{
+    return settings.patch.regimes || settings.are_together || !settings.of_regimes.empty();
 }
 
 /// Calls use(setting) for those that are for all paths or for the one of this name; of two that
@@ -252,6 +312,41 @@ void in_turn(std::span<const Setting> settings, std::string_view path, const Use
             }
         }
     }
+}
+
+/// What the settings say of regimes, over those that `path` has. `are_together`: whether they were.
+base::Result<void> set_regimes(Path& path, std::span<const Setting> settings, std::string_view name,
+                               bool are_together)
+{
+    base::Result<void> done;
+    in_turn(settings, name, [&](const Setting& setting) {
+        if (setting.settings.are_together) {
+            if (setting.direction) {
+                done = base::fail("regimes goes with both directions: write it below [both]");
+            }
+            are_together = *setting.settings.are_together;
+        }
+        for (const RegimePatch& patch : setting.settings.of_regimes) {
+            for_each_of(path, setting.direction, [&](Conditions& conditions) {
+                auto with = with_patch(conditions.regimes, patch);
+                if (!with) {
+                    done = tl::unexpected{with.error()};
+                } else {
+                    conditions.regimes = *std::move(with);
+                }
+            });
+        }
+    });
+    if (!done) return done;
+    path.up.regimes.are_together = path.down.regimes.are_together = are_together;
+    if (!are_together) return {};
+    if (path.up.regimes.empty() && path.down.regimes.empty()) {
+        return base::fail("regimes = \"together\" goes with regimes: write them as "
+                          "[[both.regime]]");
+    }
+    if (have_same_course(path.up.regimes, path.down.regimes)) return {};
+    return base::fail("regimes that change together have the same names, stays and weights both "
+                      "ways: write them as [[both.regime]]");
 }
 
 } // namespace
@@ -286,9 +381,13 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
         const Order order = read_order(node, reading);
         if (patch.order && *patch.order != order) contradict(node, reading);
         patch.order = order;
-    } else {
-        base::ensure(key == "reorder");
+    } else if (key == "reorder") {
         patch.reorder = read_stage<Reordering>(node, reading);
+    } else if (key == "regime") {
+        read_regime_setting(node, settings, reading);
+    } else {
+        base::ensure(key == "regimes");
+        read_togetherness(node, settings, reading);
     }
 }
 
@@ -325,6 +424,7 @@ SettingTexts setting_texts(const Patch& patch)
         texts[static_cast<std::size_t>(key - setting_keys.begin())] =
             setting_text(*value, slot.key);
     });
+    if (patch.regimes && patch.regimes->are_together) texts.back() = base::quoted(together);
     return texts;
 }
 
@@ -347,12 +447,17 @@ base::Result<Setting> parse_setting(std::string_view key, std::string_view value
     if (const auto valid = validate_patch(setting.settings.patch, setting.path, names); !valid) {
         return base::fail(fmt::format("{}: {}", key, valid.error().message));
     }
+    if (!target->regime.empty()) {
+        RegimePatch of_regime{target->regime, std::exchange(setting.settings.patch, {})};
+        setting.settings.of_regimes.push_back(std::move(of_regime));
+    }
     return setting;
 }
 
 base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
                                  std::string_view name)
 {
+    const bool were_together = path.up.regimes.are_together;
     in_turn(settings, name, [&](const Setting& setting) {
         for_each_of(path, setting.direction, [&](Conditions& conditions) {
             conditions = patched(std::move(conditions), setting.settings.patch);
@@ -376,11 +481,30 @@ base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
         is_one_lacking = is_one_lacking || !is_used;
     });
     if (is_one_lacking) return base::fail(std::string{nothing_to_correlate});
+    auto set = set_regimes(path, settings, name, were_together);
+    if (!set) return tl::unexpected{set.error()};
     if (std::max(path.up.loss.size(), path.down.loss.size()) > loss_laws_max) {
         return base::fail(
             fmt::format("a direction can have at most {} laws of loss", loss_laws_max));
     }
     return path;
+}
+
+base::Result<void> ensure_own_settings(std::span<const Setting> settings, std::string_view name,
+                                       const Path& path)
+{
+    base::Result<void> own;
+    in_turn(settings, name, [&](const Setting& setting) {
+        Patch patch = setting.settings.patch;
+        if (setting.settings.burst_loss) patch.loss = setting.settings.burst_loss;
+        for (const Direction direction : {Direction::up, Direction::down}) {
+            const bool is_up = direction == Direction::up;
+            if (!own || (setting.direction && *setting.direction != direction)) continue;
+            own = ensure_own(patch, is_up ? path.up.regimes : path.down.regimes,
+                             way_name(name, direction) + ".");
+        }
+    });
+    return own;
 }
 
 Patch patch_of(std::span<const Setting> settings, std::string_view name, Direction direction,
@@ -389,15 +513,18 @@ Patch patch_of(std::span<const Setting> settings, std::string_view name, Directi
     Patch patch;
     bool sets_bursts = false;
     bool sets_correlation = false;
+    bool sets_regimes = false;
     in_turn(settings, name, [&](const Setting& setting) {
         if (setting.direction && *setting.direction != direction) return;
         patch = merged(std::move(patch), setting.settings.patch);
         sets_bursts = sets_bursts || setting.settings.burst_loss;
         sets_correlation = sets_correlation || setting.settings.correlation_time;
+        sets_regimes = sets_regimes || changes_regimes(setting.settings);
     });
     if (sets_correlation && !is_nothing(after.jitter)) patch.jitter = after.jitter;
     if (sets_correlation && is_nothing(after.jitter)) patch.delay = after.delay;
     if (sets_bursts) patch.loss = after.loss;
+    if (sets_regimes) patch.regimes = after.regimes;
     return patch;
 }
 

@@ -5,6 +5,7 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/reading.hpp"
+#include "emulator/core/profile/regimes.hpp"
 #include "proto/base/result.hpp"
 
 #include <array>
@@ -17,11 +18,12 @@
 namespace hapnet::emulator {
 
 /// The keys of a direction, in the order of the stages. "burst_loss" is a further law of loss,
-/// "correlation_time" belongs to the jitter, or to a delay with a law.
-inline constexpr std::array<std::string_view, 12> setting_keys{
-    "mtu",     "rate",      "queue", "loss",   "burst_loss",
-    "corrupt", "duplicate", "delay", "jitter", "correlation_time",
-    "order",   "reorder"};
+/// "correlation_time" belongs to the jitter, or to a delay with a law, "regimes" says whether those
+/// of both directions change together.
+inline constexpr std::array<std::string_view, 14> setting_keys{
+    "mtu",     "rate",      "queue",  "loss",   "burst_loss",
+    "corrupt", "duplicate", "delay",  "jitter", "correlation_time",
+    "order",   "reorder",   "regime", "regimes"};
 
 /// What the keys of one direction say. The outer optional: the key is there; an empty list: there
 /// is no such burst.
@@ -29,6 +31,8 @@ struct DirectionSettings {
     Patch patch;
     std::optional<std::vector<LossLaw>> burst_loss{};
     std::optional<base::Duration> correlation_time{};
+    std::vector<RegimePatch> of_regimes{}; // that are there already
+    std::optional<bool> are_together{};    // the regimes of both directions
 };
 
 /// The variation that a correlation time is of: the jitter, or without one the delay. nullptr:
@@ -58,8 +62,9 @@ struct Setting {
 
 /// Reads a setting. `key` is NAME, both.NAME, up.NAME or down.NAME with a NAME of setting_keys
 /// ("burst-loss" is as good as "burst_loss"), or has the name of a path in front: 1-2.NAME,
-/// wan.up.NAME; only of one that `names` has. `value` is what stands in a profile, without the
-/// quotes: 5ms, 40/100, { law = "normal", sd = "3ms" }, ["5%", "40/100"]. Errors begin with `key`.
+/// wan.up.NAME; only of one that `names` has. regime.R. before NAME makes it a setting of the
+/// regime R: up.regime.bad.delay. `value` is what stands in a profile, without the quotes: 5ms,
+/// 40/100, { law = "normal", sd = "3ms" }, ["5%", "40/100"]. Errors begin with `key`.
 [[nodiscard]] base::Result<Setting> parse_setting(std::string_view key, std::string_view value,
                                                   const OpenFile& open,
                                                   const PathNames& names = {});
@@ -67,10 +72,15 @@ struct Setting {
 /// `path`, which is called `name`, with the settings that are for all paths or for it: those of
 /// all before its own, and of each those of both ways first, then those of one way, each in their
 /// order. burst_loss comes last and replaces the bursts without a phase in the list of losses, or
-/// is added to it; so does correlation_time. The error: more laws than a direction may have, or
-/// nothing to correlate.
+/// is added to it; so does correlation_time. The error: more laws than a direction may have,
+/// nothing to correlate, a regime that is not there, or regimes that cannot be together.
 [[nodiscard]] base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
                                                std::string_view name = {});
+
+/// Whether no setting for all paths, or for this one, says what the regimes of `path` say
+/// themselves; see ensure_own().
+[[nodiscard]] base::Result<void> ensure_own_settings(std::span<const Setting> settings,
+                                                     std::string_view name, const Path& path);
 
 /// What the settings for all paths, or for this one, say one way; `after` are its conditions once
 /// they hold.

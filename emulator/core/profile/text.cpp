@@ -64,9 +64,13 @@ private:
     void add(const Way& way, const Node& node)
     {
         auto settings = read_direction(node, reading());
-        if (const auto valid = validate_patch(settings.patch, way.path, names_); !valid) {
-            reading().complain(node.place, valid.error().message);
-        }
+        const auto check = [&](const Patch& patch) {
+            if (const auto valid = validate_patch(patch, way.path, names_); !valid) {
+                reading().complain(node.place, valid.error().message);
+            }
+        };
+        check(settings.patch);
+        for (const RegimePatch& one : settings.of_regimes) check(one.own);
         all_.push_back({{way.direction, std::move(settings), way.path}, node.place});
     }
     [[nodiscard]] bool is_there(const Way& way, Place place) const
@@ -129,6 +133,9 @@ private:
         }
     }
 
+    /// By the names of their ends, from one to the other.
+    using SettingsOfWays = std::map<std::pair<std::string, std::string>, DirectionSettings>;
+
     void read_matrix(const Node& node)
     {
         const auto* entries = std::get_if<Node::Table>(&node.value);
@@ -137,43 +144,52 @@ private:
         }
         TableReader table{*entries, node.place, reading()};
         const Node* list = table.require("peers", "write peers = [1, 2, 3]");
-        const auto peers = list != nullptr ? peers_of(*list) : std::vector<std::uint64_t>{};
-        std::map<std::string, DirectionSettings> settings; // by their ways
+        const auto peers = list != nullptr ? peers_of(*list) : std::vector<std::string>{};
+        SettingsOfWays settings;
         for (const std::string_view key : setting_keys) {
             const Node* rows = table.find(key);
             if (rows != nullptr && !peers.empty()) read_rows(key, *rows, peers, settings);
         }
         table.finish();
         for (auto& [name, of_way] : settings) {
-            const auto way = parse_way(name);
-            if (!way || !is_there(*way, node.place)) continue;
-            all_.push_back({{way->direction, std::move(of_way), way->path}, node.place});
+            const auto way = way_between(name.first, name.second);
+            if (!is_there(way, node.place)) continue;
+            all_.push_back({{way.direction, std::move(of_way), way.path}, node.place});
         }
     }
 
-    [[nodiscard]] std::vector<std::uint64_t> peers_of(const Node& node) const
+    /// The numbers of peers, or the letters of commands.
+    [[nodiscard]] std::vector<std::string> peers_of(const Node& node) const
     {
         constexpr std::uint64_t highest = 999;
         constexpr std::size_t most = 8;
-        std::vector<std::uint64_t> peers;
+        std::vector<std::string> peers;
+        std::size_t letters = 0;
         if (const auto* list = std::get_if<Node::List>(&node.value)) {
             for (const Node& element : *list) {
+                const auto* text = std::get_if<std::string>(&element.value);
                 const auto peer = base::count_of(element, highest);
-                if (peer && *peer > 0 && std::ranges::find(peers, *peer) == peers.end()) {
-                    peers.push_back(*peer);
+                std::string name = peer && *peer > 0 ? std::to_string(*peer) : "";
+                if (text != nullptr && is_command(*text)) name = *text;
+                letters += text != nullptr ? 1 : 0;
+                if (!name.empty() && std::ranges::find(peers, name) == peers.end()) {
+                    peers.push_back(std::move(name));
                 }
             }
-            if (peers.size() == list->size() && peers.size() >= 2 && peers.size() <= most) {
+            const bool are_alike = letters == 0 || letters == list->size();
+            if (are_alike && peers.size() == list->size() && peers.size() >= 2 &&
+                peers.size() <= most) {
                 return peers;
             }
         }
-        reading().complain(node.place, "expected the different numbers of 2 to 8 peers: [1, 2, 3]");
+        reading().complain(node.place, "expected the different numbers of 2 to 8 peers: [1, 2, 3], "
+                                       "or the letters of commands: [\"a\", \"b\", \"c\"]");
         return {};
     }
 
     /// Row i, column j: what peer i sends to peer j. What stands on the diagonal does not count.
-    void read_rows(std::string_view key, const Node& node, const std::vector<std::uint64_t>& peers,
-                   std::map<std::string, DirectionSettings>& settings) const
+    void read_rows(std::string_view key, const Node& node, const std::vector<std::string>& peers,
+                   SettingsOfWays& settings) const
     {
         const auto size = peers.size();
         const auto cells_of = [&](const Node& of) -> const Node::List* {
@@ -190,8 +206,7 @@ private:
             const auto* cells = cells_of((*rows)[i]);
             for (std::size_t j = 0; cells != nullptr && j < size; ++j) {
                 if (i == j) continue;
-                const auto way = fmt::format("{}-{}", peers[i], peers[j]);
-                read_setting(key, (*cells)[j], settings[way], reading());
+                read_setting(key, (*cells)[j], settings[{peers[i], peers[j]}], reading());
             }
         }
     }
@@ -224,6 +239,7 @@ struct PlacedChange {
     Change change;
     Place place;
     Place ramp_place;
+    std::vector<Setting> of_regimes{}; // that depend on what holds before
 };
 
 PlacedChange read_change(const Node& node, const PathNames& names, Reading& reading)
@@ -262,6 +278,13 @@ PlacedChange read_change(const Node& node, const PathNames& names, Reading& read
             reading.complain(side.place, "a change sets a jitter as a whole: write jitter or delay "
                                          "beside correlation_time");
         }
+        if (patch.regimes || settings.are_together || !settings.of_regimes.empty()) {
+            DirectionSettings of_regimes{.patch = {.regimes = patch.regimes},
+                                         .of_regimes = settings.of_regimes,
+                                         .are_together = settings.are_together};
+            placed.of_regimes.push_back(
+                {side.setting.direction, std::move(of_regimes), side.setting.path});
+        }
         const auto direction = side.setting.direction;
         const auto add_to = [&](auto& target) {
             if (direction != Direction::down) target.up = merged(std::move(target.up), patch);
@@ -275,6 +298,32 @@ PlacedChange read_change(const Node& node, const PathNames& names, Reading& read
     }
     table.finish();
     return placed;
+}
+
+/// Makes whole lists of what changes say of regimes, in their order.
+void resolve_regimes(std::vector<PlacedChange>& changes, const Profile& profile, Reading& reading)
+{
+    std::map<std::string, Path> held; // so far, on the paths that are spoken of
+    for (PlacedChange& placed : changes) {
+        for (const Setting& setting : placed.of_regimes) {
+            const std::string& name = setting.path;
+            const bool is_new = !held.contains(name);
+            Path& now = held[name];
+            if (is_new) now = profile_of(profile, name).path;
+            auto after = with_settings(now, {&setting, 1}, name);
+            if (!after) return reading.complain(placed.place, after.error().message);
+            now = *std::move(after);
+            const auto set = [&](auto& target) {
+                if (setting.direction != Direction::down) target.up.regimes = now.up.regimes;
+                if (setting.direction != Direction::up) target.down.regimes = now.down.regimes;
+            };
+            if (name.empty()) {
+                set(placed.change);
+            } else {
+                set(patch_for(placed.change.paths, name));
+            }
+        }
+    }
 }
 
 void read_timeline(const Node* node, const PathNames& names, Profile& profile, Reading& reading)
@@ -294,6 +343,7 @@ void read_timeline(const Node* node, const PathNames& names, Profile& profile, R
     }
     std::stable_sort(placed.begin(), placed.end(),
                      [](const auto& a, const auto& b) { return a.change.time < b.change.time; });
+    if (reading.is_good()) resolve_regimes(placed, profile, reading);
     for (const PlacedChange& one : placed) profile.timeline.push_back(one.change);
     if (!reading.is_good()) return;
     if (const auto valid = validate_timelines(profile); !valid) {

@@ -3,6 +3,7 @@
 #include "emulator/core/profile/timeline.hpp"
 
 #include "emulator/core/profile/ramp.hpp"
+#include "emulator/core/profile/regimes.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -38,6 +39,8 @@ base::Result<void> Timeline::add(const Change& change)
     base::ensure(steps_.empty() || steps_.back().change.time <= change.time);
     const std::size_t index = steps_.size();
     Step step{change, at(change.time, index), index};
+    const Path after{patched(step.before.up, change.up), patched(step.before.down, change.down)};
+    if (auto same = ensure_same_regimes(after, step.before); !same) return same;
     if (change.ramp > base::Duration{0}) {
         auto valid = validate_ramp(step.before.up, change.up);
         if (valid) valid = validate_ramp(step.before.down, change.down);

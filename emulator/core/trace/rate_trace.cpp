@@ -40,13 +40,13 @@ base::Result<RateTrace> parse_opportunities(std::string_view text)
 {
     constexpr auto most = static_cast<std::uint64_t>(longest_delay / std::chrono::milliseconds{1});
     std::vector<Opportunities::Moment> moments;
-    LineReader lines{text};
+    base::LineReader lines{text};
     while (const auto line = lines.next()) {
         const auto ms = base::parse_count(*line, most);
         if (!ms) {
             return lines.fail(fmt::format("'{}' is not a time in whole milliseconds, as Mahimahi "
                                           "has them; a table begins with the names of its columns",
-                                          shortened(*line)));
+                                          base::shortened(*line)));
         }
         const base::Duration time = std::chrono::milliseconds{*ms};
         if (!moments.empty() && time < moments.back().at) {
@@ -204,7 +204,7 @@ base::Duration RateTrace::period() const
 
 base::Result<RateTrace> parse_rate_trace(std::string_view text, const TableFormat& format)
 {
-    LineReader lines{text};
+    base::LineReader lines{text};
     const auto first = lines.next();
     const bool is_plain = format.columns.empty() && format.slot == base::Duration{0};
     if (is_plain && first && first->find_first_not_of("0123456789") == std::string_view::npos) {
@@ -228,7 +228,7 @@ base::Result<void> RateTraceLaw::load(const base::Reading& reading)
 {
     const auto format = parse_format(columns, timing.slot);
     if (!format) return tl::unexpected{format.error()};
-    const auto text = open_measured(reading, file);
+    const auto text = base::open_measured(reading, file);
     if (!text) return tl::unexpected{text.error()};
     auto read = parse_rate_trace(*text, *format);
     if (!read) return tl::unexpected{reading.trouble_in(file, read.error().message)};

@@ -21,23 +21,25 @@ namespace {
 /// Adds one row after the other.
 class Rows {
 public:
-    Rows(Measure measure, TableLayout layout) : measure_{measure}, layout_{std::move(layout)} {}
+    Rows(Measure measure, base::TableLayout layout) : measure_{measure}, layout_{std::move(layout)}
+    {}
 
     [[nodiscard]] bool is_full() const { return rows_.values.size() == trace_rows_max; }
 
     [[nodiscard]] base::Result<void> add(std::span<const std::string_view> cells)
     {
-        if (cells.size() != layout_.cells) return base::fail(refusal_of_cells(cells));
-        const auto cell = cells[layout_.value->place];
-        const bool is_lost = measure_ == Measure::delay && says_lost(cell);
+        if (cells.size() != layout_.cells)
+            return base::fail(refusal_of_cells(cells.size(), layout_));
+        const auto cell = cells[value_of(layout_)->place];
+        const bool is_lost = measure_ == Measure::delay && base::says_lost(cell);
         if (!is_lost) {
-            const auto value = parse_cell(cell, *layout_.value);
+            const auto value = parse_cell(cell, *value_of(layout_));
             if (!value) return tl::unexpected{value.error()};
-            last_ = *value * layout_.value->factor;
+            last_ = *value * value_of(layout_)->factor;
         }
         rows_.values.push_back(last_);
         rows_.lost.push_back(is_lost);
-        return layout_.time ? add_time(cells[layout_.time->place]) : base::Result<void>{};
+        return time_of(layout_) ? add_time(cells[time_of(layout_)->place]) : base::Result<void>{};
     }
 
     /// A delay with its unit.
@@ -49,8 +51,8 @@ public:
             rows_.lost.push_back(false);
             return {};
         }
-        const auto text = shortened(line);
-        if (number_in(line)) {
+        const auto text = base::shortened(line);
+        if (base::number_in(line)) {
             return base::fail(fmt::format("'{0}' has no unit: write {0}ms in each line, or say "
                                           "columns \"delay=1:ms\"",
                                           text));
@@ -70,39 +72,15 @@ public:
     }
 
 private:
-    [[nodiscard]] std::string refusal_of_cells(std::span<const std::string_view> cells) const
+    [[nodiscard]] base::Result<double> parse_cell(std::string_view cell,
+                                                  const base::NumberColumn& column)
     {
-        const auto text =
-            fmt::format("{} cell{} where the {} has {}", cells.size(), cells.size() == 1 ? "" : "s",
-                        layout_.has_header ? "header" : "first line", layout_.cells);
-        const bool may_be_decimal = layout_.separator == ',' && cells.size() == 2 * layout_.cells;
-        return text + (may_be_decimal ? ": with decimal commas, separate cells by semicolons" : "");
-    }
-
-    [[nodiscard]] base::Result<double> parse_cell(std::string_view cell, const NumberColumn& column)
-    {
-        const auto number = number_in(cell);
-        if (!number) {
-            const bool has_both = cell.find(',') != std::string_view::npos &&
-                                  cell.find('.') != std::string_view::npos;
-            return base::fail(
-                fmt::format("{} '{}' is not a number{}", column.name, shortened(cell),
-                            has_both ? ": write it without separators of thousands" : ""));
-        }
-        if (number->mark != '\0') {
-            if (mark_ != '\0' && number->mark != mark_) {
-                return base::fail(fmt::format("{} '{}' has a decimal {} where lines before it have "
-                                              "a {}: write all numbers in one way",
-                                              column.name, shortened(cell),
-                                              mark_ == '.' ? "comma" : "point",
-                                              mark_ == '.' ? "point" : "comma"));
-            }
-            mark_ = number->mark;
-        }
-        const double count = number->value;
+        const auto number = numbers_.read(cell, column);
+        if (!number) return number;
+        const double count = *number;
         if (count < 0.0) return base::fail(fmt::format("{} {} is negative", column.name, count));
-        const bool is_wrong_flag =
-            measure_ == Measure::lost && &column == &*layout_.value && count != 0.0 && count != 1.0;
+        const bool is_wrong_flag = measure_ == Measure::lost && &column == &*value_of(layout_) &&
+                                   count != 0.0 && count != 1.0;
         if (is_wrong_flag || count * column.factor > column.most) {
             return base::fail(fmt::format("{} {} is {}", column.name, count, column.most_text));
         }
@@ -111,13 +89,13 @@ private:
 
     [[nodiscard]] base::Result<void> add_time(std::string_view cell)
     {
-        const auto count = parse_cell(cell, *layout_.time);
+        const auto count = parse_cell(cell, *time_of(layout_));
         if (!count) return tl::unexpected{count.error()};
         if (rows_.times.empty()) first_time_ = *count;
-        const double passed = (*count - first_time_) * layout_.time->factor;
+        const double passed = (*count - first_time_) * time_of(layout_)->factor;
         if (std::abs(passed) > static_cast<double>(longest_delay.count())) {
             return base::fail(fmt::format("{} {} is more than 10^6 s from the first one",
-                                          layout_.time->name, *count));
+                                          time_of(layout_)->name, *count));
         }
         const base::Duration time{std::llround(passed)};
         if (!rows_.times.empty() && time <= rows_.times.back()) {
@@ -129,22 +107,22 @@ private:
     }
 
     Measure measure_;
-    TableLayout layout_;
+    base::TableLayout layout_;
     TraceRows rows_;
     double last_ = 0.0;
     double first_time_ = 0.0;
-    char mark_ = '\0'; // that decimals have in this file
+    base::NumberReader numbers_;
 };
 
 /// With a slot, a first line that is one number is a delay in ms.
-Columns columns_of(const TableFormat& format, Measure measure, const LineReader& lines)
+base::Columns columns_of(const TableFormat& format, Measure measure, const base::LineReader& lines)
 {
-    Columns columns = format.columns;
-    const auto is_delay = [](const Column& one) { return one.what == "delay"; };
+    base::Columns columns = format.columns;
+    const auto is_delay = [](const base::Column& one) { return one.what == "delay"; };
     const bool is_open = format.slot > base::Duration{0} && measure == Measure::delay &&
                          std::ranges::none_of(columns, is_delay);
-    const auto first = LineReader{lines}.next().value_or("");
-    if (is_open && (number_in(first) || (!first.empty() && says_lost(first)))) {
+    const auto first = base::LineReader{lines}.next().value_or("");
+    if (is_open && (base::number_in(first) || (!first.empty() && base::says_lost(first)))) {
         columns.push_back({"delay", "1", "ms"});
     }
     return columns;
@@ -187,11 +165,11 @@ std::vector<base::Duration> TraceRows::delays() const
 base::Result<TraceRows> read_trace_rows(std::string_view text, Measure measure,
                                         const TableFormat& format)
 {
-    LineReader lines{text};
+    base::LineReader lines{text};
     const auto nothing = [&] {
         return lines.fail(fmt::format("the file ends without a {}", name_of(measure)));
     };
-    if (!LineReader{lines}.next()) {
+    if (!base::LineReader{lines}.next()) {
         std::ignore = lines.next(); // goes to the end
         return nothing();
     }
@@ -205,7 +183,7 @@ base::Result<TraceRows> read_trace_rows(std::string_view text, Measure measure,
     Rows rows{measure, *layout};
     for (;;) {
         base::Result<void> added;
-        if (layout->value) {
+        if (value_of(*layout)) {
             const auto line = lines.next_cells(cells);
             if (!line) return tl::unexpected{line.error()};
             if (!*line) break;

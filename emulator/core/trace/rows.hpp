@@ -3,7 +3,6 @@
 #pragma once
 
 #include "emulator/core/trace/columns.hpp"
-#include "emulator/core/trace/lines.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
@@ -34,7 +33,7 @@ struct TraceRows {
 
 /// How the columns of a file are called and timed, where the file does not say so.
 struct TableFormat {
-    Columns columns{};
+    base::Columns columns{};
     base::Duration slot{}; // each value is a slot of this length later than the one before; 0: none
 };
 

@@ -5,10 +5,12 @@
 #include "emulator/core/profile/text.hpp"
 #include "emulator/tools/learn/delays.hpp"
 #include "emulator/tools/learn/losses.hpp"
+#include "emulator/tools/learn/regimes_fit.hpp"
 #include "emulator/tools/learn/text_plot.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
@@ -82,6 +84,36 @@ public:
         }
     }
 
+    /// Delays and losses in so many regimes. The error: they cannot be told.
+    base::Result<void> learn_regimes(const MeasuredWay& measured, std::size_t count,
+                                     bool with_losses)
+    {
+        const auto fit = fit_regimes(measured, count);
+        if (!fit) return base::fail("the regimes are too short, or too few stays were measured");
+        std::vector<Regime> all;
+        for (std::size_t i = 0; i < count; ++i) {
+            const RegimeFit& one = fit->regimes[i];
+            all.push_back(regime_of(one, own_rows(measured, one), with_losses));
+            all.back().name = regime_name(i, count);
+            all.back().stay = rounded(one.stay_rows * base::to_nanoseconds(*measured.spacing));
+        }
+        for (std::size_t i = 0; i < count && count > 2; ++i) {
+            for (std::size_t k = 0; k < count; ++k) {
+                const double weight = std::round(1e3 * fit->regimes[i].followers[k]) / 1e3;
+                if (weight > 0.0) all[i].to.emplace_back(all[k].name, weight);
+            }
+        }
+        Regimes regimes{std::move(all)};
+        if (auto valid = validate(regimes); !valid) return valid;
+        say(fmt::format("regimes: {}, by the least BIC", count));
+        for (std::size_t i = 0; i < count; ++i) {
+            say(in_words(regimes.all[i], fit->regimes[i], own_rows(measured, fit->regimes[i]),
+                         with_losses));
+        }
+        way_.regimes = std::move(regimes);
+        return {};
+    }
+
     void learn_losses(const MeasuredWay& measured)
     {
         const auto models = fit_losses(measured.lost);
@@ -125,6 +157,111 @@ public:
     }
 
 private:
+    [[nodiscard]] static std::string regime_name(std::size_t index, std::size_t count)
+    {
+        constexpr std::array<const char*, 3> better{"good", "fair", "poor"};
+        return index + 1 == count ? "bad" : better[index];
+    }
+
+    /// The delays of a regime, each in its place.
+    [[nodiscard]] static MeasuredWay own_rows(const MeasuredWay& measured, const RegimeFit& fit)
+    {
+        MeasuredWay own{.spacing = measured.spacing};
+        for (std::size_t i = 0; i < measured.delays.size(); ++i) {
+            const bool is_here = fit.is_own[i] != 0;
+            own.add(is_here ? measured.delays[i] : std::nullopt, measured.lost[i] || !is_here);
+        }
+        return own;
+    }
+
+    /// Without its name and its stay.
+    [[nodiscard]] static Regime regime_of(const RegimeFit& fit, const MeasuredWay& own,
+                                          bool with_losses)
+    {
+        Regime regime;
+        const DelayFit delays = fit_delays(own);
+        const DelayModel& nearest = delays.models.front();
+        regime.own.delay = constant(nearest.base);
+        if (nearest.name != "constant") {
+            regime.own.jitter = Variation{nearest.jitter, delays.correlation_time};
+        }
+        if (with_losses) {
+            const double share = std::round(1e7 * fit.lost / fit.rows) / 1e7;
+            if (share > 0.0) {
+                regime.own.loss = {
+                    RandomLoss{base::Probability::from_fraction(std::min(share, 1.0)).value()}};
+            }
+        }
+        return regime;
+    }
+
+    [[nodiscard]] static base::Duration rounded(double nanoseconds)
+    {
+        return std::chrono::microseconds{std::llround(nanoseconds / 1e3)};
+    }
+
+    /// The intervals are those of independent stays, datagrams and losses.
+    [[nodiscard]] static std::string in_words(const Regime& regime, const RegimeFit& fit,
+                                              const MeasuredWay& own, bool with_losses)
+    {
+        constexpr double z = 1.959964;
+        const double stay = base::to_seconds(regime.stay);
+        const double factor = std::exp(z / std::sqrt(fit.exits));
+        auto text = fmt::format("regime {}: {:.0f} stays of {:.4g} s (95 %: {:.4g} to {:.4g} s)",
+                                regime.name, fit.exits, stay, stay / factor, stay * factor);
+        if (with_losses) {
+            const auto [low, high] = wilson_interval(fit.lost / fit.rows, fit.rows);
+            text += fmt::format(", loss {:.4g} % (95 %: {:.4g} to {:.4g} %)",
+                                100.0 * fit.lost / fit.rows, 100.0 * low, 100.0 * high);
+        }
+        const DelayInterval delay = delay_interval(own, regime);
+        text += fmt::format(
+            ", delay {:.4g} ms (95 %: {:.4g} to {:.4g} ms), sd {:.4g} ms (95 %: "
+            "{:.4g} to {:.4g} ms)",
+            delay.mean, delay.mean - z * delay.mean_error, delay.mean + z * delay.mean_error,
+            delay.sd, std::max(delay.sd - z * delay.sd_error, 0.0), delay.sd + z * delay.sd_error);
+        return text;
+    }
+
+    /// Mean and deviation of delays in ms, with their standard errors.
+    struct DelayInterval {
+        double mean = 0.0;
+        double mean_error = 0.0;
+        double sd = 0.0;
+        double sd_error = 0.0;
+    };
+    [[nodiscard]] static DelayInterval delay_interval(const MeasuredWay& own, const Regime& regime)
+    {
+        std::vector<double> values;
+        for (const auto& delay : own.delays) {
+            if (delay) values.push_back(milliseconds_of(*delay));
+        }
+        DelayInterval found;
+        auto n = static_cast<double>(values.size());
+        for (const double value : values) found.mean += value / n;
+        double fourth = 0.0;
+        double variance = 0.0;
+        for (const double value : values) {
+            const double squared = (value - found.mean) * (value - found.mean);
+            variance += squared / n;
+            fourth += squared * squared / n;
+        }
+        found.sd = std::sqrt(variance);
+        const auto time =
+            regime.own.jitter ? regime.own.jitter->correlation_time : base::Duration{};
+        if (time > base::Duration{0}) {
+            const double rho = std::exp(-base::to_seconds(*own.spacing) / base::to_seconds(time));
+            n *= (1.0 - rho) / (1.0 + rho);
+        }
+        n = std::max(n, 1.0);
+        found.mean_error = found.sd / std::sqrt(n);
+        if (variance > 0.0) {
+            const double excess = std::max(fourth / (variance * variance) - 1.0, 0.0);
+            found.sd_error = 0.5 * found.sd * std::sqrt(excess / n);
+        }
+        return found;
+    }
+
     [[nodiscard]] static std::string in_words(const LossModel& model, const LossModel& best)
     {
         auto text = fmt::format("loss {}: BIC {:+.1f}, parameters: {}", model.name,
@@ -183,6 +320,11 @@ bool has_no_delay(const std::optional<MeasuredWay>& way)
            std::ranges::none_of(way->delays, [](const auto& one) { return one.has_value(); });
 }
 
+struct Choice {
+    LearnedForm form = LearnedForm::laws;
+    std::size_t regimes = 1; // in that form
+};
+
 /// One way of a measurement: chooses the form by the first half, and learns the whole in it.
 class WayCourse {
 public:
@@ -204,17 +346,24 @@ public:
         const bool can_judge =
             first.delays.size() >= half_rows_min && has_delay(first) && has_delay(second);
         bool is_fine = true;
+        Choice choice;
         if (replays_) {
-            way.form = LearnedForm::trace;
+            choice.form = LearnedForm::trace;
         } else if (can_judge) {
             const auto chosen = form_of(first);
             is_fine = chosen.has_value();
-            way.form = table_ ? chosen.value_or(LearnedForm::trace) : LearnedForm::laws;
+            if (chosen) choice = *chosen;
         }
-        auto all = in_form(way.form, measured_, table_, lesson);
+        auto all = in_form(choice, measured_, table_, lesson);
+        if (!all && choice.form == LearnedForm::regimes) {
+            choice = {table_ ? LearnedForm::trace : LearnedForm::laws};
+            is_fine = false;
+            all = in_form(choice, measured_, table_, lesson);
+        }
         if (!all) return all;
+        way.form = choice.form;
         if (can_judge) {
-            auto half = in_form(way.form, first, named_table(first_half, first), unsaid);
+            auto half = in_form(choice, first, named_table(first_half, first), unsaid);
             if (!half) return half;
             way.likeness = likeness_of(*half, first, second);
             say(lesson, way, is_fine);
@@ -234,25 +383,39 @@ private:
 
     /// The simplest form that gives the delays of the half that it was learned from; nullopt: laws
     /// do not, and nothing else can be named.
-    [[nodiscard]] std::optional<LearnedForm> form_of(const MeasuredWay& half) const
+    [[nodiscard]] std::optional<Choice> form_of(const MeasuredWay& half) const
     {
         Lesson unsaid;
-        for (const LearnedForm form : {LearnedForm::laws, LearnedForm::table}) {
-            const auto conditions = in_form(form, half, named_table(first_half, half), unsaid);
+        for (const LearnedForm form :
+             {LearnedForm::laws, LearnedForm::regimes, LearnedForm::table}) {
+            Choice choice{form};
+            if (form == LearnedForm::regimes) {
+                choice.regimes = count_regimes(half);
+                if (choice.regimes < 2) continue;
+            }
+            const auto conditions = in_form(choice, half, named_table(first_half, half), unsaid);
             if (conditions && is_near(*conditions, half)) {
-                const bool can_be_named = form == LearnedForm::laws || table_;
-                return can_be_named ? std::optional{form} : std::nullopt;
+                const bool can_be_named = form != LearnedForm::table || table_;
+                return can_be_named ? std::optional{choice} : std::nullopt;
             }
         }
-        return table_ ? std::optional{LearnedForm::trace} : std::nullopt;
+        return table_ ? std::optional{Choice{LearnedForm::trace}} : std::nullopt;
     }
 
-    [[nodiscard]] base::Result<Conditions> in_form(LearnedForm form, const MeasuredWay& measured,
+    [[nodiscard]] base::Result<Conditions> in_form(const Choice& choice,
+                                                   const MeasuredWay& measured,
                                                    const std::optional<MeasuredTable>& table,
                                                    Lesson& lesson) const
     {
         Conditions way;
+        const LearnedForm form = choice.form;
         WayLearner learner{name_, way, lesson};
+        if (form == LearnedForm::regimes) {
+            auto learned = learner.learn_regimes(measured, choice.regimes, with_losses_);
+            if (!learned) return tl::unexpected{learned.error()};
+            learner.learn_order(measured);
+            return way;
+        }
         learner.learn_delays(measured);
         if (with_losses_) learner.learn_losses(measured);
         learner.learn_order(measured);
@@ -273,7 +436,10 @@ private:
             lesson.remarks.push_back(name_ + ": " + words);
         };
         const Likeness& like = *way.likeness;
-        if (way.form == LearnedForm::table) {
+        if (way.form == LearnedForm::regimes) {
+            add("no single law gives the delays that were measured, and their correlation and "
+                "losses: the path changes between regimes");
+        } else if (way.form == LearnedForm::table) {
             add("no law gives the delays that were measured (at most 0.03 apart), so they are "
                 "drawn from the measured values");
         } else if (way.form == LearnedForm::trace && !replays_) {
@@ -329,7 +495,8 @@ base::Result<Lesson> learn(const Measurement& measurement, const LearnSettings& 
         auto learned = WayCourse{"round trip", *round_trip, true, settings}.learn(lesson);
         if (!learned) return tl::unexpected{learned.error()};
         down = *std::move(learned);
-        if (const auto* least = std::get_if<ConstantLaw>(&down.delay.law)) {
+        const auto* least = std::get_if<ConstantLaw>(&down.delay.law);
+        if (least != nullptr && down.regimes.empty()) {
             const auto whole = least->value;
             up.delay = constant(whole / 2);
             down.delay = constant(whole - whole / 2);

@@ -19,11 +19,15 @@ namespace hapnet::emulator::tools {
 
 /// What the delays of a way come from.
 enum class LearnedForm : std::uint8_t {
-    laws,  // drawn by a law with the parameters that were found
-    table, // drawn from the values that were measured
-    trace, // replayed as measured
+    laws,    // drawn by a law with the parameters that were found
+    regimes, // by the laws of several regimes
+    table,   // drawn from the values that were measured
+    trace,   // replayed as measured
 };
-constexpr auto names_of(base::Tag<LearnedForm>) { return base::names("laws", "table", "trace"); }
+constexpr auto names_of(base::Tag<LearnedForm>)
+{
+    return base::names("laws", "regimes", "table", "trace");
+}
 
 /// What was learned of one way, or of a round trip.
 struct WayLesson {
@@ -37,7 +41,8 @@ constexpr auto fields_of(base::Tag<WayLesson>)
     return base::fields(
         "learned way", base::member("way", &W::way, "`round trip`, `up` or `down`."),
         base::member("form", &W::form,
-                     "`laws`: drawn by a law. `table`: drawn from the values that were measured. "
+                     "`laws`: drawn by a law. `regimes`: by the laws of several regimes. `table`: "
+                     "drawn from the values that were measured. "
                      "`trace`: replayed."),
         base::member("likeness", &W::likeness,
                      "How like the second half is what was learned from the first half alone, in "
@@ -84,8 +89,9 @@ struct LearnSettings {
 /// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law
 /// of delays is rejected when a right one would look so one time in a thousand; if all are, the
 /// nearest is taken, and a remark says so. Where what is learned from the first half does not give
-/// the delays of that half (see is_near), the measured values take its place: drawn, or replayed if
-/// their correlation asks for it. How like the unseen second half the choice is, is told; then all
+/// the delays of that half (see is_near), regimes take its place, as many as have the least BIC
+/// there; where those do not either, the measured values: drawn, or replayed if their correlation
+/// asks for it. How like the unseen second half the choice is, is told; then all
 /// rows are learned in the form that was chosen. The error: nothing arrived, or a table cannot be
 /// read.
 [[nodiscard]] base::Result<Lesson> learn(const Measurement& measurement,

@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 
 namespace hapnet::emulator::tools {
 
@@ -22,6 +23,7 @@ constexpr std::array<base::Duration, 3> lags{1s, 5s, 15s};
 constexpr base::Duration spacing_where_unknown = 10ms;
 constexpr std::size_t played_rows_min = 20'000;
 constexpr std::size_t losses_min = 30;
+constexpr std::uint64_t plays_of_regimes = 40;
 
 std::vector<base::Duration> sorted_delays(const MeasuredWay& way)
 {
@@ -40,25 +42,29 @@ MeasuredWay rows_of(const MeasuredWay& way, std::size_t begin, std::size_t end)
     return part;
 }
 
-/// Wilson's interval of a share (Journal of the American Statistical Association 22, 1927).
 std::pair<double, double> interval_of(const SlowLosses& losses)
 {
-    constexpr double z = 1.959964;
-    const auto n = static_cast<double>(losses.delays);
-    const double middle = losses.share + z * z / (2.0 * n);
-    const double half =
-        z * std::sqrt(losses.share * (1.0 - losses.share) / n + z * z / (4.0 * n * n));
-    const double whole = 1.0 + z * z / n;
-    return {(middle - half) / whole, (middle + half) / whole};
+    return wilson_interval(losses.share, static_cast<double>(losses.delays));
 }
 
-MeasuredWay played_like(const Conditions& conditions, const MeasuredWay& measured)
+MeasuredWay played_like(const Conditions& conditions, const MeasuredWay& measured,
+                        base::Seed seed = base::Seed{1})
 {
     return played(conditions, std::max(measured.delays.size(), played_rows_min),
-                  measured.spacing.value_or(spacing_where_unknown), resolution_of(measured));
+                  measured.spacing.value_or(spacing_where_unknown), resolution_of(measured), seed);
 }
 
 } // namespace
+
+std::pair<double, double> wilson_interval(double share, double count)
+{
+    constexpr double z = 1.959964;
+    const double middle = share + z * z / (2.0 * count);
+    const double half =
+        z * std::sqrt(share * (1.0 - share) / count + z * z / (4.0 * count * count));
+    const double whole = 1.0 + z * z / count;
+    return {(middle - half) / whole, (middle + half) / whole};
+}
 
 std::pair<MeasuredWay, MeasuredWay> halves_of(const MeasuredWay& way)
 {
@@ -78,12 +84,12 @@ base::Duration resolution_of(const MeasuredWay& way)
 }
 
 MeasuredWay played(const Conditions& conditions, std::size_t rows, base::Duration spacing,
-                   base::Duration resolution)
+                   base::Duration resolution, base::Seed seed)
 {
     base::ensure(spacing > base::Duration{0} && resolution > base::Duration{0});
     Profile profile;
     profile.path.down = conditions;
-    EmulatedPath path{profile, {}};
+    EmulatedPath path{profile, {.seed = seed}};
     std::vector<std::optional<base::Duration>> delays(rows);
     const std::array<std::byte, 64> bytes{};
     const auto note = [&](const Datagram& datagram, base::TimePoint at) {
@@ -204,9 +210,10 @@ Likeness likeness_of(const Conditions& conditions, const MeasuredWay& first,
     return like;
 }
 
-bool is_near(const Conditions& conditions, const MeasuredWay& learned)
+namespace {
+
+bool is_like(const MeasuredWay& model, const MeasuredWay& learned)
 {
-    const MeasuredWay model = played_like(conditions, learned);
     if (distance_between(model, learned) > distance_most) return false;
     if (const auto slow = losses_when_slow(learned)) {
         const auto [low, high] = interval_of(*slow);
@@ -219,6 +226,16 @@ bool is_near(const Conditions& conditions, const MeasuredWay& learned)
         const auto of_model = autocorrelation(model, lag);
         return !own || !of_model || std::abs(*own - *of_model) <= correlation_most;
     });
+}
+
+} // namespace
+
+bool is_near(const Conditions& conditions, const MeasuredWay& learned)
+{
+    const std::uint64_t plays = conditions.regimes.empty() ? 1 : plays_of_regimes;
+    for (std::uint64_t play = 1; play <= plays; ++play)
+        if (is_like(played_like(conditions, learned, base::Seed{play}), learned)) return true;
+    return false;
 }
 
 } // namespace hapnet::emulator::tools

@@ -5,6 +5,7 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/tools/learn/measurement.hpp"
 #include "proto/base/describe.hpp"
+#include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
@@ -19,13 +20,18 @@ namespace hapnet::emulator::tools {
 /// Both halves of a series, in order; the first has the odd row.
 [[nodiscard]] std::pair<MeasuredWay, MeasuredWay> halves_of(const MeasuredWay& way);
 
+/// The 95 % interval of a share of `count` independent cases (Wilson, Journal of the American
+/// Statistical Association 22, 1927).
+[[nodiscard]] std::pair<double, double> wilson_interval(double share, double count);
+
 /// The step that all delays of a series are multiples of: 1 ms, 100 us, 10 us or 1 us.
 [[nodiscard]] base::Duration resolution_of(const MeasuredWay& way);
 
 /// What a measurement of one way under these conditions would say: so many datagrams at even
-/// distances, delays rounded to `resolution`. `spacing` > 0. The seed is always the same.
+/// distances, delays rounded to `resolution`. `spacing` > 0.
 [[nodiscard]] MeasuredWay played(const Conditions& conditions, std::size_t rows,
-                                 base::Duration spacing, base::Duration resolution);
+                                 base::Duration spacing, base::Duration resolution,
+                                 base::Seed seed = base::Seed{1});
 
 /// The largest distance of the distribution functions of two series of delays (Kolmogorov and
 /// Smirnov), from 0 to 1. Each has a delay.
@@ -111,9 +117,10 @@ constexpr auto fields_of(base::Tag<Likeness>)
 [[nodiscard]] Likeness likeness_of(const Conditions& conditions, const MeasuredWay& first,
                                    const MeasuredWay& second);
 
-/// Whether conditions give the delays of the series that they were learned from, well enough for
+/// True if conditions give the delays of the series that they were learned from, well enough for
 /// another half of it: distributions at most 0.03 apart, correlations at most 0.1, and losses right
-/// after slow datagrams within their 95 % interval.
+/// after slow datagrams within their 95 % interval. Regimes last at random, so two series of the
+/// same regimes differ by more: one in 40 plays has to be as near.
 [[nodiscard]] bool is_near(const Conditions& conditions, const MeasuredWay& learned);
 
 } // namespace hapnet::emulator::tools

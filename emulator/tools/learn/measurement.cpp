@@ -115,20 +115,20 @@ base::Result<Measurement> read_captures(std::span<const MeasuredFile* const> fil
 /// A text that begins with words is no table, nor one of the others.
 tl::unexpected<base::Error> refusal_of(std::string_view text, const base::Error& error)
 {
-    LineReader lines{text};
+    base::LineReader lines{text};
     const auto first = lines.next().value_or("");
     const bool is_line = error.message.starts_with(fmt::format("line {}: '", lines.number()));
-    if (!is_line || first.empty() || number_in(first)) return tl::unexpected{error};
+    if (!is_line || first.empty() || base::number_in(first)) return tl::unexpected{error};
     return base::fail(fmt::format("line {}: '{}' is no measurement: {}; probe, irtt, captures and "
                                   "tables with a column such as delay_ms can be read",
-                                  lines.number(), shortened(first), pings_that_are_read));
+                                  lines.number(), base::shortened(first), pings_that_are_read));
 }
 
 } // namespace
 
-base::Result<Measurement> read_measurement(std::string_view text, const Columns& columns)
+base::Result<Measurement> read_measurement(std::string_view text, const base::Columns& columns)
 {
-    const auto first = LineReader{text}.next().value_or("");
+    const auto first = base::LineReader{text}.next().value_or("");
     if (first.starts_with("{")) return read_irtt(text);
     const bool is_probe = columns.empty() && first.starts_with("sequence,") &&
                           first.find(",round_trip_ms,") != std::string_view::npos;
@@ -140,7 +140,7 @@ base::Result<Measurement> read_measurement(std::string_view text, const Columns&
 }
 
 base::Result<Measurement> read_measurements(std::span<const MeasuredFile> files,
-                                            const Columns& columns)
+                                            const base::Columns& columns)
 {
     std::optional<Measurement> all;
     std::vector<const MeasuredFile*> captures;
@@ -159,7 +159,7 @@ base::Result<Measurement> read_measurements(std::span<const MeasuredFile> files,
             captures.push_back(&file);
             continue;
         }
-        const auto text = plain_text(file.bytes);
+        const auto text = base::plain_text(file.bytes);
         auto measurement = text ? read_measurement(*text, columns)
                                 : base::Result<Measurement>{tl::unexpected{text.error()}};
         if (!measurement) {

@@ -48,13 +48,13 @@ struct MeasuredFile {
 /// Reads what a ping has printed (see read_ping), what `probe --csv` has written, irtt's JSON, or a
 /// table of delays (see read_trace_rows). Errors name the line.
 [[nodiscard]] base::Result<Measurement> read_measurement(std::string_view text,
-                                                         const Columns& columns = {});
+                                                         const base::Columns& columns = {});
 
 /// Reads several files as one measurement of the same path: series follow one another in the order
 /// of the files. Captures (pcap, pcapng) are one or two, see measure_capture(). Errors begin with
 /// the name of the file.
 [[nodiscard]] base::Result<Measurement> read_measurements(std::span<const MeasuredFile> files,
-                                                          const Columns& columns = {});
+                                                          const base::Columns& columns = {});
 
 /// Where the ends of a path have clocks of their own, which a negative delay tells, both ways get
 /// the same least delay, and a remark says so.

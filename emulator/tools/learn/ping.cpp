@@ -65,12 +65,12 @@ std::vector<NamedNumber> pairs_in(std::string_view line)
     for (auto sign = line.find_first_of("=<");
          sign != std::string_view::npos && pairs.size() < most;
          sign = line.find_first_of("=<", sign + 1)) {
-        const auto behind = trimmed(line.substr(sign + 1));
+        const auto behind = base::trimmed(line.substr(sign + 1));
         const auto number = number_at(behind);
-        const auto front = trimmed(line.substr(0, sign));
+        const auto front = base::trimmed(line.substr(0, sign));
         const auto word = front.substr(front.find_last_of(" \t") + 1);
         if (!number || word.empty()) continue;
-        const auto unit = trimmed(behind.substr(number->length));
+        const auto unit = base::trimmed(behind.substr(number->length));
         const bool has_unit =
             unit.starts_with('m') || (!unit.empty() && static_cast<unsigned char>(unit[0]) > 0x7f);
         NamedNumber pair{"", number->value, line[sign] == '<', has_unit};
@@ -127,13 +127,13 @@ std::optional<FpingLine> fping_line(std::string_view line)
     if (line.starts_with('[')) {
         const auto end = line.find("] ");
         if (end == std::string_view::npos) return std::nullopt;
-        line = trimmed(line.substr(end + 2));
+        line = base::trimmed(line.substr(end + 2));
     }
     const auto colon = line.find(" : ");
     if (colon == std::string_view::npos) return std::nullopt;
-    const auto host = trimmed(line.substr(0, colon));
+    const auto host = base::trimmed(line.substr(0, colon));
     if (host.empty() || host.find_first_of(" =") != std::string_view::npos) return std::nullopt;
-    return FpingLine{host, trimmed(line.substr(colon + 3))};
+    return FpingLine{host, base::trimmed(line.substr(colon + 3))};
 }
 
 /// `[0], 84 bytes, 20.59 ms (...)` or `[1], timed out (...)`
@@ -160,7 +160,7 @@ std::optional<std::vector<std::optional<double>>> told_in_one_line(std::string_v
         const auto number = number_at(word);
         if (word != "-" && (!number || number->length != word.size())) return std::nullopt;
         times.push_back(word == "-" ? std::nullopt : std::optional{number->value});
-        rest = trimmed(rest.substr(word.size()));
+        rest = base::trimmed(rest.substr(word.size()));
     }
     if (times.empty()) return std::nullopt;
     return times;
@@ -294,7 +294,7 @@ void add_summary(std::string_view line, NumberedAnswers& answers)
             ++i;
             continue;
         }
-        const auto behind = trimmed(line.substr(i + number->length));
+        const auto behind = base::trimmed(line.substr(i + number->length));
         is_share_last = behind.starts_with('%') || (i > 0 && line[i - 1] == '%');
         last = number->value;
         if (!transmitted) transmitted = number->value;
@@ -321,7 +321,7 @@ base::Result<Measurement> read_numbered(std::string_view text)
 {
     constexpr std::uint64_t echo_numbers = 65'536; // of 16 bits
     NumberedAnswers answers{echo_numbers};
-    LineReader lines{text};
+    base::LineReader lines{text};
     std::optional<std::uint64_t> first;
     bool is_summary_next = false;
     for (auto line = lines.next(); line; line = lines.next()) {
@@ -354,7 +354,7 @@ base::Result<Measurement> read_fping(std::string_view text)
     MeasuredWay in_one_line;
     bool has_numbers = false;
     std::string host;
-    LineReader lines{text};
+    base::LineReader lines{text};
     for (auto line = lines.next(); line; line = lines.next()) {
         const auto found = fping_line(*line);
         if (!found) continue;
@@ -364,7 +364,7 @@ base::Result<Measurement> read_fping(std::string_view text)
         if (!host.empty() && host != found->host) {
             return lines.fail(fmt::format("it has answers of two hosts, {} and {}: keep the lines "
                                           "of one, for example with grep",
-                                          shortened(host), shortened(found->host)));
+                                          base::shortened(host), base::shortened(found->host)));
         }
         host = found->host;
         if (told.sequence) {
@@ -395,7 +395,7 @@ class WindowsAnswers {
 public:
     [[nodiscard]] base::Result<void> add(std::string_view whole)
     {
-        const auto line = trimmed(whole);
+        const auto line = base::trimmed(whole);
         if (line.empty()) {
             place_ = Place::between;
             return {};
@@ -475,7 +475,7 @@ std::optional<Dialect> dialect_of_line(std::string_view line)
 std::optional<Dialect> dialect_of(std::string_view text)
 {
     constexpr std::size_t lines_max = 10'000;
-    LineReader lines{text};
+    base::LineReader lines{text};
     for (auto line = lines.next(); line && lines.number() <= lines_max; line = lines.next()) {
         if (const auto dialect = dialect_of_line(*line)) return dialect;
     }
@@ -486,7 +486,7 @@ std::optional<Dialect> dialect_of(std::string_view text)
 
 bool is_ping(std::string_view text)
 {
-    const auto first = LineReader{text}.next().value_or("");
+    const auto first = base::LineReader{text}.next().value_or("");
     return first.starts_with("PING ") || dialect_of(text).has_value();
 }
 

@@ -4,6 +4,7 @@
 #include "emulator/core/loss/loss.hpp"
 #include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/settings.hpp"
+#include "emulator/core/regime_chain.hpp"
 #include "emulator/tools/run_page/figures.hpp"
 #include "proto/page/distribution.hpp"
 
@@ -76,6 +77,20 @@ base::Result<std::vector<Knot>> knots_of(const Path& start, const Json& statisti
     return knots;
 }
 
+/// On average over the regimes that there are.
+double over_regimes(const Conditions& conditions,
+                    const std::function<double(const Conditions&)>& value)
+{
+    const auto& all = conditions.regimes.all.get();
+    if (all.empty()) return value(conditions);
+    const auto shares = shares_of(all);
+    double mean = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        mean += shares[i] * value(in_regime(conditions, i));
+    }
+    return mean;
+}
+
 double delay_ms(const Conditions& conditions)
 {
     const auto mean =
@@ -144,7 +159,7 @@ struct Course {
     {
         page::Curve curve;
         curve.points = points_of(knots, asked_until_s, [&](const Path& path) {
-            return kind.asked(direction == Direction::up ? path.up : path.down);
+            return over_regimes(direction == Direction::up ? path.up : path.down, kind.asked);
         });
         curve.width = 2.0;
         curve.is_dashed = true;

@@ -92,7 +92,7 @@ std::optional<page::Figure> loss_figure(const RunDirection& run)
         .y = {"lost"},
         .content = std::move(strip),
         .size = strip_size,
-        .caption = fmt::format("Each field stands for {} datagrams; the darker, the more of them "
+        .caption = fmt::format("Each field stands for {} datagrams; the redder, the more of them "
                                "the laws dropped. Rest the pointer on a field for its numbers.",
                                length)};
 }

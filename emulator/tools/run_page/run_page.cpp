@@ -5,6 +5,7 @@
 #include "emulator/core/direction_report.hpp"
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
+#include "emulator/core/regime_chain.hpp"
 #include "emulator/tools/run_page/figures.hpp"
 #include "proto/output/told.hpp"
 #include "proto/page/page.hpp"
@@ -12,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hapnet::emulator::tools {
@@ -118,6 +121,29 @@ Json flows_table(const nlohmann::ordered_json& statistics)
                  false);
 }
 
+/// A row for each regime and direction.
+Json regimes_table(const nlohmann::ordered_json& statistics, const Path& path)
+{
+    Rows rows;
+    for (const Direction direction : {Direction::up, Direction::down}) {
+        const std::string way{to_text(direction)};
+        const Conditions& conditions = direction == Direction::up ? path.up : path.down;
+        const auto of = statistics.value(way, nlohmann::ordered_json::object())
+                            .value("regimes", nlohmann::ordered_json::object());
+        for (std::size_t i = 0; i < conditions.regimes.all.size(); ++i) {
+            const auto& all = conditions.regimes.all.get();
+            const auto told = of.value(all[i].name, nlohmann::ordered_json::object());
+            rows.push_back({fmt::format("{} {}", way, all[i].name),
+                            fmt::format("{:.4g}", shares_of(all)[i]), shown(told, "/share"),
+                            shown(told, "/stays")});
+        }
+    }
+    if (rows.empty()) return nullptr;
+    return table("Regimes",
+                 {"regime", "share of the time\nin the long run", "in this run", "stays"}, rows,
+                 false);
+}
+
 /// As verify prints it.
 std::string_view in_words(Outcome outcome)
 {
@@ -194,6 +220,13 @@ bool has_changed(const RunRecord& run)
     return !run.profile.timeline.empty() || run.statistics.value("generation", 1) != 1;
 }
 
+/// Whether no single law gives what came out.
+bool has_regimes(const RunRecord& run)
+{
+    const Path path = profile_of(run.profile, run.link).path;
+    return !path.up.regimes.empty() || !path.down.regimes.empty();
+}
+
 void add_direction(page::Section& section, Placed& placed, const RunRecord& run,
                    Direction direction)
 {
@@ -207,9 +240,9 @@ void add_direction(page::Section& section, Placed& placed, const RunRecord& run,
     const double length_s = statistics.value("duration_s", 0.0);
     const RunDirection one{.direction = direction,
                            .statistics = of,
-                           .conditions = has_changed(run) ? nullptr
-                                         : is_up          ? &path.up
-                                                          : &path.down,
+                           .conditions = has_changed(run) || has_regimes(run) ? nullptr
+                                         : is_up                              ? &path.up
+                                                                              : &path.down,
                            .fates = fates,
                            .spacing_s = received > 0.0 ? length_s / received : 0.0};
     const double budget_us = statistics.value("budget_us", 1000.0);
@@ -232,6 +265,8 @@ page::Section figures_of(const RunRecord& run)
     for (Json& strip : placed.strips) section.add(std::move(strip));
     if (!placed.panels.empty()) section.add(page::panels("", std::move(placed.panels)));
     section.add(figures_table(run.statistics));
+    Json regimes = regimes_table(run.statistics, profile_of(run.profile, run.link).path);
+    if (!regimes.is_null()) section.add(std::move(regimes));
     if (Json table = flows_table(run.statistics); !table.is_null()) section.add(std::move(table));
     section.add(page::paragraph(fmt::format(
         "Quantiles come from a histogram: they are within 1.6 %, and within the least and "
@@ -263,6 +298,35 @@ page::Section course_of(const RunRecord& run)
     return section;
 }
 
+constexpr std::size_t asked_length_max = 200; // characters; more does not say it at a glance
+
+/// The conditions of the start in one sentence: " Asked, both ways: delay 30ms, loss 2%." Empty
+/// where they are too many for one.
+std::string asked_of(const RunRecord& run)
+{
+    Profile start;
+    start.path = profile_of(run.profile, run.link).path;
+    std::string words;
+    for (const char c : to_text(start))
+        words += c == '\n' ? std::string_view{"; "} : std::string_view{&c, 1};
+    while (words.ends_with(' ') || words.ends_with(';')) words.pop_back();
+    words.erase(0, words.find_first_not_of("; "));
+    for (const auto& [from, to] :
+         std::vector<std::pair<std::string_view, std::string_view>>{{"; ; ", "; "},
+                                                                    {"[both]; ", "both ways: "},
+                                                                    {"[up]; ", "up: "},
+                                                                    {"[down]; ", "down: "},
+                                                                    {" = ", " "},
+                                                                    {"\"", ""},
+                                                                    {";", ","}}) {
+        for (std::size_t at = 0; (at = words.find(from, at)) != std::string::npos; at += to.size())
+            words.replace(at, from.size(), to);
+    }
+    if (words.empty()) words = "nothing";
+    if (words.size() > asked_length_max) return "";
+    return fmt::format(" Asked{}: {}.", run.profile.timeline.empty() ? "" : " at the start", words);
+}
+
 } // namespace
 
 std::string run_page(const RunRecord& run)
@@ -271,9 +335,9 @@ std::string run_page(const RunRecord& run)
     const std::string profile = run.profile.name.empty() ? "An emulated path" : run.profile.name;
     page::Page page{"emulator-run",
                     run.link.empty() ? profile : fmt::format("{}, {}", profile, run.link),
-                    fmt::format("A run of hapnet-emulator: {} s, seed {}, timing {}.",
+                    fmt::format("A run of hapnet-emulator: {} s, seed {}, timing {}.{}",
                                 shown(statistics, "/duration_s"), shown(statistics, "/seed"),
-                                shown(statistics, "/timing"))};
+                                shown(statistics, "/timing"), asked_of(run))};
     page.head.push_back(banner(run));
     if (auto course = course_of(run); !course.blocks.empty())
         page.sections.push_back(std::move(course));

@@ -7,6 +7,7 @@
 #include "emulator/tools/verify/exact.hpp"
 #include "emulator/tools/verify/losses.hpp"
 #include "emulator/tools/verify/properties.hpp"
+#include "emulator/tools/verify/regimes.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -26,12 +27,15 @@ bool is_in_time(const Variation& variation)
 
 bool is_in_time(const Conditions& conditions)
 {
+    for (std::size_t i = 0; i < conditions.regimes.all.size(); ++i) {
+        if (is_in_time(in_regime(conditions, i))) return true;
+    }
     return is_in_time(conditions.delay) || is_in_time(conditions.jitter) ||
            std::any_of(conditions.loss.begin(), conditions.loss.end(),
                        [](const LossLaw& law) { return is_in_time(law); });
 }
 
-/// Whether the fates are those that the seed gives.
+/// Whether the fates are those that the seed gives, in the regimes that they say.
 TestResult verify_seed(const Claim& claim, Direction direction, std::span<const Fate> fates)
 {
     const auto& conditions = direction == Direction::up ? claim.path.up : claim.path.down;
@@ -43,7 +47,9 @@ TestResult verify_seed(const Claim& claim, Direction direction, std::span<const 
     std::vector<Fate> expected;
     expected.reserve(fates.size());
     for (std::uint64_t number = 0; number < fates.size(); ++number) {
-        const Fate drawn = pipeline.on_packet({.number = number});
+        const std::uint8_t regime = fates[number].regime;
+        const Fate drawn = regime == 0 ? pipeline.on_packet({.number = number})
+                                       : pipeline.on_packet({.number = number}, regime - 1U);
         const bool arrived_too_soon = fates[number].drop == DropCause::no_destination;
         expected.push_back(arrived_too_soon ? without_destination(drawn) : drawn);
     }
@@ -68,6 +74,9 @@ std::optional<double> memory_of(const std::vector<LossLaw>& laws,
 
 Results verify_between(const Claim& claim, std::span<const Fate> up, std::span<const Fate> down)
 {
+    if (!claim.path.up.regimes.empty() || !claim.path.down.regimes.empty()) {
+        return {unable("directions", "with regimes, losses are not drawn one by one")};
+    }
     const auto memory_up = memory_of(claim.path.up.loss, claim.spacing);
     const auto memory_down = memory_of(claim.path.down.loss, claim.spacing);
     if (!memory_up || !memory_down) {
@@ -117,7 +126,16 @@ std::vector<TestResult> verify_direction(const Claim& claim, Direction direction
 {
     if (fates.empty()) return {unable("fates", "no datagram passed in this direction")};
     const auto& conditions = direction == Direction::up ? claim.path.up : claim.path.down;
+    const Regimes& regimes = conditions.regimes;
+    const bool are_foreign = std::ranges::any_of(
+        fates, [&](const Fate& fate) { return fate.regime > regimes.all.size(); });
+    if (are_foreign) return {unable("regimes", "the fates have regimes, and the profile has none")};
     Results results{verify_seed(claim, direction, fates)};
+    if (!regimes.empty()) {
+        auto within = verify_regimes(conditions, fates, claim.spacing, claim.alpha);
+        results.insert(results.end(), within.begin(), within.end());
+        return results;
+    }
     for (auto& part : {verify_losses(conditions.loss, loss_record(fates, conditions.loss.size()),
                                      claim.spacing, claim.alpha),
                        verify_delays(conditions, fates, claim.spacing, claim.alpha)}) {

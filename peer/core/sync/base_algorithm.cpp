@@ -15,7 +15,7 @@ void BaseAlgorithm::hear(const ReceivedState& received)
     const wire::BodyState* const body = received.state.bodies.first();
     const bool counts = received.state.touching || options_.follow_while == FollowWhile::always;
     // What the sender's body moved in its tick; no message holds it, but its velocity tells it.
-    if (received.taken && body && counts) increments_ += body->velocity * received.tick;
+    if (received.taken && body && counts) increments_ += body->velocity * received.span;
 }
 
 void BaseAlgorithm::forget()

@@ -57,7 +57,7 @@ void DeadReckoning::hear(const ReceivedState& received)
                   .arrived = received.arrived,
                   .sent = received.state.sent,
                   .age = std::max(base::Duration{0}, age.value_or(base::Duration{0}))};
-    velocity_ = newest_ ? velocity_to(fix, received.tick) : base::Velocity{};
+    velocity_ = newest_ ? velocity_to(fix, received.span) : base::Velocity{};
     newest_ = fix;
     has_news_ = true;
 }
@@ -72,11 +72,11 @@ void DeadReckoning::forget()
     has_news_ = false;
 }
 
-base::Velocity DeadReckoning::velocity_to(const Fix& next, base::Duration tick) const
+base::Velocity DeadReckoning::velocity_to(const Fix& next, base::Duration span) const
 {
     const base::Duration sent_apart = next.sent - newest_->sent;
     if (std::chrono::abs(sent_apart) > options_.gap_max) return {};
-    base::Duration apart = tick;
+    base::Duration apart = span;
     if (options_.velocity == VelocityRule::arrival) apart = next.arrived - newest_->arrived;
     if (options_.velocity == VelocityRule::sender) apart = sent_apart;
     // Arrived at once, or a duplicate: no time has passed that tells of a velocity.

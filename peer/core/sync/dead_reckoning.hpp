@@ -124,7 +124,7 @@ private:
         base::TimePoint start;
     };
 
-    [[nodiscard]] base::Velocity velocity_to(const Fix& next, base::Duration tick) const;
+    [[nodiscard]] base::Velocity velocity_to(const Fix& next, base::Duration span) const;
     [[nodiscard]] base::Position blended(base::Position target, const scene::World& world,
                                          const Situation& situation);
 

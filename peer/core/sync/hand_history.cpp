@@ -110,7 +110,7 @@ std::optional<std::int64_t> HeardHand::hear(const ReceivedState& received)
     const auto delay = one_way_delay(received);
     if (!delay) return std::nullopt;
     const base::Duration since_start = received.arrived - *delay - received.start;
-    const auto count = static_cast<std::int64_t>(received.state.sequence) - 1;
+    const auto count = static_cast<std::int64_t>(received.tick_number) - 1;
     const std::int64_t tick = ticks.number(count, since_start, received.tick);
     const base::Duration latest = received.arrived - received.start + SessionTicks::in_time;
     if (tick * received.tick > latest) return std::nullopt;

@@ -74,10 +74,10 @@ double ProxyHand::hear(const ReceivedState& received)
         std::max(base::Duration{0}, one_way_delay(received).value_or(base::Duration{0}));
     const double age_s = base::to_seconds(delay);
     const bool is_first = !has_heard_;
-    const std::uint32_t ticks = is_first ? 0 : state.sequence - sequence_;
+    const std::uint32_t ticks = is_first ? 0 : received.tick_number - tick_number_;
     if (is_first) take_dynamics(received.hand);
     has_heard_ = true;
-    sequence_ = state.sequence;
+    tick_number_ = received.tick_number;
     sent_at_ = received.arrived - delay;
     if (state.touching) touched_at_ = sent_at_;
     contact_force_ = base::limited(state.contact_force, received.force_max_n).value;
@@ -88,7 +88,7 @@ double ProxyHand::hear(const ReceivedState& received)
     velocity_ += share * (state.intention_velocity.value - velocity_);
     ages_.add(age_s);
 
-    const Heard word{state.sequence, intention_, velocity_};
+    const Heard word{received.tick_number, intention_, velocity_};
     if (!is_first) learn(word, ticks, tick_s, age_s);
     words_[heard_++ % words_max] = word;
 
@@ -98,13 +98,14 @@ double ProxyHand::hear(const ReceivedState& received)
 }
 
 /// The newest word with at most this number. Numbers asked for do not fall.
-const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t sequence)
+const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t tick_number)
 {
     if (heard_ == 0) return nullptr;
     if (heard_ > words_max) older_ = std::max(older_, heard_ - words_max);
-    while (older_ + 1 < heard_ && words_[(older_ + 1) % words_max].sequence <= sequence) ++older_;
+    while (older_ + 1 < heard_ && words_[(older_ + 1) % words_max].tick_number <= tick_number)
+        ++older_;
     const Heard& found = words_[older_ % words_max];
-    return found.sequence <= sequence ? &found : nullptr;
+    return found.tick_number <= tick_number ? &found : nullptr;
 }
 
 /// By least squares: what would a projection of the word of that time ago have told of this one?
@@ -112,10 +113,10 @@ const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t sequence)
 void ProxyHand::learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s)
 {
     const auto age_ticks = static_cast<std::uint32_t>(std::lround(age_s / tick_s));
-    if (age_ticks >= word.sequence) return;
-    const Heard* const old = heard_at(word.sequence - age_ticks);
+    if (age_ticks >= word.tick_number) return;
+    const Heard* const old = heard_at(word.tick_number - age_ticks);
     if (old == nullptr) return;
-    const double apart_s = (word.sequence - old->sequence) * tick_s;
+    const double apart_s = (word.tick_number - old->tick_number) * tick_s;
     const glm::dvec3 predicted = apart_s * old->velocity;
     const glm::dvec3 truly = word.place - old->place;
     const double share = share_in(ticks * tick_s, base::to_seconds(options_.memory));

@@ -144,14 +144,14 @@ public:
 private:
     /// A word of its owner, for learning.
     struct Heard {
-        std::uint32_t sequence = 0;
+        std::uint32_t tick_number = 0;
         glm::dvec3 place{0.0};
         glm::dvec3 velocity{0.0}; // smoothed
     };
     void enter(const View& view);
     void take_dynamics(const wire::HandModel& said);
     void learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s);
-    [[nodiscard]] const Heard* heard_at(std::uint32_t sequence);
+    [[nodiscard]] const Heard* heard_at(std::uint32_t tick_number);
 
     static constexpr std::size_t words_max = 1024; // a second of them
     static constexpr double trust_filter_s = 0.05;
@@ -161,7 +161,7 @@ private:
 
     // What was heard.
     bool has_heard_ = false;
-    std::uint32_t sequence_ = 0;
+    std::uint32_t tick_number_ = 0; // of the newest word
     std::uint32_t work_uj_ = 0;
     base::TimePoint sent_at_;
     std::optional<base::TimePoint> touched_at_;

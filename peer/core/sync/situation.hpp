@@ -43,6 +43,10 @@ private:
 struct ReceivedState {
     const wire::State& state;
     base::TimePoint arrived;
+    /// The tick of the sender that it tells of, from 1 in the session: see TickCount.
+    std::uint32_t tick_number = 0;
+    /// From one message of the sender to the next, lost ones counted: a tick where each has one.
+    base::Duration span{std::chrono::milliseconds{1}};
     /// False: it is older than one that was taken, or its duplicate. It tells of the network's
     /// delay and of nothing else.
     bool taken = true;

@@ -95,6 +95,15 @@ survives_nothing() {
     await_processes 0 "$way, nested, killed"
     wait
 
+    # Three commands, of which two hold another emulator with three.
+    local three="exec $emulator between -- sleep $mark.3 --- sleep $mark.4 --- setsid sleep $mark.5"
+    "$way" "$emulator" between -- sh -c "$three" --- sh -c "$three" --- sh -c "$family" \
+        >"$folder/out" 2>"$folder/err" &
+    await_processes 8 "$way, three"
+    kill_emulator exec
+    await_processes 0 "$way, three, killed"
+    wait
+
     # What a command leaves in the background lives as long as the run, and no longer.
     code=0
     "$way" "$emulator" between -- sh -c "setsid sleep $mark.6 & sleep 0.3; exit 4" --- \

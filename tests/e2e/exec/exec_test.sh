@@ -63,7 +63,37 @@ for _ in {1..200}; do
 done
 port=$(grep -o '[0-9]*$' < <(grep -o '127.0.0.1:[0-9]*' "$folder/answer"))
 
+# A server of IPv6 on loopback, and who asks it; no port: there is no IPv6, or no Python.
+cat >"$folder/server.py" <<'EOF'
+import socket
+server = socket.create_server(("::1", 0), family=socket.AF_INET6)
+print("port", server.getsockname()[1], flush=True)
+while True:
+    client, _ = server.accept()
+    client.sendall(b"here")
+    client.close()
+EOF
+cat >"$folder/client.py" <<'EOF'
+import socket, sys, time
+begin = time.monotonic()
+with socket.create_connection((sys.argv[1], int(sys.argv[2])), 20) as server:
+    assert server.recv(4) == b"here"
+print("answered after 42 ms or more" if time.monotonic() - begin >= 0.042 else "too early")
+EOF
+port6=
+if command -v python3 >/dev/null; then
+    python3 "$folder/server.py" >"$folder/port6" 2>"$folder/said" &
+    for _ in {1..100}; do
+        grep -q port "$folder/port6" && break
+        kill -0 $! 2>/dev/null || break
+        sleep 0.05
+    done
+    port6=$(sed -n 's/^port //p' "$folder/port6")
+fi
+chmod -R a+rX "$folder"
+
 tested=0
+ways_of_ipv6=0
 tested_as_self=0
 cd /
 for user in "${users[@]}"; do
@@ -94,6 +124,20 @@ for user in "${users[@]}"; do
             .up.received >= 10 and .frames.a.oversized == 0 and ([.up, .down][] |
             .received + .duplicated == .delivered + ([.dropped[]] | add) + .in_flight)' \
             "$folder/run.json" >"$folder/said" || fail "the statistics do not add up"
+        if [[ -n $port6 ]] && grep -q 'and fd00::2 there' "$folder/err"; then
+            as "$user" "$emulator" exec --through "$program" --up.delay 30ms --down.delay 12ms \
+                --pcap "$folder/run.pcapng" -- sh -c "getent ahostsv6 host6;
+                    python3 '$folder/client.py' \$HAPNET_HOST6 $port6" \
+                >"$folder/out" 2>"$folder/err" || fail "nothing comes back over IPv6"
+            grep -q '^fd00::2 ' "$folder/out" || fail "host6 is not a name"
+            grep -q '^answered after 42 ms or more$' "$folder/out" || fail "wrong delay over IPv6"
+            python3 -c "import ipaddress, sys
+ends = b''.join(ipaddress.ip_address(a).packed for a in ('fd00::100', 'fd00::2'))
+sys.exit(ends not in open('$folder/run.pcapng', 'rb').read())" ||
+                fail "the capture has no packet of IPv6"
+            rm "$folder/run.pcapng"
+            ways_of_ipv6=$((ways_of_ipv6 + 1))
+        fi
         # The same packets of the stream are lost for a seed; ARP and names take none of the draws.
         for run in 1 2; do
             as "$user" "$emulator" exec --through "$program" --up.loss 30% --seed 7 \
@@ -109,6 +153,8 @@ done
 ((tested > 0)) || { echo "skipped: neither pasta nor slirp4netns works here" && exit 77; }
 ((tested_as_self > 0)) || { echo "passed ($tested ways), none of them as this user" && exit 0; }
 
+((ways_of_ipv6 > 0)) || echo 'not tested: IPv6, for which this machine has no route'
+
 # It nests, and with between each way round.
 "$emulator" exec -- "$emulator" exec -- sh -c 'getent ahostsv4 host; exit 7' \
     >"$folder/out" 2>"$folder/err" && code=0 || code=$?
@@ -117,6 +163,17 @@ grep -q '^10.0.2.2 ' "$folder/out" || fail "exec within exec: host is not a name
 "$emulator" exec -- "$emulator" between -- sh -c 'getent ahostsv4 b' --- sleep infinity \
     >"$folder/out" 2>"$folder/err" || fail "between does not run within exec"
 grep -q '^10.0.0.2 ' "$folder/out" || fail "between within exec: b is not a name"
+"$emulator" exec -- "$emulator" between -- getent ahostsv4 c --- sleep infinity --- sleep infinity \
+    >"$folder/out" 2>"$folder/err" || fail "between of three does not run within exec"
+grep -q '^10.0.0.3 ' "$folder/out" || fail "between of three within exec: c is not a name"
+"$emulator" between -- "$emulator" exec --through slirp4netns -- getent ahostsv4 host --- \
+    sleep infinity --- sleep infinity >"$folder/out" 2>"$folder/err" && code=0 || code=$?
+if ((code == 3)) && grep -q 'slirp4netns: not installed' "$folder/err"; then
+    echo 'not tested: exec within between, without slirp4netns'
+else
+    ((code == 0)) || fail "exec within between ended with $code"
+    grep -q '^10.0.2.2 ' "$folder/out" || fail "exec within between: host is not a name"
+fi
 
 # A signal reaches the command, and its answer to it is the exit code. Nothing is left of a run that
 # was killed.
@@ -171,4 +228,4 @@ if [[ -n $can_be_other ]]; then
     mount --bind "$folder/dev/closed" /dev/net/tun
     refused 3 'chmod 666 /dev/net/tun' as nobody "$emulator" exec -- true
 fi
-echo "passed ($tested ways)"
+echo "passed ($tested ways, $ways_of_ipv6 of them over IPv6 too)"

@@ -4,10 +4,12 @@
 #
 # What the programs write for packages: manual pages that scdoc takes, and completions that the
 # shells take and that complete.
-#   install_test.sh BIN_DIR
+#   install_test.sh BIN_DIR PYTHON_DIR
 set -euo pipefail
-bin=$1
 work=$(mktemp -d)
+bin=$work/bin # the programs, and what Python brings
+mkdir "$bin"
+ln -s "$1"/hapnet-* "$2/hapnet-study" "$bin"
 trap 'rm -rf "$work"' EXIT
 
 fail() {
@@ -26,7 +28,7 @@ completes() {
         printf "%s\n" "${COMPREPLY[@]}"' - "$work/$1.bash" "$@"
 }
 
-for program in hapnet-emulator hapnet-ctl hapnet-peer hapnet-lab; do
+for program in hapnet-emulator hapnet-ctl hapnet-peer hapnet-lab hapnet-study; do
     for what in man bash zsh fish; do
         "$bin/$program" --generate "$what" >"$work/$program.$what"
         [[ -s $work/$program.$what ]] || fail "$program writes nothing for $what"
@@ -52,6 +54,9 @@ done
 [[ $(completes hapnet-emulator --timing e) == eco ]] || fail "--timing e is not completed"
 [[ $(completes hapnet-emulator --up) == --upstream ]] || fail "--up is not completed"
 [[ $(completes hapnet-emulator probe --qu) == --quiet ]] || fail "probe --qu is not completed"
+[[ $(completes hapnet-study an) == analyse ]] || fail "an is not completed"
+[[ $(completes hapnet-study run --observer s) == simulated ]] || fail "--observer s"
+[[ $(completes hapnet-study run --part) == $'--participant\n--partner' ]] || fail "run --part"
 [[ -z $(completes hapnet-emulator --profile x) ]] || fail "a file is left to the shell"
 if command -v fish >/dev/null; then
     # fish_completes LINE: what fish offers for it.

@@ -205,4 +205,17 @@ EnergyPlayed play_for_energy(const EnergyCase& one, Delivery delivery)
     return EnergyPlay{one, delivery}.run();
 }
 
+double remote_proxy_bound_j(const EnergyCase& one, const EnergyPlayed& played)
+{
+    constexpr double in_a_contact_j = 0.011; // of 500 N/m at the greatest force, 3.3 N
+    constexpr double in_motion_j = 0.004;    // of the cube
+    constexpr double in_a_tick_j = 0.0033;   // at that force and 1 m/s
+    const auto others = static_cast<double>(one.setting.players.size() - 1);
+    const double age_s = std::min(0.4, base::to_seconds(one.age_max));
+    const peer::RemoteProxyOptions usual;
+    const double lent_j = usual.account_j + usual.power_w * age_s;
+    return lent_j + in_motion_j + in_a_tick_j + others * (in_a_contact_j + in_motion_j) +
+           played.withdrawn_j;
+}
+
 } // namespace hapnet::test

@@ -43,4 +43,8 @@ enum class Delivery : std::uint8_t {
 [[nodiscard]] EnergyPlayed play_for_energy(const EnergyCase& one,
                                            Delivery delivery = Delivery::once);
 
+/// The sum of the hands' work with remote-proxy stays above minus this: what the copies lend and
+/// store, and what the hands got out of their devices while that was not known yet.
+[[nodiscard]] double remote_proxy_bound_j(const EnergyCase& one, const EnergyPlayed& played);
+
 } // namespace hapnet::test

@@ -4,7 +4,7 @@
 
 import { nearest, roundSpan, scaleOf, spanOf } from "./scales.js";
 import { drawLine, SvgSurface } from "./surface.js";
-import { boxOf, drawing, leftOf, paintGrid, paintNames, paintOf } from "./svg.js";
+import { boxOf, drawing, leftOf, paintGrid, paintNames, paintOf, widthOf } from "./svg.js";
 
 const columnsOf = (points, { x, y }) => {
   const canShow = ([across, up]) =>
@@ -148,13 +148,29 @@ const paintCurve = (surface, curve, scales, range) => {
   if (curve.crossing) paintCrossing(surface, curve.crossing, scales, stroke);
 };
 
-const paintLevels = (surface, box, levels, y) => {
+/** Whether a point of the curves lies in that part of the drawing, in pixels. */
+const hasPointIn = (curves, { x, y }, { left, right, top, bottom }) =>
+  curves.some((curve) => !curve.hidden && [curve, curve.scatter ?? { x: [], y: [] }]
+    .some(({ x: times, y: values }) => times.some((time, i) => {
+      const [across, down] = [x.pixel(time), y.pixel(values[i] ?? NaN)];
+      return across >= left && across <= right && down >= top && down <= bottom;
+    })));
+
+const textHeight = 13; // pixels
+
+/** Lines across with their names: at the right end, or at the left where points lie there. */
+const paintLevels = (surface, box, levels, curves, scales) => {
   for (const level of levels) {
-    const down = y.pixel(level.y);
+    const down = scales.y.pixel(level.y);
     drawLine(surface, [box.left, down], [box.right, down],
       { stroke: "currentColor", "stroke-dasharray": "4 4" });
-    const isAtTop = down - box.top < 14;
-    surface.text([box.right - 4, isAtTop ? down + 13 : down - 4], "end", level.name);
+    const foot = down - box.top < textHeight + 1 ? down + textHeight : down - 4;
+    const width = widthOf(level.name) + 8;
+    const isTaken = (left) => hasPointIn(curves, scales,
+      { left, right: left + width, top: foot - textHeight, bottom: foot + 3 });
+    const isLeft = isTaken(box.right - width) && !isTaken(box.left);
+    surface.text([isLeft ? box.left + 4 : box.right - 4, foot], isLeft ? "start" : "end",
+      level.name);
   }
 };
 
@@ -197,7 +213,7 @@ export const paintCurves = (surface, size, curves, view) => {
     left: box.left - edge, right: box.right + edge, top: box.top - edge, bottom: box.bottom + edge,
   };
   surface.clipped(clip, (inside) => {
-    paintLevels(inside, box, view.levels ?? [], y);
+    paintLevels(inside, box, view.levels ?? [], curves, { x, y });
     paintMoments(inside, box, view.moments ?? [], x);
     for (const curve of fromBelow(curves)) {
       if (!curve.hidden && hasPoints(curve)) paintCurve(inside, curve, { x, y }, view.x);

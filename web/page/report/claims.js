@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 // What of the results stands against the paper, and what is claimed beyond it.
 
-import { firstLookOf } from "./runs.js";
+import { firstLookOf, shortfallWords } from "./runs.js";
 import {
   badge, banner, bold, claimOf, distinct, exactLimit, figures, general, hasInterval,
-  intervalSeedsMin, inWords, median, name, ours, panels, paragraph, rowsOf, shown, spreadName,
+  inWords, median, name, ours, panels, paragraph, rowsOf, shown, spreadName,
   table, tierMark, wordBadge, words,
 } from "./words.js";
 
@@ -14,10 +14,10 @@ const table1Line = (row) => ["Table 1, ", bold(row.algorithm),
   + `(paper: ${shown(row.paper_mean_mm, 2)}, ${shown(row.paper_std_mm, 2)}, `
   + `${shown(row.paper_max_mm, 1)}), ${row.class}`];
 
-const limitLine = (row) => {
+const limitLine = (row, least) => {
   const paper = row.paper_limit === null ? "–" : exactLimit(row, row.paper_limit);
   const interval = !hasInterval(row) || row.ci_high === null ? ""
-    : `, ${spreadName(row.seeds)}: ${shown(row.ci_low, 1)} … ${shown(row.ci_high, 1)}`;
+    : `, ${spreadName(row.seeds, least)}: ${shown(row.ci_low, 1)} … ${shown(row.ci_high, 1)}`;
   return [`Limit of ${inWords(row.impairment)}, `, bold(row.algorithm),
     `, worst of the tasks: ${exactLimit(row)} (paper: ${paper})${interval}, ${row.class}`];
 };
@@ -25,7 +25,7 @@ const limitLine = (row) => {
 const kinds = ["calibrated", "selected", "by-construction", "met", "undecided", "missed"];
 
 /** What Table 1 and the worst of the tasks say: lines by kind. Green is for predictions alone. */
-const mainClaims = ({ tables }) => {
+const mainClaims = ({ tables, interval_seeds_min: least }) => {
   const lines = Object.fromEntries(kinds.map((kind) => [kind, []]));
   const add = (claim, { class: origin }, line) => {
     if (!claim) return;
@@ -35,7 +35,7 @@ const mainClaims = ({ tables }) => {
   };
   rowsOf(tables.table1).forEach((row) => add(row.verdict, row, table1Line(row)));
   rowsOf(tables.limits).filter(({ task }) => task === "worst")
-    .forEach((row) => add(claimOf(row.status), row, limitLine(row)));
+    .forEach((row) => add(claimOf(row.status), row, limitLine(row, least)));
   return lines;
 };
 
@@ -47,11 +47,12 @@ const kindWords = {
 /** One sentence: how many results there are for each verdict against the paper. */
 export const besideThePaper = (data) => {
   const lines = mainClaims(data);
-  const look = firstLookOf(data, "limits");
+  const short = shortfallWords(data) || (firstLookOf(data, "limits")?.words ?? "");
   const counts = Object.entries(kindWords).filter(([kind]) => lines[kind].length > 0)
     .map(([kind, said]) => `${lines[kind].length} ${said}`);
-  if (counts.length === 0) return [];
-  return [paragraph([...(look ? [bold(look.words), " "] : []),
+  if (counts.length === 0)
+    return shortfallWords(data) ? [paragraph([bold(shortfallWords(data))])] : [];
+  return [paragraph([...(short ? [bold(short), " "] : []),
     `Beside the paper’s numbers: ${counts.join(", ")}. `,
     { a: "What these words mean", href: "#claims" }])];
 };
@@ -103,25 +104,39 @@ const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);
 const few = (value) => (value > 0 && value < 1e-3 ? "< 0.001" : general(value, 3));
 
 /** " (95 %: 0.9 to 1.1)": how far what was measured spreads; nothing where it does not. */
-const spread = ({ low, high, judged_by: by, sessions }) => {
+const spread = ({ low, high, judged_by: by, sessions }, least) => {
   if (low === null || high === null || low === high || sessions < 2) return "";
-  const isInterval = by === "mean" && sessions >= intervalSeedsMin;
+  const isInterval = by === "mean" && sessions >= least;
   return ` (${isInterval ? "95 %: " : ""}${few(low)} to ${few(high)})`;
 };
 
+/** Whether what was measured lies inside what is accepted. */
+const isInside = ({ value, accept_low: low, accept_high: high }) =>
+  (low === null || value >= low) && (high === null || value <= high);
+
+/** How a number that was measured stands to what is accepted: "" inside it. */
+const standing = (one, look) => {
+  if (one.kept === false) return look ? ", outside" : ", not kept";
+  return look && !isInside(one) ? ", undecided" : "";
+};
+
 /** "100 ms: 0.98 (...)": what was measured of a claim, a line for each of its numbers. */
-const measured = (numbers, look) => numbers.map((one) => {
-  const outside = one.kept === false ? `, ${look ? "outside" : "not kept"}` : "";
+const measured = (numbers, look, least) => numbers.map((one) => {
+  const outside = one.value === null ? "" : standing(one, look);
   const said = one.value === null
     ? `not measured: ${look?.endsEarly || "no session of its conditions exercises it"}`
-    : `${withUnit(few(one.value), one.unit)}${spread(one)}${outside}`;
+    : `${withUnit(few(one.value), one.unit)}${spread(one, least)}${outside}`;
   return one.number ? `${one.number}: ${said}` : said;
 }).join("\n");
 
-/** Of a first look, how what was measured so far stands to what the claim accepts. */
+/**
+ * Of a first look, how what was measured so far stands to what the claim accepts. Undecided is a
+ * value outside it whose interval reaches inside.
+ */
 const soFar = (numbers) => {
   if (numbers.length === 0 || numbers.some(({ value }) => value === null)) return "not measured";
-  return numbers.every(({ kept }) => kept !== false) ? "inside" : "outside";
+  if (numbers.some(({ kept }) => kept === false)) return "outside";
+  return numbers.every(isInside) ? "inside" : "undecided";
 };
 
 const accepted = (numbers) => numbers.map(({ accept_low: low, accept_high: high, unit }) => {
@@ -135,7 +150,7 @@ const verdictCell = (row, numbers, look) => {
 };
 
 export const beyond = ({ groups }, data) => {
-  const { tables } = data;
+  const { tables, interval_seeds_min: least } = data;
   const look = firstLookOf(data, "claims");
   const rows = rowsOf(tables.claims);
   const numbers = rowsOf(tables.claims_numbers);
@@ -149,7 +164,7 @@ export const beyond = ({ groups }, data) => {
     panels("", figures(groups.flatMap((group) => group.figures)).toSpliced(1, 0, tierMark)),
     paragraph("A claim is met when the worst of the sessions that judge keeps each of its numbers, "
       + "or their mean where the claim is of a mean. In brackets: the 95 % interval of a mean of "
-      + `${intervalSeedsMin} sessions or more where it says so, otherwise the least and the most `
+      + `${least} sessions or more where it says so, otherwise the least and the most `
       + "of the sessions. The claims were made before the first run."),
     table("Each claim: what was measured, what it accepts, and what nine of ten of all seeds keep",
       ["claim", "measured", "accepted", "verdict", "nine of ten", "seeds"],
@@ -157,7 +172,7 @@ export const beyond = ({ groups }, data) => {
         const of = numbers.filter(({ claim }) => claim === row.claim);
         const all = quantiles.find(({ claim }) => claim === row.claim);
         return [row.claim,
-          words(of.length > 0 ? measured(of, look) : String(row.value)),
+          words(of.length > 0 ? measured(of, look, least) : String(row.value)),
           name(of.length > 0 ? accepted(of) : String(row.accept)), verdictCell(row, of, look),
           words(all ? all.quantile.replaceAll("; ", "\n") : ""), all ? String(all.seeds) : ""];
       })),

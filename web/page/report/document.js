@@ -94,7 +94,7 @@ export class Document {
     const links = (data.sources ?? []).flatMap((path, i) => [i > 0 ? ", " : "",
       make("a", { href: path.split("/").map(encodeURIComponent).join("/") }, path)]);
     return make("figure", { "data-figure": id }, figure.root,
-      make("figcaption", {}, ...textOf(data.caption),
+      make("figcaption", {}, ...(data.caption === data.title ? [] : textOf(data.caption)),
         " ",
         links.length > 0 ? make("span", { class: "source" }, "Data: ", ...links) : null));
   }

@@ -98,6 +98,20 @@ export const firstLookOf = ({ runs: all }, kind) => {
   return { words: `Played with ${shortfallOf(run)}: a first look, not a verdict.`, endsEarly };
 };
 
+/**
+ * By what runs fall short of the built-in experiments that they are: a sentence for the head of the
+ * page; "" where they do not. Claims say it themselves.
+ */
+export const shortfallWords = ({ runs: all }) => {
+  const short = all.filter((run) => run.manifest.kind !== "claims" && run.amounts?.built_in
+    && shortfallOf(run) !== "");
+  if (short.length === 0) return "";
+  const isJudged = short.some((run) => run.manifest.kind === "limits");
+  const said = all.length === 1 ? [shortfallOf(short[0])]
+    : short.map((run) => `${nameOf(run)} ${shortfallOf(run)}`);
+  return `Played with ${said.join("; ")}: a first look${isJudged ? ", not a verdict" : ""}.`;
+};
+
 /** Says why results do not count; that they do stands where it is told what was played. */
 export const validity = ({ runs: all, subject }) => {
   const reasons = all.flatMap(reasonsOf);

@@ -48,7 +48,10 @@ const table1 = (section, data) => {
     paragraph("One hand moves the cube as prescribed; the other side sees it late. The "
       + "distance between the two copies is what the network costs. Where nothing on the network "
       + "is drawn by lot, every seed plays the same session, and there is no interval."
-      + (hasPaper(rows) ? " Sep stands where the paper has TiDeC." : "")),
+      + (hasPaper(rows) ? " Sep stands where the paper has TiDeC." : "")
+      + (rows.some((row) => row.class === "by-construction")
+        ? " What is by construction is held against base of this run, and not against the paper."
+        : "")),
     hasPaper(rows)
       ? table(`${caption}: this run, and the paper; below the paper’s number what agrees with it`,
         table1Heads, table1Rows(rows))
@@ -57,9 +60,13 @@ const table1 = (section, data) => {
 };
 
 const worst = "worst";
-const intervalOf = (row) => (!hasInterval(row) ? "–"
-  : `${shown(row.ci_low, 1)} … ${row.ci_high === null ? `> ${shown(row.p50, 1)}`
-    : shown(row.ci_high, 1)}`);
+/** Of a limit beyond all that was tried there is no more to say. */
+const intervalOf = (row) => {
+  if (!hasInterval(row)) return "–";
+  if (row.ci_high !== null) return `${shown(row.ci_low, 1)} … ${shown(row.ci_high, 1)}`;
+  const beyond = `> ${shown(row.p50, 1)}`;
+  return row.ci_low >= row.p50 ? beyond : `${shown(row.ci_low, 1)} … ${beyond}`;
+};
 
 const paperCells = (row, look) => [
   styled("paper")(row.paper_limit === null ? "–" : exactLimit(row, row.paper_limit)),
@@ -67,14 +74,16 @@ const paperCells = (row, look) => [
   name(classBadge(row.class))];
 
 /** What reaches from low to high of rows with seeds, for the head of a column. */
-const spreadHead = (rows) => spreadName(Math.min(...rows.map(({ seeds }) => seeds)));
+const spreadHead = (rows, { interval_seeds_min: least }) =>
+  spreadName(Math.min(...rows.map(({ seeds }) => seeds)), least);
 
 /** The paper stands there only where it says something of one of the rows. */
-const limitsTable = (impairment, rows, look) => {
+const limitsTable = (impairment, rows, data) => {
+  const look = firstLookOf(data, "limits");
   const isBeside = rows.some((row) => row.paper_limit !== null || row.status);
   return table(`Limits of ${impairment}: the level at which half of the seeds fail, how sure that `
     + "is, and the level at which a tenth fails",
-  ["algorithm", "task", "limit", spreadHead(rows), "a tenth", "seeds",
+  ["algorithm", "task", "limit", spreadHead(rows, data), "a tenth", "seeds",
     ...(isBeside ? ["paper", "band", "status", "class"] : [])],
   rows.map((row) => [row.algorithm, name(row.task),
     ours(`${limitText(row)} ${inWords(row.unit)}`, !look && claimOf(row.status) === "missed"),
@@ -85,19 +94,19 @@ const limitsTable = (impairment, rows, look) => {
 const limits = (text) => ({ groups }, data) => groups.flatMap((group, i) => {
   const rows = rowsOf(data.tables.limits).filter((row) => inWords(row.impairment) === group.title);
   const isFirst = (id) => id.startsWith("failing-");
-  const look = firstLookOf(data, "limits");
   return [...(groups.length > 1 ? [heading(group.title)] : []),
     ...figures(group.figures.filter(isFirst)), ...(i === 0 ? [tierMark, paragraph(text)] : []),
     panels("", figures(group.figures.filter((id) => !isFirst(id)))),
-    limitsTable(group.title, rows.filter(({ task }) => task === worst), look),
+    limitsTable(group.title, rows.filter(({ task }) => task === worst), data),
     folded("Each task on its own",
-      [limitsTable(group.title, rows.filter(({ task }) => task !== worst), look)])];
+      [limitsTable(group.title, rows.filter(({ task }) => task !== worst), data)])];
 });
 
 /** What a task has to have its hands do for a criterion to be measured. */
 const measuredWhere = {
   vibration: "the body has to move while a hand is on it",
-  stiffness: "it is taken from presses at 1 Hz, which T2 alone has",
+  stiffness: "it is taken from presses at 1 Hz, which T2 alone has, in sessions that are long "
+    + "enough for them",
   "force-vibration": "the hands have to touch the body",
 };
 
@@ -158,7 +167,7 @@ const differenceOf = (row) => {
 const figureWords = (figure) =>
   figure.replace(/_mm$/, ", mm").replace(/_n$/, ", N").replaceAll("_", " ");
 
-const precisionTable = (rows) => {
+const precisionTable = (rows, least) => {
   const values = distinct(rows, ({ value }) => value);
   const keyOf = (row) => [row.algorithm, row.task, row.figure].join("\n");
   const lines = distinct(rows, keyOf).map((key) => {
@@ -175,8 +184,9 @@ const precisionTable = (rows) => {
       errorBy(10), here.length === 0 ? "–" : errorBy(here.at(-1).seeds)];
   });
   const most = Math.max(...rows.map(({ seeds }) => seeds));
-  return table(`Differences from the reference (${spreadName(most)}); the order in which they `
-    + "fall, by the differences that chance does not explain; and how far the result of 1, of 10 "
+  return table(`Differences from the reference (${spreadName(most, least)}); the order in which `
+    + "they fall, by the differences that chance does not explain; and how far the result of 1, of "
+    + "10 "
     + "and of all seeds is off at the reference",
   ["algorithm", "task", "figure", "at the\nreference",
     ...values.map((value) => `${rows[0].parameter}\n${value}`), "order", "1 seed", "10 seeds",
@@ -195,7 +205,7 @@ const precision = ({ groups }, data) => {
     ...distinct(rows, ({ parameter }) => parameter).flatMap((parameter) => {
       const alike = rows.filter((row) => row.parameter === parameter);
       const algorithms = distinct(alike, ({ algorithm }) => algorithm);
-      return [precisionTable(alike), ...algorithms.map((algorithm, i) => {
+      return [precisionTable(alike, data.interval_seeds_min), ...algorithms.map((algorithm, i) => {
         const drawn = panels("small", figures(left.shift().figures));
         return i === 0 ? drawn : folded(`Error against cost: ${algorithm}`, [drawn]);
       })];
@@ -214,26 +224,55 @@ rows.map((row) => [row.value, name(row.algorithm), name(row.task), name(tierBadg
   words(row.limited_by ?? ""), shown(row.vibration_mm, 3), shown(row.stiffness_ratio, 3),
   shown(row.force_vibration_n, 3), String(row.seeds)]));
 
-const limitsByAxis = (rows) => table("The limits at each value: the level at which half of the "
-  + "seeds fail, and how sure that is",
-[axisHead(rows), "algorithm", "of", "task", "limit", spreadHead(rows), "seeds"],
-rows.map((row) => [row.value, name(row.algorithm), name(inWords(row.impairment)), name(row.task),
-  ours(`${limitText(row)} ${inWords(row.unit)}`), intervalOf(row), String(row.seeds)]));
+/** The worst of one task is that task. */
+const withoutRepeats = (rows) => (distinct(rows, ({ task }) => task).length > 2 ? rows
+  : rows.filter(({ task }, _, all) => task !== worst || all.every((row) => row.task === worst)));
 
-const axis = ({ groups }, { tables }) => {
+const limitsByAxis = (rows, data) => table("The limits at each value: the level at which half of "
+  + "the seeds fail, and how sure that is",
+[axisHead(rows), "algorithm", "of", "task", "limit", spreadHead(rows, data), "seeds"],
+withoutRepeats(rows).map((row) => [row.value, name(row.algorithm),
+  name(inWords(row.impairment)), name(row.task), ours(`${limitText(row)} ${inWords(row.unit)}`),
+  intervalOf(row), String(row.seeds)]));
+
+const rowsAtSight = 24; // of a table whose numbers the figures above it show
+
+const foldedIfLong = (block) => (block.table.rows.length <= rowsAtSight ? [block]
+  : [folded(`All ${block.table.rows.length} limits as a table`, [block])]);
+
+const axis = ({ groups }, data) => {
+  const { tables } = data;
   const [byTask, byLimit] = [tables.tasks_by_axis, tables.limits_by_axis].map(rowsOf);
   return [
     ...groups.flatMap((group) => [
       ...(group.title ? [heading(group.title)] : []),
       panels(group.title ? "small" : "", figures(group.figures)),
     ]),
-    ...(byLimit.length > 0 ? [limitsByAxis(byLimit)] : []),
+    ...(byLimit.length > 0 ? [paragraph("A session fails when it is not usable."), tierMark,
+      ...foldedIfLong(limitsByAxis(byLimit, data))] : []),
     ...(byTask.length > 0 ? [heading("How usable each task was"), tierMark, tasksByAxis(byTask),
       paragraph("Vibration and force vibration of this table are all that there is in the worst "
         + "of the seeds; the figures of the force have what the network adds to a perfect one."),
     ] : []),
   ];
 };
+
+/** The rows of one value and task in the order of their ranks. */
+const rankingRows = (rows) => rows.map((row) => [row.value, name(row.task), name(row.algorithm),
+  shown(row.mean_mm, 2), String(row.rank), shown(row.kendall_tau, 2),
+  row.ci_low === null ? "–" : `${shown(row.ci_low, 2)} … ${shown(row.ci_high, 2)}`,
+  row.subjects ? String(row.subjects) : "–", String(row.sessions)]);
+
+const rankings = (section, data, rows = rowsOf(data.tables.rankings)) => [
+  paragraph("Kendall’s τ says whether two orders agree: 1, they are the same; 0, they have nothing "
+    + "in common; –1, one is the other backwards. It stands between the order with the hands of "
+    + `the row and that with “${rows[0].value}”. Its interval is of resampling the subjects, or `
+    + "the seeds of simulated hands. A conclusion about algorithms that holds with simulated hands "
+    + "alone is one about these hands."),
+  table("Algorithms by how far the two copies are apart, with each of the hands",
+    ["hands", "task", "algorithm", "mean\nmm", "rank", "Kendall’s τ", "95 % interval", "subjects",
+      "sessions"], rankingRows(rows)),
+];
 
 const points = (section) => [
   paragraph("An algorithm bears a point when it is at least usable there."),
@@ -245,7 +284,7 @@ const paired = (section, data, rows = rowsOf(data.tables.paired)) => [
     + "have p below 0.05."),
   folded("The table", [table("Algorithms that met the same hands and the same network, seed by "
     + "seed: their difference, how sure it is by resampling the seeds, and the sign test",
-  ["algorithm", "minus", "task", "of", "seeds", "difference", spreadHead(rows), "p"],
+  ["algorithm", "minus", "task", "of", "seeds", "difference", spreadHead(rows, data), "p"],
   rows.map((row) => {
     const isKnown = row.seeds !== 1 && (row.ci_low !== null || row.ci_high !== null);
     return [row.algorithm, name(row.reference), name(row.task), words(row.measure),
@@ -293,6 +332,16 @@ const furtherColumns = [
 ];
 const turnedColumn = ["turned\napart, max deg", ({ turned_apart_deg: deg }) => shown(deg, 2)];
 
+/** Of recorded people: what the intervals are between. */
+const betweenSubjects = (rows) => {
+  const [row] = rows.filter(({ subjects }) => subjects);
+  return row === undefined ? [] : [paragraph(`Recorded hands: ${row.trials} trials of ${
+    row.subjects} ${row.subjects === 1 ? "subject" : "subjects"}. Means and intervals are between `
+    + "subjects: each counts once, with the mean of its sessions, and the interval is of "
+    + "resampling the subjects. No person reacted to a force: the motions were recorded without "
+    + "Hapnet.")];
+};
+
 const tasks = (section, data) => {
   const rows = rowsOf(data.tables.tasks);
   const turn = rows.some(({ turned_apart_deg: deg }) => deg !== null && deg !== undefined);
@@ -310,6 +359,7 @@ const tasks = (section, data) => {
     paragraph("In P1 the cube moves as prescribed whatever is felt. In these tasks both hands act "
       + "on what they feel: the numbers say what the same network does to people who work "
       + "together."),
+    ...betweenSubjects(rows),
     tableOf("Each task: worst of the seeds; mean and std of the distance: mean over the seeds; –: "
       + "the task does not exercise it",
       taskColumns),
@@ -350,13 +400,14 @@ const replay = () => [
   paragraph("Each computer holds a copy of what is blue. Each picture shows one of them, with the "
     + "hand that is there; dashed outlines are what the others have at the same moment: the "
     + "bodies, and their hands. Arrows are forces on the hands. In 3-D, drag a picture to turn "
-    + "them all. It ends when the hands let go: the last 3 s of a session, or its second half "
-    + "where it is shorter than 6 s, are not in it."),
+    + "them all. The replay ends when the hands let go: the last 3 s of a session, or its second "
+    + "half where it is shorter than 6 s, are not in it."),
   { player: true },
 ];
 
 const layouts = {
   demo, replay, sessions, table1, curves, trust, precision, axis, points, paired, fig7, qos, tasks,
+  rankings,
   "real-time": realTime, claims, beyond, runs, repeat,
   fig6a: limits("A limit is the level at which half of the sessions fail in the task that bears "
     + "least: all seeds are played at eight levels, and a psychometric curve is fitted to how many "

@@ -37,11 +37,12 @@ export const limitText = (row) => `${above(row)}${roundedLimit(row.limit)}`;
 export const exactLimit = (row, limit = row.limit) =>
   `${limit === row.limit ? above(row) : ""}${general(limit)} ${inWords(row.unit)}`;
 
-/** The fewest seeds that give a 95 % interval, as metrics::interval_seeds_min has it. */
-export const intervalSeedsMin = 6;
-/** What reaches from low to high of a result of so many seeds. */
-export const spreadName = (seeds) =>
-  (seeds >= intervalSeedsMin ? "95 %" : `least to most of ${seeds} seeds`);
+/**
+ * What reaches from low to high of a result of so many seeds; `least` are the fewest that give a
+ * 95 % interval, which the page carries.
+ */
+export const spreadName = (seeds, least) =>
+  (seeds >= least ? "95 %" : `least to most of ${seeds} seeds`);
 /** "140 … 150" of a row of so many seeds; one seed has no interval. */
 export const hasInterval = ({ ci_low: low, seeds }) =>
   low !== null && low !== undefined && seeds !== 1;

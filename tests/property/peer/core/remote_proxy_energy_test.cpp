@@ -13,26 +13,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double in_a_contact_j = 0.011; // of 500 N/m at the greatest force, 3.3 N
-constexpr double in_motion_j = 0.004;    // of the cube
-constexpr double in_a_tick_j = 0.0033;   // at that force and 1 m/s
 constexpr base::Duration length = 15s;
 
 peer::Algorithm proxies(double account_j = 0.03)
 {
     return peer::RemoteProxy{peer::RemoteProxyOptions{.account_j = account_j}};
-}
-
-/// The sum of the hands' work stays above minus this: what the copies lend and store, and what the
-/// hands got out of their devices while that was not known yet.
-double bound_j(const EnergyCase& one, const EnergyPlayed& played)
-{
-    const auto others = static_cast<double>(one.setting.players.size() - 1);
-    const double age_s = std::min(0.4, base::to_seconds(one.age_max));
-    const peer::RemoteProxyOptions usual;
-    const double lent_j = usual.account_j + usual.power_w * age_s;
-    return lent_j + in_motion_j + in_a_tick_j + others * (in_a_contact_j + in_motion_j) +
-           played.withdrawn_j;
 }
 
 class RemoteProxyEnergy : public testing::TestWithParam<std::uint64_t> {};
@@ -43,10 +28,10 @@ TEST_P(RemoteProxyEnergy, OfAllHandsTogetherStaysAboveItsBound)
     const EnergyPlayed played = play_for_energy(one);
     EXPECT_TRUE(played.is_finite) << one.words;
     EXPECT_GT(played.work_j, 0.0) << one.words;
-    EXPECT_GT(played.least_j, -bound_j(one, played)) << one.words;
+    EXPECT_GT(played.least_j, -remote_proxy_bound_j(one, played)) << one.words;
     RecordProperty("case", one.words);
     RecordProperty("least_mj", std::to_string(1e3 * played.least_j));
-    RecordProperty("bound_mj", std::to_string(-1e3 * bound_j(one, played)));
+    RecordProperty("bound_mj", std::to_string(-1e3 * remote_proxy_bound_j(one, played)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, RemoteProxyEnergy, testing::Range(std::uint64_t{0}, seeds(16)));
@@ -66,10 +51,11 @@ TEST_P(TurningCubeEnergy, OfAllHandsTogetherStaysAboveItsBound)
     EXPECT_GT(played.work_j, 0.0) << one.words;
     constexpr double on_a_corner_j = 0.0144; // 100 g, raised by 20 mm (sqrt(3) - 1)
     const auto copies = static_cast<double>(one.setting.players.size());
-    EXPECT_GT(played.least_j, -bound_j(one, played) - copies * on_a_corner_j) << one.words;
+    EXPECT_GT(played.least_j, -remote_proxy_bound_j(one, played) - copies * on_a_corner_j)
+        << one.words;
     RecordProperty("case", one.words);
     RecordProperty("least_mj", std::to_string(1e3 * played.least_j));
-    RecordProperty("bound_mj", std::to_string(-1e3 * bound_j(one, played)));
+    RecordProperty("bound_mj", std::to_string(-1e3 * remote_proxy_bound_j(one, played)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, TurningCubeEnergy, testing::Range(std::uint64_t{0}, seeds(12)));
@@ -105,7 +91,7 @@ TEST(RemoteProxyEnergy, IsKeptByTheAccountAlsoWhereALiarIsBelieved)
 {
     const EnergyCase one = believed_liar(0.03);
     const EnergyPlayed played = play_for_energy(one);
-    EXPECT_GT(played.least_j, -bound_j(one, played));
+    EXPECT_GT(played.least_j, -remote_proxy_bound_j(one, played));
 }
 
 TEST(RemoteProxyEnergy, WithoutTheAccountIsDrawnFromTheCopiesFarBeyondTheBound)
@@ -113,7 +99,7 @@ TEST(RemoteProxyEnergy, WithoutTheAccountIsDrawnFromTheCopiesFarBeyondTheBound)
     const EnergyCase one = believed_liar(10.0); // it is never spent
     EnergyPlayed played = play_for_energy(one);
     played.withdrawn_j = play_for_energy(believed_liar(0.03)).withdrawn_j;
-    EXPECT_LT(played.least_j, -bound_j(one, played));
+    EXPECT_LT(played.least_j, -remote_proxy_bound_j(one, played));
 }
 
 TEST(RemoteProxyEnergy, IsTheSameToTheBitWhenMessagesComeTwiceAndLate)

@@ -57,6 +57,39 @@ TEST(Frame, IsKnownByItsTypeAlsoBehindVlanTags)
     EXPECT_EQ(read_frame(framed({0x88, 0xcc}, Bytes(50))).kind, FrameKind::other); // LLDP
 }
 
+TEST(Frame, SaysWhichMachineItIsFor)
+{
+    const auto frame = framed({8, 0}, udp_v4());
+    EXPECT_EQ(destination_of(frame)->back(), std::byte{0xb});
+    auto to_all = frame;
+    to_all[0] = std::byte{0xff};
+    EXPECT_EQ(destination_of(to_all), std::nullopt);
+    auto to_group = frame;
+    to_group[0] = std::byte{0x33}; // as of a group of IPv6
+    EXPECT_EQ(destination_of(to_group), std::nullopt);
+    EXPECT_EQ(destination_of(std::span{frame}.first(13)), std::nullopt);
+}
+
+TEST(Frame, HasAnIpPacketWithoutWhatFillsItUp)
+{
+    const auto packet_in = [](const Bytes& frame) {
+        const auto packet = ip_packet_of(frame);
+        return Bytes{packet.begin(), packet.end()};
+    };
+    auto filled = udp_v4();
+    filled.resize(46); // the least that Ethernet carries
+    EXPECT_EQ(packet_in(framed({8, 0}, filled)), udp_v4());
+    EXPECT_EQ(packet_in(framed({0x81, 0, 0, 5, 8, 0}, udp_v4())), udp_v4());
+    auto filled_v6 = icmp_v6(128);
+    filled_v6.resize(60);
+    EXPECT_EQ(packet_in(framed({0x86, 0xdd}, filled_v6)), icmp_v6(128));
+    auto cut = udp_v4(); // says more than there is
+    cut.resize(25);
+    EXPECT_EQ(packet_in(framed({8, 0}, cut)), cut);
+    EXPECT_EQ(packet_in(framed({8, 6}, Bytes(28))), Bytes{});
+    EXPECT_EQ(packet_in(bytes_of({2, 0, 0})), Bytes{});
+}
+
 TEST(Frame, SaysWhetherItAnswersThatNoProgramListens)
 {
     const auto says = [](const Bytes& frame) {

@@ -16,6 +16,11 @@ TEST(PathName, CallsItsWaysByTheirPeersOrByUpAndDown)
     EXPECT_EQ(way_name("client.3", Direction::up), "client.3.up");
     EXPECT_EQ(stream_name("", Direction::down), "down");
     EXPECT_EQ(stream_name("1-12", Direction::down), "12-1");
+    EXPECT_EQ(way_name("a-c", Direction::down), "a-c.down");
+    EXPECT_EQ(stream_name("a-c", Direction::up), "a-c/up");
+    EXPECT_EQ(way_between("c", "a"), (Way{"a-c", Direction::down}));
+    EXPECT_EQ(way_between("a", "c"), (Way{"a-c", Direction::up}));
+    EXPECT_EQ(way_between("12", "2"), (Way{"2-12", Direction::down}));
     EXPECT_EQ(stream_name("wan", Direction::up), "wan/up");
     EXPECT_EQ(stream_name("client.3", Direction::up), "client/3/up");
     EXPECT_EQ(stream_name(client_path("10.0.0.1:5000"), Direction::up), "client/10.0.0.1:5000/up");

@@ -3,8 +3,11 @@
 #include "emulator/tools/predict.hpp"
 
 #include "emulator/tools/describe.hpp"
+#include "emulator/tools/learn/likeness.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace hapnet::emulator::tools::predict_test {
@@ -100,6 +103,60 @@ TEST(Predict, SaysThatAnInfiniteDeviationNeverSettles)
     EXPECT_FALSE(prediction.is_settled());
     EXPECT_NE(why_unsettled(profile.path.up, short_stream, prediction.up, false).find("infinite"),
               std::string::npos);
+}
+
+/// 20 ms for 400 ms, 60 ms for 100 ms, on average; lost are 1 % and 30 %.
+Conditions two_regimes()
+{
+    return {
+        .order = Order::free,
+        .regimes = {
+            {Regime{
+                 "good", 400ms, {}, {.loss = {{RandomLoss{1_percent}}}, .delay = constant(20ms)}},
+             Regime{"bad",
+                    100ms,
+                    {},
+                    {.loss = {{RandomLoss{30_percent}}}, .delay = constant(60ms)}}}}};
+}
+
+TEST(Predict, MixesRegimes)
+{
+    Profile profile;
+    profile.path.up = two_regimes();
+    const auto up = predict(profile, {.packets = 1'000'000}, base::Seed{1}).up;
+    // A fifth of the time is bad: 0.8 * 1 % + 0.2 * 30 %. 2000 stays: 2.3 % of a share.
+    EXPECT_NEAR(up.loss_share(), 0.068, 0.004);
+    // Of what arrives, 15.02 % took 60 ms: beyond p50, below p90 and p99.
+    EXPECT_NEAR(base::to_seconds(up.measured.delay_quantiles->p50), 0.020, 0.001);
+    EXPECT_NEAR(base::to_seconds(up.measured.delay_quantiles->p90), 0.060, 0.001);
+    EXPECT_NEAR(base::to_seconds(up.measured.delay_quantiles->p99), 0.060, 0.001);
+    EXPECT_NEAR(base::to_seconds(up.measured.delay->mean), 0.020 + 0.1502 * 0.040, 0.0004);
+}
+
+TEST(Predict, RemembersARegimeAsLongAsItLasts)
+{
+    Conditions conditions = two_regimes();
+    auto all = conditions.regimes.all.get();
+    for (Regime& regime : all) regime.own.loss.reset(); // else bad ones are seen less often
+    conditions.regimes.all = std::move(all);
+    const auto way = played(conditions, 1'000'000, 1ms, 1us);
+    // Two states: exp(-t (1 / 400 ms + 1 / 100 ms)).
+    for (const auto lag : {10ms, 40ms, 80ms, 200ms}) {
+        const double expected = std::exp(-base::to_seconds(lag) / 0.080);
+        EXPECT_NEAR(autocorrelation(way, lag).value(), expected, 0.05) << lag.count();
+    }
+}
+
+TEST(Describe, NamesRegimes)
+{
+    const auto words = describe(two_regimes(), {});
+    const auto has = [&](std::string_view text) {
+        return std::ranges::any_of(
+            words, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+    };
+    EXPECT_TRUE(has("regime bad: 20 % of the time, stays of 100 ms on average, then good"));
+    EXPECT_TRUE(has("bad: delay: 60 ms"));
+    EXPECT_TRUE(has("good: loss random: 1 % lost"));
 }
 
 } // namespace

@@ -43,7 +43,7 @@ void expect_words(const std::string& text, std::initializer_list<std::string_vie
 
 TEST(ExperimentText, EveryBuiltInExperimentReadsBackAsItIsPrinted)
 {
-    ASSERT_EQ(built_in_experiments().size(), 17U);
+    ASSERT_EQ(built_in_experiments().size(), 18U);
     for (const auto& built_in : built_in_experiments()) {
         for (const bool quick : {false, true}) {
             const auto read = parse_experiment(built_in.text, "it", {quick, {}});
@@ -342,7 +342,7 @@ TEST(ExperimentText, TakesASessionsLengthFromItsScript)
     EXPECT_EQ(duration("script = [\"long.csv\", \"short.csv\"]\n"), "15500ms");
     EXPECT_EQ(duration("replay = [\"short.csv\", \"\"]\n"), "2400ms") << "hands off for half";
     EXPECT_EQ(duration(""), "it:3:12: there is no script or replay to take the duration from: name "
-                            "one, or write a time");
+                            "one, or recorded hands, or write a time");
 }
 
 TEST(ExperimentText, RefusesACombinationThatCannotPlayBeforeTheFirstSession)

@@ -6,7 +6,11 @@
 #include "proto/base/random.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
+#include <sstream>
+#include <string>
 
 namespace hapnet::lab::metrics {
 namespace {
@@ -61,6 +65,49 @@ TEST(Psychometric, LiesHalfWayWhereAllSeedsChangeBetweenTwoLevels)
     EXPECT_NEAR(threshold.p50, 135.0, 0.01);
     EXPECT_LE(threshold.low, 130.0) << "no more is known than the two levels";
     EXPECT_GE(threshold.high.value_or(0.0), 140.0);
+}
+
+std::vector<std::string> cells_of(const std::string& line)
+{
+    std::vector<std::string> cells;
+    std::istringstream stream{line};
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    return cells;
+}
+
+std::vector<double> numbers_in(const std::string& cell)
+{
+    std::istringstream stream{cell};
+    return {std::istream_iterator<double>{stream}, {}};
+}
+
+TEST(Psychometric, FitsTheTableThatPythonFitsToo)
+{
+    // python/hapnet/study fits the answers of people in the same way, and is held against the same
+    // table: tests/e2e/study/fit_test.py.
+    std::ifstream table{HAPNET_REFERENCE "/psychometric.csv"};
+    std::string line;
+    int cases = 0;
+    std::getline(table, line);
+    EXPECT_EQ(line, "case,levels,failed,of,location,scale,early,late,core,p50");
+    for (; std::getline(table, line); ++cases) {
+        const auto cells = cells_of(line);
+        ASSERT_EQ(cells.size(), 10U) << line;
+        const auto levels = numbers_in(cells[1]), failed = numbers_in(cells[2]);
+        const auto of = numbers_in(cells[3]);
+        ASSERT_TRUE(levels.size() == failed.size() && levels.size() == of.size()) << line;
+        std::vector<FailCount> counts;
+        for (std::size_t i = 0; i < levels.size(); ++i)
+            counts.push_back({levels[i], failed[i], of[i]});
+        const auto found = fitted(counts);
+        EXPECT_NEAR(found.location, std::stod(cells[4]), 1e-5) << line;
+        EXPECT_NEAR(found.scale, std::stod(cells[5]), 1e-5) << line;
+        EXPECT_EQ(found.early, std::stod(cells[6])) << line;
+        EXPECT_EQ(found.late, std::stod(cells[7])) << line;
+        EXPECT_EQ(found.core == Core::gumbel ? "gumbel" : "logistic", cells[8]) << line;
+        EXPECT_NEAR(found.level_of(0.5), std::stod(cells[9]), 1e-5) << line;
+    }
+    EXPECT_EQ(cases, 37);
 }
 
 /// In a number of runs.

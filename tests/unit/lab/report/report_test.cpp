@@ -48,12 +48,39 @@ TEST(Report, SaysInASentenceWhatWasPlayed)
                               "tasks = [\"T1\", \"T2\"]\nhands = \"firm\"\n";
     EXPECT_EQ(played("title = \"mine\"\n" + plain + "both.delay = \"160ms\"\n"),
               R"(["Simulated hands (firm) played tasks P1, T1 and T2 with the algorithms base and )"
-              R"(sep, under delay 160 ms; 3 seeds."])");
+              R"(sep, under delay 160 ms, in sessions of 30 s; 3 seeds."])");
     EXPECT_EQ(played("title = \"mine\"\n" + plain +
                      "axis = { key = \"both.delay\", values = [\"0ms\", \"40ms\"] }\n"),
               R"(["Simulated hands (firm) played tasks P1, T1 and T2 with the algorithms base and )"
-              R"(sep, with delay of the path varied (0 ms and 40 ms); 3 seeds."])");
+              R"(sep, with delay of the path varied (0 ms and 40 ms), in sessions of )"
+              R"(30 s; 3 seeds."])");
     EXPECT_EQ(played("of another version"), R"(["mine."])");
+}
+
+/// The data of the page of a run of this configuration.
+nlohmann::json data_of_run(const std::string& configuration, const std::string& title)
+{
+    const nlohmann::json manifest{{"title", title}, {"configuration", configuration}};
+    return test::data_of(page_of(
+        {{"r/manifest.json", manifest.dump()},
+         {"r/table1_by_axis.csv",
+          "parameter,value,algorithm,mean_mm\nhands,firm,base,1\nhands,relaxed,base,2\n"}}));
+}
+
+TEST(Report, KeepsTheTitleOfOnesOwnExperimentWithAnAxis)
+{
+    const std::string body = "kind = \"table1\"\nseeds = 2\nalgorithms = [\"base\"]\n"
+                             "tasks = [\"T3\"]\n"
+                             "axis = { key = \"hands\", values = [\"relaxed\", \"firm\"] }\n";
+    const auto own = data_of_run("title = \"My grip\"\n" + body, "My grip");
+    EXPECT_EQ(own.at("title"), "My grip");
+    EXPECT_EQ(own.at("runs")[0].at("amounts").at("built_in"), false);
+    const std::string title = "Table 1: 160 ms of delay";
+    const auto other = data_of_run("title = \"" + title + "\"\n" + body, title);
+    EXPECT_NE(other.at("title"), title) << "an axis makes another experiment of it";
+    EXPECT_EQ(other.at("runs")[0].at("amounts").at("built_in"), true);
+    EXPECT_EQ(other.at("runs")[0].at("amounts").at("meant").at("seeds"), 10);
+    EXPECT_EQ(other.at("interval_seeds_min"), 6);
 }
 
 TEST(Report, HoldsOnesOwnExperimentAgainstNothing)
@@ -146,7 +173,7 @@ TEST(Report, CarriesHowMuchWasPlayedBesideHowMuchSettlesAClaim)
     };
     const std::string head = "title = \"t\"\nseeds = 3\nduration = \"6s\"\n"
                              "algorithms = [\"remote-proxy\"]\n";
-    const std::string played = R"({"played":{"seeds":3,"duration_s":6.0})";
+    const std::string played = R"({"played":{"seeds":3,"duration_s":6.0},"built_in":false)";
     EXPECT_EQ(amounts(head + "kind = \"claims\"\ntasks = [\"T1\"]\n"),
               played + R"(,"meant":{"seeds":200,"duration_s":30.0}})");
     EXPECT_EQ(amounts(head + "kind = \"table1\"\ntasks = [\"T1\"]\n"), played + "}");

@@ -126,5 +126,21 @@ TEST(SequenceGuard, BeginsAnewAfterASilence)
     EXPECT_TRUE(stream.guard.admits(other, stream.arrival(1001)));
 }
 
+TEST(SequenceGuard, FollowsWhoSendsInOneTickOfTen)
+{
+    SequenceGuard guard{1ms};
+    wire::State state;
+    base::TimePoint arrived = guard_start;
+    for (std::uint32_t number = 1; number <= 1000; ++number) {
+        state.sequence = number;
+        state.sent = guard_start + 7h + number * 10ms;
+        arrived = guard_start + number * 10ms + 40ms;
+        ASSERT_TRUE(guard.admits(state, arrived)) << number;
+        guard.on_taken(state, arrived);
+    }
+    state.sequence += 60; // 50 ms is what may be made up for
+    EXPECT_FALSE(guard.admits(state, arrived));
+}
+
 } // namespace
 } // namespace hapnet::peer

@@ -17,6 +17,7 @@
 #include <thread>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace hapnet::net {
 namespace {
@@ -31,9 +32,9 @@ struct TwoCommands : testing::Test {
         last.prepare();
     }
 
-    CommandStart::Before before(std::function<bool()> is_ready, base::Duration patience = 1h)
+    std::vector<CommandStart::Before> before(std::function<bool()> is_ready)
     {
-        return {.command = first, .is_ready = std::move(is_ready), .patience = patience};
+        return {{.command = first, .is_ready = std::move(is_ready)}};
     }
 
     /// Waits as long as it takes; a test that hangs is stopped from outside.
@@ -65,16 +66,16 @@ TEST_F(TwoCommands, AreStartedWhileTheCallersThreadGoesOn)
 TEST_F(TwoCommands, AreStartedAfterAWhileInAnyCase)
 {
     const auto begin = monotonic_now();
-    const CommandStart start{last, before([] { return false; }, 30ms)};
+    const CommandStart start{last, before([] { return false; })};
     expect_done(start);
-    EXPECT_GE(monotonic_now() - begin, 30ms);
+    EXPECT_GE(monotonic_now() - begin, CommandStart::patience);
 }
 
 TEST_F(TwoCommands, AreStartedWithoutTheFirstOnceItHasEnded)
 {
     ChildCommand brief{{.words = {"true"}}};
     brief.prepare();
-    const CommandStart start{last, CommandStart::Before{brief, [] { return false; }, 1h}};
+    const CommandStart start{last, std::vector{CommandStart::Before{brief, [] { return false; }}}};
     expect_done(start);
 }
 
@@ -88,7 +89,7 @@ TEST_F(TwoCommands, AreStartedAtOnceWhenToldToHurry)
 TEST_F(TwoCommands, AreNotStartedAfterTheEnd)
 {
     std::optional<CommandStart> start{std::in_place, last, before([] { return false; })};
-    start.reset(); // returns long before the hour is over
+    start.reset();
     const auto program = "/proc/" + std::to_string(last.pid()) + "/exe";
     EXPECT_TRUE(std::filesystem::equivalent(program, "/proc/self/exe")) << "it is another by now";
 }
@@ -97,7 +98,7 @@ TEST_F(TwoCommands, SayWhichOneCannotBeStarted)
 {
     ChildCommand missing{{.words = {"/no/such/command"}}};
     missing.prepare();
-    const CommandStart start{missing, std::nullopt};
+    const CommandStart start{missing, std::vector<CommandStart::Before>{}};
     while (!wait_readable(std::array{start.descriptor()}, monotonic_now() + 1h)) {}
     EXPECT_THROW(std::ignore = start.is_done(), std::system_error);
 }

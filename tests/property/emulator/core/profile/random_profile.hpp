@@ -37,6 +37,11 @@ public:
         }
         if (below(3) == 0) drawn.paths = paths();
         if (below(3) == 0) add_flows(drawn);
+        if (below(3) == 0) drawn.path.up.regimes = regimes();
+        if (below(6) == 0) {
+            drawn.path.up.regimes = drawn.path.down.regimes = regimes();
+            drawn.path.up.regimes.are_together = drawn.path.down.regimes.are_together = true;
+        }
         return drawn;
     }
 
@@ -237,6 +242,21 @@ private:
         if (below(3) == 0) drawn.reorder = below(2) == 0 ? Reordering{} : possible<Reordering>();
         if (below(3) == 0) drawn.queue = below(2) == 0 ? QueueControl{} : possible<QueueControl>();
         return drawn;
+    }
+
+    /// Of two or three regimes, whose names do not change.
+    Regimes regimes()
+    {
+        std::vector<Regime> all;
+        for (const char* const name : {"good", "bad"}) {
+            Regime regime{name, std::chrono::milliseconds{1 + below(100'000)}, {}, patch()};
+            regime.own.mtu.reset();
+            regime.own.queue.reset();
+            regime.own.reorder.reset();
+            all.push_back(std::move(regime));
+        }
+        if (below(2) == 0) all.front().to = {{"bad", 1.0 + uniform()}};
+        return {std::move(all)};
     }
 
     Conditions conditions() { return patched({}, patch()); }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 #include <vector>
@@ -131,6 +132,12 @@ TEST(Capture, IsUnderstoodByTshark)
     append_packet(bytes, {a, true, time, mapped(1, 7000), v4(9, 7001), {}}, 0s, "late 0 us");
     append_packet(bytes, {a, true, time, mapped(1, 7000), v6(9, 7001), hello}, 0s, "late 1 us");
     append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), zero_sum}, 0s, "x");
+    // A packet as it came, not as this would write it.
+    constexpr std::array<unsigned char, 32> words{
+        0x45, 0x2e, 0, 32, 0, 1, 0, 0, 64, 17, 0,    0,    10,  0,   0,   1,
+        10,   0,    0, 2,  0, 7, 0, 9, 0,  12, 0x13, 0x01, 'd', 'a', 't', 'a'};
+    const auto whole = std::as_bytes(std::span{words});
+    append_packet(bytes, {.side = b, .at = time, .payload = whole, .is_ip = true}, 0s, "whole");
     const auto printed = dissected(bytes);
     if (!printed) GTEST_SKIP() << "tshark is not installed";
     const std::string second = "1700000000.123456789";
@@ -148,7 +155,10 @@ TEST(Capture, IsUnderstoodByTshark)
                             second +
                             "\t\t\t::ffff:10.0.0.1\tfd00::9\t7000\t7001\t11\t\t1\tlate 1 us\n"
                             "side A\t0x00000001\t" +
-                            second + "\t10.0.0.1\t10.0.0.9\t\t\t7000\t7001\t10\t1\t1\tx\n");
+                            second +
+                            "\t10.0.0.1\t10.0.0.9\t\t\t7000\t7001\t10\t1\t1\tx\n"
+                            "side B\t0x00000001\t" +
+                            second + "\t10.0.0.1\t10.0.0.2\t\t\t7\t9\t12\t0\t1\twhole\n");
 }
 
 } // namespace

@@ -167,5 +167,37 @@ TEST(Fates, OfFlowsHaveAColumnForThem)
               "line 3: number: expected 1, found '0'");
 }
 
+TEST(Fates, OfRegimesHaveAColumnForThemBehindTheStates)
+{
+    const Fates fates{.up = {{.regime = 2, .delay = 1ms}, {.drop = DropCause::outage, .regime = 1}},
+                      .down = {{.delay = 2ms}},
+                      .regimes_up = {"good", "bad"}};
+    const std::string text = "direction,number,verdict,cause,states,regime,delay_ns,copy_after_ns,"
+                             "flipped_bits,displaced_places,displaced_ns\n"
+                             "up,0,deliver,,,bad,1000000,,,,\n"
+                             "up,1,drop,outage,,good,,,,,\n"
+                             "down,0,deliver,,,,2000000,,,,\n";
+    EXPECT_EQ(to_text(fates), text);
+    const Fates read = parse_fates_of_paths(text).value().at("");
+    EXPECT_EQ(read.regimes_up, (RegimeNames{"bad", "good"})); // as they were met
+    EXPECT_EQ(with_regimes(read, {"good", "bad"}, {}).value(), fates);
+    EXPECT_EQ(to_text(read), text);
+    EXPECT_NE(with_regimes(read, {"good"}, {}).error().message.find("'bad'"), std::string::npos);
+    EXPECT_FALSE(parse_fates(text));
+    for (const char* wrong : {"up,0,deliver,,,Bad,1,,,,\n", "up,0,deliver,,,1,,,,\n"}) {
+        EXPECT_FALSE(parse_fates_of_paths(text.substr(0, text.find('\n') + 1) + wrong)) << wrong;
+    }
+}
+
+TEST(Fates, OfRegimesOfFlowsOnSeveralPathsHaveAllColumns)
+{
+    const FatesOfPaths fates{
+        {"1-2.flow.voice", {.up = {{.regime = 1}}, .down = {}, .regimes_up = {"good"}}}};
+    const auto text = to_text(fates);
+    EXPECT_TRUE(text.starts_with("link,flow,direction,number,verdict,cause,states,regime,"));
+    EXPECT_NE(text.find("1-2,voice,up,0,deliver,,,good,0,,,,\n"), std::string::npos);
+    EXPECT_EQ(parse_fates_of_paths(text).value(), fates);
+}
+
 } // namespace
 } // namespace hapnet::emulator

@@ -266,8 +266,10 @@ TEST(ProfileText, NamesWhatIsWrongWithTheKeyOfASetting)
     };
     EXPECT_EQ(why("upp.loss"), "upp.loss: unknown direction 'upp': use up, down or both");
     EXPECT_EQ(why("los"), "unknown key 'los': did you mean 'loss'?");
-    EXPECT_EQ(why("up.x"), "unknown key 'up.x': use one of mtu, rate, queue, loss, burst_loss, "
-                           "corrupt, duplicate, delay, jitter, correlation_time, order, reorder");
+    EXPECT_EQ(
+        why("up.x"),
+        "unknown key 'up.x': use one of mtu, rate, queue, loss, burst_loss, "
+        "corrupt, duplicate, delay, jitter, correlation_time, order, reorder, regime, regimes");
     EXPECT_EQ(why("seed"), "seed: the seed of a run cannot change: start the emulator with --seed");
     EXPECT_EQ(why("up.loss.share"),
               "up.loss.share: a setting is set as a whole: up.loss '{ ... }'");
@@ -460,7 +462,37 @@ delay = "70ms"
     EXPECT_EQ(refusal("[matrix]\npeers = [1, 2]\ndelay = [[\"0ms\", \"1ms\"]]\n"),
               "test.toml:3:9: expected a list of 2 rows, one for each peer, of 2 values each");
     EXPECT_EQ(refusal("[matrix]\npeers = [1, 1]\n"),
-              "test.toml:2:9: expected the different numbers of 2 to 8 peers: [1, 2, 3]");
+              "test.toml:2:9: expected the different numbers of 2 to 8 peers: [1, 2, 3], or the "
+              "letters of commands: [\"a\", \"b\", \"c\"]");
+}
+
+TEST(ProfileText, ReadsAMatrixOfCommands)
+{
+    const Profile profile = parsed(R"(
+[matrix]
+peers = ["c", "a", "b"]
+delay = [["0ms", "10ms", "20ms"],
+         ["30ms", "0ms", "40ms"],
+         ["50ms", "60ms", "0ms"]]
+[link.a-b]
+up.delay = "70ms"
+)");
+    EXPECT_EQ(paths_in(profile), (std::vector<std::string>{"a-b", "a-c", "b-c"}));
+    const auto delays = [&](std::string_view name) {
+        const Path path = profile_of(profile, name).path;
+        return std::pair{std::get<ConstantLaw>(path.up.delay.law).value,
+                         std::get<ConstantLaw>(path.down.delay.law).value};
+    };
+    using Delays = std::pair<base::Duration, base::Duration>;
+    EXPECT_EQ(delays("a-c"), (Delays{30ms, 10ms}));
+    EXPECT_EQ(delays("b-c"), (Delays{50ms, 20ms}));
+    EXPECT_EQ(delays("a-b"), (Delays{70ms, 60ms}));
+    EXPECT_EQ(parsed(to_text(profile)), profile);
+    for (const std::string peers : {R"([1, "b"])", R"(["a", "a"])", R"(["a", "z"])"}) {
+        EXPECT_NE(refusal("[matrix]\npeers = " + peers + "\n").find("the letters of commands"),
+                  std::string::npos)
+            << peers;
+    }
 }
 
 TEST(ProfileText, SpeaksOnlyOfThePathsOfItsRun)

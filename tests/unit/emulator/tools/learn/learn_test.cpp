@@ -8,6 +8,7 @@
 #include "emulator/tools/learn/likeness.hpp"
 #include "emulator/tools/learn/losses.hpp"
 #include "emulator/tools/learn/measured_table.hpp"
+#include "emulator/tools/learn/regimes_fit.hpp"
 #include "tests/support/seeds.hpp"
 
 #include <algorithm>
@@ -330,6 +331,100 @@ TEST(Learn, LetsDatagramsOvertakeWhereTimesSayThatTheyDid)
     const auto lesson = learn({.up = way});
     ASSERT_TRUE(lesson);
     EXPECT_EQ(lesson->profile.path.up.order, Order::free);
+}
+
+/// Two regimes of 300 ms and 100 ms on average.
+Conditions two_regimes()
+{
+    return {.order = Order::free,
+            .regimes = {{Regime{"good",
+                                300ms,
+                                {},
+                                {.loss = {{RandomLoss{1_percent}}},
+                                 .delay = constant(20ms),
+                                 .jitter = Variation{GammaLaw{3ms, 1500us}, {}}}},
+                         Regime{"bad",
+                                100ms,
+                                {},
+                                {.loss = {{RandomLoss{20_percent}}},
+                                 .delay = constant(40ms),
+                                 .jitter = Variation{LogNormalLaw{20ms, 10ms}, {}}}}}}};
+}
+
+TEST(LearnRegimes, FindsTwoRegimesOfFourThousandEpisodes)
+{
+    // 800 s, of which each stay takes 200 ms on average.
+    const Conditions truth = two_regimes();
+    const auto way = played(truth, 160'000, 5ms, 1us);
+    const auto lesson = learn({.down = way}).value();
+    EXPECT_EQ(lesson.ways.front().form, LearnedForm::regimes);
+    const Conditions& learned = lesson.profile.path.down;
+    ASSERT_EQ(learned.regimes.all.size(), 2U) << to_text(lesson);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Regime& is = learned.regimes.all[i];
+        const Regime& was = truth.regimes.all[i];
+        EXPECT_EQ(is.name, was.name);
+        EXPECT_NEAR(base::to_seconds(is.stay), base::to_seconds(was.stay),
+                    0.1 * base::to_seconds(was.stay));
+        const auto share = [](const Regime& of) {
+            return std::get<RandomLoss>(of.own.loss->front()).share.fraction();
+        };
+        EXPECT_NEAR(share(is), share(was), 0.1 * share(was));
+        const auto alone = [](const Regime& of) {
+            Conditions conditions{.order = Order::free};
+            conditions = patched(std::move(conditions), of.own);
+            conditions.loss.clear();
+            return played(conditions, 50'000, 5ms, 1us);
+        };
+        // A few rows at the ends of stays count to the wrong regime.
+        EXPECT_LT(distance_between(alone(is), alone(was)), 0.05);
+        const auto mean_of = [](const MeasuredWay& one) {
+            double sum = 0.0;
+            for (const auto& delay : one.delays) sum += base::to_seconds(*delay);
+            return sum / static_cast<double>(one.delays.size());
+        };
+        EXPECT_NEAR(mean_of(alone(is)), mean_of(alone(was)), 0.01 * mean_of(alone(was)));
+    }
+    EXPECT_NE(to_text(lesson).find("regime bad:"), std::string::npos);
+    EXPECT_NE(to_text(lesson).find("95 %"), std::string::npos);
+    EXPECT_TRUE(is_near(learned, way));
+}
+
+TEST(LearnRegimes, FindsThreeRegimesAndWhatFollowsWhat)
+{
+    const auto regime = [](const char* name, base::Duration stay, Weights to,
+                           base::Duration delay) {
+        return Regime{name,
+                      stay,
+                      std::move(to),
+                      {.delay = constant(delay), .jitter = Variation{GammaLaw{4ms, 2ms}, {}}}};
+    };
+    const Conditions truth{.order = Order::free,
+                           .regimes = {{regime("good", 400ms, {{"fair", 4.0}, {"bad", 1.0}}, 10ms),
+                                        regime("fair", 200ms, {{"good", 1.0}}, 30ms),
+                                        regime("bad", 100ms, {}, 60ms)}}};
+    const auto lesson = learn({.down = played(truth, 200'000, 5ms, 1us)}).value();
+    const auto& all = lesson.profile.path.down.regimes.all;
+    ASSERT_EQ(all.size(), 3U) << to_text(lesson);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double stay = base::to_seconds(truth.regimes.all[i].stay);
+        EXPECT_NEAR(base::to_seconds(all[i].stay), stay, 0.1 * stay);
+    }
+    ASSERT_EQ(all[0].to.size(), 2U);
+    EXPECT_NEAR(all[0].to[0].second, 0.8, 0.04);
+    EXPECT_NEAR(all[2].to[0].second, 0.5, 0.08);
+}
+
+TEST(LearnRegimes, AreNotSeenWhereOneLawDoes)
+{
+    const Conditions one{.loss = {RandomLoss{3_percent}},
+                         .delay = constant(20ms),
+                         .jitter = Variation{GammaLaw{5ms, 2ms}, {}},
+                         .order = Order::free};
+    const auto way = played(one, 20'000, 10ms, 1us);
+    EXPECT_EQ(count_regimes(way), 1U);
+    EXPECT_EQ(learn({.down = way}).value().ways.front().form, LearnedForm::laws);
+    EXPECT_FALSE(fit_regimes(played(one, 100, 10ms, 1us), 2));
 }
 
 } // namespace

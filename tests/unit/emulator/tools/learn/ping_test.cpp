@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/learn/ping.hpp"
 
-#include "emulator/core/trace/lines.hpp"
+#include "proto/base/lines.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -227,7 +227,7 @@ TEST(ReadPing, ReadsWhatPowerShellHasWrittenInUtf16)
         utf16 += c;
         utf16 += '\0';
     }
-    EXPECT_EQ(told(plain_text(utf16).value()), Delays{2});
+    EXPECT_EQ(told(base::plain_text(utf16).value()), Delays{2});
 }
 
 TEST(ReadPing, ReadsFpingLineByLineAndInOneLine)

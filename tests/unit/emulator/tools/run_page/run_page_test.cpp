@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/run_page/run_page.hpp"
 
+#include "emulator/core/profile/text.hpp"
 #include "emulator/tools/run_page/figures.hpp"
 #include "tests/support/page_data.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
 #include <string>
+#include <string_view>
 
 namespace hapnet::emulator::tools::run_page_test {
 namespace {
@@ -255,6 +257,22 @@ TEST(RunPage, SaysOfATestThatCannotTellWhatVerifySays)
     const auto page = run_page({statistics(), {}, {}, verification, ""});
     EXPECT_TRUE(has(page, R"("cannot tell")"));
     EXPECT_FALSE(has(page, R"("unable")"));
+}
+
+TEST(RunPage, SaysInItsLeadWhatWasAsked)
+{
+    const auto lead_of = [](std::string_view text) {
+        const auto profile = parse_profile(text, "asked.toml", {});
+        EXPECT_TRUE(profile.has_value());
+        return test::data_of(run_page({statistics(), *profile, {}, {}, ""}))["lead"].dump();
+    };
+    EXPECT_EQ(lead_of("[both]\ndelay = \"30ms\"\nloss = \"2%\"\n"),
+              R"("A run of hapnet-emulator: 4 s, seed 42, timing precise. Asked: both ways: )"
+              R"(loss 2%, delay 30ms.")");
+    const auto changing =
+        lead_of("up.delay = \"30ms\"\n[[at]]\ntime = \"1s\"\nup.delay = \"9ms\"\n");
+    EXPECT_NE(changing.find("Asked at the start: up: delay 30ms."), std::string::npos) << changing;
+    EXPECT_NE(lead_of("").find("Asked: nothing."), std::string::npos);
 }
 
 TEST(RunPage, HasFiguresWhereThereAreDistributionsAndFates)

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/trace/lines.hpp"
+#include "proto/base/lines.hpp"
 
 #include <gtest/gtest.h>
 #include <string>
 
-namespace hapnet::emulator {
+namespace hapnet::base {
 namespace {
 
 using namespace std::string_literals;
@@ -42,7 +42,7 @@ TEST(LineReader, CountsTheLinesThatItPassesOver)
 TEST(LineReader, CountsTheLinesWithinQuotes)
 {
     LineReader lines{"a,\"b\nc\"\n1,2\n\"open"};
-    base::Cells cells{{',', true}};
+    Cells cells{{',', true}};
     EXPECT_EQ((*lines.next_cells(cells))->size(), 2U);
     EXPECT_EQ(lines.number(), 1U);
     EXPECT_EQ((*lines.next_cells(cells))->front(), "1");
@@ -58,4 +58,4 @@ TEST(Shortened, ShowsNothingThatATerminalWouldAct)
 }
 
 } // namespace
-} // namespace hapnet::emulator
+} // namespace hapnet::base

@@ -12,15 +12,14 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::emulator {
+namespace hapnet::base {
 
 /// The text of a file of measured values. UTF-16 with a byte order mark, as PowerShell writes it,
 /// becomes UTF-8; other text stays as it is. The error says how to unpack a compressed file.
-[[nodiscard]] base::Result<std::string> plain_text(std::string bytes);
+[[nodiscard]] Result<std::string> plain_text(std::string bytes);
 
-/// The text of the file of measured values that a law names. The error names the file.
-[[nodiscard]] base::Result<std::string> open_measured(const base::Reading& reading,
-                                                      const std::string& file);
+/// The text of a file of measured values that another text names. The error names the file.
+[[nodiscard]] Result<std::string> open_measured(const Reading& reading, const std::string& file);
 
 /// The lines of a text that say something: without the blanks around them, empty lines and those
 /// that begin with '#'. A byte order mark is skipped.
@@ -33,14 +32,13 @@ public:
 
     /// The cells of the next line, which stay valid as `cells` says; nullopt at the end. The error
     /// names the line.
-    [[nodiscard]] base::Result<std::optional<std::span<const std::string_view>>>
-    next_cells(base::Cells& cells);
+    [[nodiscard]] Result<std::optional<std::span<const std::string_view>>> next_cells(Cells& cells);
 
     /// The number of the line that was given last, from 1.
     [[nodiscard]] std::size_t number() const;
 
     /// An error at the line that was given last, or at the last one of the text.
-    [[nodiscard]] tl::unexpected<base::Error> fail(std::string_view why) const;
+    [[nodiscard]] tl::unexpected<Error> fail(std::string_view why) const;
 
 private:
     [[nodiscard]] bool find_next();
@@ -56,4 +54,4 @@ private:
 /// For messages: at most 40 bytes of it, as a terminal may show them.
 [[nodiscard]] std::string shortened(std::string_view text);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::base

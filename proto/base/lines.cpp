@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/trace/lines.hpp"
+#include "proto/base/lines.hpp"
 
 #include "proto/base/visible.hpp"
 
@@ -10,7 +10,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
-namespace hapnet::emulator {
+namespace hapnet::base {
 
 namespace {
 
@@ -76,21 +76,21 @@ std::string from_utf16(std::string_view bytes, bool is_big_endian)
 
 } // namespace
 
-base::Result<std::string> plain_text(std::string bytes)
+Result<std::string> plain_text(std::string bytes)
 {
     const std::string_view text = bytes;
     for (const Packing& packing : packings) {
         if (!text.starts_with(packing.begins_with)) continue;
-        return base::fail(fmt::format("the file is compressed ({}): unpack it first, for example "
-                                      "with {}",
-                                      packing.name, packing.cure));
+        return fail(fmt::format("the file is compressed ({}): unpack it first, for example "
+                                "with {}",
+                                packing.name, packing.cure));
     }
     if (text.starts_with("\xff\xfe")) return from_utf16(text.substr(2), false);
     if (text.starts_with("\xfe\xff")) return from_utf16(text.substr(2), true);
     return bytes;
 }
 
-base::Result<std::string> open_measured(const base::Reading& reading, const std::string& file)
+Result<std::string> open_measured(const Reading& reading, const std::string& file)
 {
     auto bytes = reading.open(file);
     if (!bytes) return bytes;
@@ -128,8 +128,7 @@ std::optional<std::string_view> LineReader::next()
     return line;
 }
 
-base::Result<std::optional<std::span<const std::string_view>>>
-LineReader::next_cells(base::Cells& cells)
+Result<std::optional<std::span<const std::string_view>>> LineReader::next_cells(Cells& cells)
 {
     if (!find_next()) return std::nullopt;
     if (!cells.take_line(rest_)) {
@@ -141,9 +140,9 @@ LineReader::next_cells(base::Cells& cells)
 
 std::size_t LineReader::number() const { return std::max<std::size_t>(begun_, 1); }
 
-tl::unexpected<base::Error> LineReader::fail(std::string_view why) const
+tl::unexpected<Error> LineReader::fail(std::string_view why) const
 {
-    return base::fail(fmt::format("line {}: {}", number(), why));
+    return hapnet::base::fail(fmt::format("line {}: {}", number(), why));
 }
 
 std::string_view trimmed(std::string_view text)
@@ -160,9 +159,9 @@ std::string shortened(std::string_view text)
         return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
     };
     while (bytes > 0 && bytes < text.size() && continues(bytes)) --bytes;
-    auto out = base::visible(text.substr(0, bytes));
+    auto out = visible(text.substr(0, bytes));
     if (text.size() > bytes) out += "...";
     return out;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::base

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/fates/fates.hpp"
+#include "emulator/core/profile/profile.hpp"
+#include "emulator/core/profile/reading.hpp"
+#include "proto/base/result.hpp"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// Conditions of a regime that is there already.
+struct RegimePatch {
+    std::string regime;
+    Patch own;
+};
+
+/// A list of tables, each with a name, a stay and conditions: all regimes of a direction. "none" or
+/// an empty list: there are none.
+[[nodiscard]] base::SharedVector<Regime> read_regimes(const Node& node, Reading& reading);
+/// A table of tables by their names: conditions of regimes that are there already.
+[[nodiscard]] std::vector<RegimePatch> read_regime_patches(const Node& node, Reading& reading);
+/// As TOML, on one line.
+[[nodiscard]] std::string regimes_text(const Regimes& regimes);
+
+/// The regimes with other conditions. The error: there is none of this name.
+[[nodiscard]] base::Result<Regimes> with_patch(const Regimes& regimes, const RegimePatch& patch);
+
+/// Whether a setting of a direction says what its regimes do not say themselves: else it would do
+/// nothing while they hold. The error says what to write instead; `way` is what stands before the
+/// keys there: "up.".
+[[nodiscard]] base::Result<void> ensure_own(const Patch& patch, const Regimes& regimes,
+                                            std::string_view way);
+
+/// Of a path, up and down.
+using NamesOfRegimes = std::array<RegimeNames, 2>;
+[[nodiscard]] NamesOfRegimes names_of_regimes(const Path& path);
+
+/// Whether any path has regimes.
+[[nodiscard]] bool has_regimes(const Profile& profile);
+
+/// What regimes a path has at the beginning, by its name.
+[[nodiscard]] std::function<NamesOfRegimes(const std::string& path)>
+regimes_of_paths(const Profile& profile);
+
+/// Refuses other regimes than those that a path has by now: fates count them, and statistics name
+/// them.
+[[nodiscard]] base::Result<void> ensure_same_regimes(const Path& path, const Path& now);
+
+} // namespace hapnet::emulator

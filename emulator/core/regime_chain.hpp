@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// How often each of the regimes in a row follows this one: shares that add up to 1, none of
+/// itself.
+[[nodiscard]] std::vector<double> followers_of(std::span<const Regime> regimes, std::size_t index);
+
+/// The share of the time that each of them lasts in the long run.
+[[nodiscard]] std::vector<double> shares_of(std::span<const Regime> regimes);
+
+/// How long one regime has lasted in all, and how often it has begun.
+struct RegimeCourse {
+    base::Duration time{};
+    std::uint64_t stays = 0;
+};
+
+/// Which regime holds when: a Markov chain in time. It is a function of the regimes and of its
+/// stream alone, and nothing of when it is asked. It begins in its stationary law.
+class RegimeChain {
+public:
+    /// `regimes` is one that validate() accepts, and not empty.
+    RegimeChain(const Regimes& regimes, const base::RandomStream& stream);
+
+    /// The index of the regime at this time since the start of the run, which is not less than at
+    /// the last call; not negative.
+    [[nodiscard]] std::size_t at(base::Duration time)
+    {
+        while (time >= end_) move_on();
+        return now_;
+    }
+
+    /// The one that was asked for last.
+    [[nodiscard]] std::size_t current() const { return now_; }
+
+    /// When it ends.
+    [[nodiscard]] base::Duration end() const { return end_; }
+
+    /// What has become of each until this time, or until that of the last call if it is later.
+    [[nodiscard]] std::vector<RegimeCourse> course(base::Duration until) const;
+
+private:
+    void move_on();
+    [[nodiscard]] base::Duration drawn_stay() const;
+
+    struct State {
+        double stay_ns = 0.0;
+        std::vector<double> followers;
+    };
+    std::vector<State> states_;
+    base::RandomStream stream_;
+    std::uint64_t stays_ = 1; // that have begun
+    std::size_t now_ = 0;
+    base::Duration begin_{};
+    base::Duration end_{};
+    std::vector<RegimeCourse> past_; // `time` without the stay that goes on
+};
+
+} // namespace hapnet::emulator

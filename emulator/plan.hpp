@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/paths.hpp"
+#include "emulator/options.hpp"
+#include "emulator/recorder.hpp"
+#include "emulator/scenario.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What a run records, and how its paths are set up, whatever moves its datagrams. The options and
+/// the scenario outlive it.
+struct Plan {
+    const Options& options;
+    const Scenario& scenario;
+    Recorder::Files files;
+    std::vector<Paths::Setup> parts; // a thread each
+};
+
+/// Of a run with so many paths, which share the memory; each thread has its part of it. Its fates
+/// have the names of their paths, as where there are several.
+[[nodiscard]] Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths,
+                           base::TimePoint start);
+
+/// The interfaces in the capture of the path between two ends: "1 (to 2)", "2 (to 1)".
+[[nodiscard]] CaptureNames capture_names(const std::string& first, const std::string& second);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/emulated_path.hpp"
+#include "emulator/recorder.hpp"
+#include "proto/base/inplace_vector.hpp"
+#include "proto/net/packet_socket.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hapnet::emulator::ports {
+
+/// One direction of a path between two interfaces, or of a flow beside it.
+struct FrameWay {
+    EmulatedPath* path = nullptr;
+    Direction direction = Direction::up;
+    std::uint32_t pair = 0; // of interfaces in the capture
+};
+
+/// What leaves from one interface, of all paths that end there: gathered and sent together. Flush
+/// it before the bytes go.
+class FrameBatch {
+public:
+    /// `fixes_checksums`: of all that conditions held for. The socket and the recorder outlive it.
+    FrameBatch(net::PacketSocket& socket, Recorder::Lane& recorder, bool fixes_checksums)
+        : socket_{socket}, recorder_{recorder}, fixes_checksums_{fixes_checksums}
+    {}
+
+    void add(const FrameWay& way, const Datagram& departure);
+    /// A frame that the conditions do not hold for; counted in `lost` if the system does not take
+    /// it, which outlives it.
+    void add_undisturbed(std::span<const std::byte> bytes, std::uint64_t& lost);
+    void flush();
+
+private:
+    struct Entry {
+        FrameWay way{}; // without a path: undisturbed
+        std::uint64_t* lost = nullptr;
+        Datagram departure{};
+    };
+
+    [[nodiscard]] std::span<const std::byte> as_it_leaves(const Datagram& departure);
+    void add_bytes(std::span<const std::byte> bytes);
+    void on_sent(const Entry& entry, std::span<const std::byte> bytes, base::TimePoint at);
+
+    net::PacketSocket& socket_;
+    Recorder::Lane& recorder_;
+    bool fixes_checksums_;
+    template <typename T>
+    using Each = base::InplaceVector<T, net::PacketSocket::batch_max>;
+    Each<Entry> entries_;
+    Each<std::span<const std::byte>> bytes_;
+    std::vector<std::vector<std::byte>> changed_; // copies of frames that leave otherwise
+};
+
+} // namespace hapnet::emulator::ports

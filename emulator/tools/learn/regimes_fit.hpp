@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/tools/learn/measurement.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// One regime that was found in a series.
+struct RegimeFit {
+    std::vector<std::uint8_t> is_own{}; // 1: row n is of it, drawn by its probability
+    double rows = 0.0;                  // expected
+    double lost = 0.0;                  // expected, of these
+    double exits = 0.0;                 // expected: how often it ended
+    double stay_rows = 0.0;             // mean, of exponential stays
+    std::vector<double> followers{};    // how often each of the regimes followed; adds up to 1
+};
+
+/// Regimes of a series, ascending by their mean delays.
+struct RegimesFit {
+    std::vector<RegimeFit> regimes{};
+    double log_likelihood = 0.0;
+    double bic = 0.0; // Schwarz, Annals of Statistics 6, 1978: the least is the best
+};
+
+/// So many regimes, 1 to 4, of delays and losses together: a hidden Markov chain whose states have
+/// any distribution of delays, in at most 32 classes, and a share of losses. Baum and Welch's
+/// expectation-maximisation from several beginnings. nullopt: a regime is too short to be seen at
+/// the distance of the rows, or has fewer than ten stays.
+[[nodiscard]] std::optional<RegimesFit> fit_regimes(const MeasuredWay& way, std::size_t count);
+
+/// How many regimes a series has, by the least BIC; 1 where there are none.
+[[nodiscard]] std::size_t count_regimes(const MeasuredWay& way);
+
+} // namespace hapnet::emulator::tools

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/fate.hpp"
+#include "emulator/tools/verify/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::emulator::tools {
+
+/// [i][j]: with what probability the regime j holds a time after the regime i did, whatever came in
+/// between: the exponential of the chain's rates times that time. `after` >= 0.
+[[nodiscard]] std::vector<std::vector<double>> passages_of(std::span<const Regime> regimes,
+                                                           base::Duration after);
+
+/// Tests of the regimes of a direction by the regime that each fate has: whether they last and
+/// follow each other as they should, and the laws within each. `conditions` has regimes.
+[[nodiscard]] std::vector<TestResult> verify_regimes(const Conditions& conditions,
+                                                     std::span<const Fate> fates,
+                                                     std::optional<base::Duration> spacing,
+                                                     double alpha);
+
+} // namespace hapnet::emulator::tools

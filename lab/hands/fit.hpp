@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/hands/motion.hpp"
+#include "proto/base/result.hpp"
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::hands {
+
+// How recorded motion gets into the scene. One factor scales all hands of a trial. Each hand is
+// then moved, without being turned, so that at the moment when the two are nearest to each other
+// along x, it means to be in the middle of its side of the cube, `press` deep in it. Of a single
+// hand, which acts as A, that is the moment when it is farthest to the right.
+
+/// Half of the Omni's workspace, 160 x 120 x 70 mm, about the cube's place at the start.
+inline constexpr glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
+/// From the middle of the paper's cube to where a hand touches its face: half an edge and the
+/// radius of the HIP.
+inline constexpr double touching_m = 0.025;
+
+struct FitRules {
+    std::optional<double> scale{}; // nullopt: the largest that fits, at most 1
+    double press_m = 0.004;        // the depth that T3 presses with 0.571 N by
+    double speed_max_m_per_s = 1.0;
+};
+
+struct Fit {
+    double scale = 1.0;
+    /// What keeps the scale from being larger: "workspace along x", "speed"; empty: nothing.
+    std::string limited_by{};
+    double meeting_s = 0.0;      // from the beginning of the motion
+    double touching_share = 0.0; // of the time, in which both mean to be so near that they touch
+};
+
+/// Scales and moves the motions of A and, if there is one, of B, which are equally long. The error
+/// says what a given scale breaks, or that A is on the right of B.
+[[nodiscard]] base::Result<Fit> fit(std::vector<Motion>& hands, const FitRules& rules);
+
+} // namespace hapnet::lab::hands

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/hands/fit.hpp"
+#include "lab/hands/manifest.hpp"
+#include "lab/hands/recording.hpp"
+#include "proto/base/result.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::hands {
+
+/// A file and what is in it.
+struct TextFile {
+    std::string name;
+    std::string text;
+};
+
+struct ImportRules {
+    RecordingFormat format{};
+    double smooth_hz = 6.0;
+    double longest_gap_s = 0.1; // a longer one is refused
+    FitRules fit{};
+    std::optional<double> from_s{}; // from the first row on; nullopt: all
+    std::optional<double> to_s{};
+    std::string subject{"1"};
+    std::string trial{}; // empty: as the first file is called
+};
+
+struct Imported {
+    ImportedTrial trial;
+    std::vector<TextFile> scripts; // of A and of B: CSV that device::parse_hand_trace() reads
+};
+
+/// Makes scripts of the recorded motion of one or two people: of one file, or of one of A and one
+/// of B. Files with times share a clock; those without begin together. Errors name the file and,
+/// where there is one, the line.
+[[nodiscard]] base::Result<Imported> import_hands(std::span<const TextFile> files,
+                                                  const ImportRules& rules);
+
+/// What was done, in lines for a person.
+[[nodiscard]] std::string told(const ImportedTrial& trial);
+
+} // namespace hapnet::lab::hands

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/lines.hpp"
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::base {
+
+// Finding columns in tables of measured values, whoever wrote them: commas, semicolons, tabs or
+// blanks separate the cells, a header may be missing, and numbers may have decimal commas.
+
+/// Which column of a table holds what, where its name does not say so.
+struct Column {
+    std::string what; // the name of a ColumnKind
+    std::string name; // in the header; of a table without one, the column's number, from 1
+    std::string unit; // empty: as the name ends
+};
+using Columns = std::vector<Column>;
+
+/// "time=stamp:s, delay=rtt:ms": WHAT=NAME[:UNIT], separated by commas; empty: none. `known` are
+/// the words that may stand for WHAT.
+[[nodiscard]] Result<Columns> parse_columns(std::string_view text,
+                                            std::span<const std::string_view> known);
+
+/// A number as tables write it: with a decimal point or a decimal comma, and as computers do.
+/// nullopt: the cell is no such number, or one of several marks.
+struct WrittenNumber {
+    double value = 0.0;
+    char mark = '\0'; // '.' or ','; 0: it has none
+};
+[[nodiscard]] std::optional<WrittenNumber> number_in(std::string_view cell);
+
+/// Whether a cell says that there is no value: empty, "nan", "-", "*", "lost" or "timeout".
+[[nodiscard]] bool says_lost(std::string_view cell);
+
+/// A unit that the numbers of a column may have, and what one of it is.
+struct ColumnUnit {
+    std::string_view name;
+    double factor;
+};
+
+/// A quantity that a column may hold. Its column is called "<what>_<unit>".
+struct ColumnKind {
+    std::string_view what;
+    std::span<const ColumnUnit> units{};
+    /// What 1 is in a column that is called "<what>" alone; nullopt: the name has to say a unit.
+    std::optional<double> bare_factor{};
+    double most = 0.0; // after its unit was applied
+    std::string_view most_text{};
+    std::string_view short_name{}; // "t": its column may also be called "t_<unit>"
+    bool is_optional = false;
+    bool may_stand_alone = false; // a single column without a name is read by others
+    // For messages.
+    std::string_view usual_names{};  // "delay_ns, delay_us, delay_ms or delay_s"
+    std::string_view example_unit{}; // ":ms"
+};
+
+/// A column of numbers that are written without their unit.
+struct NumberColumn {
+    std::string name; // for messages
+    std::size_t place = 0;
+    double factor = 1.0;
+    double most = 0.0;
+    std::string_view most_text{};
+};
+
+/// Reads the numbers of one table, which all have the same decimal mark.
+class NumberReader {
+public:
+    /// The number in a cell, before the column's factor. The error names the column.
+    [[nodiscard]] Result<double> read(std::string_view cell, const NumberColumn& column);
+
+private:
+    char mark_ = '\0'; // of the numbers so far
+};
+
+/// Where a table has what is looked for.
+struct TableLayout {
+    char separator = ',';
+    std::size_t cells = 1;
+    /// Of each kind that was asked for, in that order; all without a value: a single column without
+    /// a name, of a kind that may stand alone.
+    std::vector<std::optional<NumberColumn>> columns{};
+    bool has_header = false; // the first line has no values
+};
+
+/// Why a line with so many cells is not one of the table.
+[[nodiscard]] std::string refusal_of_cells(std::size_t cells, const TableLayout& layout);
+
+/// The layout of the table that begins with the next line. The first of `kinds` is not optional.
+/// The error says what is missing and how to name it.
+[[nodiscard]] Result<TableLayout>
+find_layout(const LineReader& lines, std::span<const ColumnKind> kinds, const Columns& columns);
+
+} // namespace hapnet::base

@@ -1,0 +1,213 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+"""From recordings to a page: imports motions that this test makes, of six pairs of people, plays
+them beside the simulated hands, and looks at the scripts, the tables and the page.
+
+Usage: hands_test.py FOLDER-WITH-THE-PROGRAMS
+"""
+
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+RATE = 100
+PAIRS = 6
+EXPERIMENT = """
+title = "recorded hands"
+kind = "table1"
+duration = "7s"
+seeds = 1
+algorithms = ["base", "dead-reckoning", "remote-proxy"]
+tasks = ["T3"]
+[both]
+delay = "80ms"
+[axis]
+key = "hands"
+values = ["nominal", "people"]
+"""
+
+
+def lab(*words, code=0):
+    done = subprocess.run([PROGRAMS / "hapnet-lab", *map(str, words)], capture_output=True,
+                          text=True, timeout=300, check=False)
+    assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
+    return done.stdout if code == 0 else done.stderr
+
+
+def place(pair, trial, second):
+    """Where both hands are, mm: they meet, sway together and part."""
+    near = min(second / 1.2, 1.0, (4.0 - second) / 0.8)
+    near = near * near * (3 - 2 * near)
+    sway = (40 + 5 * pair) * math.sin((1 + 0.2 * pair) * second + trial)
+    noise = 0.3 * math.sin(2 * math.pi * 30 * second)  # above the cutoff
+    return ((sway - 400 + 280 * near + noise, 20 * near, 1000 + 10 * math.sin(second)),
+            (sway + 400 - 280 * near, 20 * near, 1010 + 10 * math.sin(second)))
+
+
+def recording(path, pair, trial, lost=range(0)):
+    """x to the right, z up: a table with semicolons and decimal commas, without times."""
+    lines = ["a_x;a_y;a_z;b_x;b_y;b_z"]
+    for row in range(4 * RATE + 1):
+        a, b = place(pair, trial, row / RATE)
+        cells = [f"{value:.3f}".replace(".", ",") for value in a + b]
+        lines.append(";".join(["nan"] * 3 + cells[3:] if row in lost else cells))
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def take(path, *more, code=0):
+    return lab("import", "hands", path, "--columns", "a_x,a_y,a_z,b_x,b_y,b_z", "--units", "mm",
+               "--axes", "x,z,-y", "--rate", f"{RATE}Hz", "--out", FOLDER / "people", *more,
+               code=code)
+
+
+def rows(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def imports():
+    for pair in range(1, PAIRS + 1):
+        for trial in (1, 2):
+            lost = range(150, 154) if (pair, trial) == (2, 1) else range(0)
+            path = recording(FOLDER / f"{pair}-{trial}.csv", pair, trial, lost)
+            said = take(path, "--subject", f"{pair:02}", "--trial", trial)
+            assert "manifest.json" in said and f"subject {pair:02}, trial {trial}" in said, said
+    refused = take(recording(FOLDER / "gap.csv", 1, 1, range(100, 140)), code=2)
+    assert "line 142: the hand was not seen for 410 ms" in refused, refused
+    manifest = json.loads((FOLDER / "people/manifest.json").read_text(encoding="utf-8"))
+    assert len(manifest["trials"]) == 2 * PAIRS
+    for trial in manifest["trials"]:
+        gaps = 1 if (trial["subject"], trial["trial"]) == ("02", "1") else 0
+        assert (trial["a"]["gaps"], trial["b"]["gaps"]) == (gaps, 0), trial
+        assert trial["axes"] == "x,z,-y" and trial["rate_hz"] == RATE
+        check_script(trial)
+    again = take(FOLDER / "1-1.csv", "--subject", "01", "--trial", "1")
+    assert "subject 01" in again
+    same = json.loads((FOLDER / "people/manifest.json").read_text(encoding="utf-8"))
+    assert same == manifest
+
+
+def check_script(trial):
+    """Against the motion itself: scaled, moved, without what is above the cutoff, and in time."""
+    script = rows(FOLDER / "people" / trial["a"]["script"])
+    assert len(script) == 4001
+    xs = [1e3 * float(row["x_m"]) for row in script]
+    assert max(map(abs, xs)) <= 80.0 + 1e-6
+    pair, number = int(trial["subject"]), int(trial["trial"])
+    scale, meeting = trial["scale"], round(1e3 * trial["meeting_s"])
+    assert 0 < scale < 1 and abs(xs[meeting] + 21) < 1e-6, trial
+    missed = 0.0
+    for tick in range(300, 3700, 10):
+        t = tick / 1000
+        meant = place(pair, number, t)[0][0] - 0.3 * math.sin(2 * math.pi * 30 * t)
+        origin = place(pair, number, meeting / 1000)[0][0] - 0.3 * math.sin(
+            2 * math.pi * 30 * meeting / 1000)
+        missed = max(missed, abs(xs[tick] + 21 - scale * (meant - origin)))
+    assert missed < scale * 5.0, (trial, missed)  # the corners of the approach are rounded
+    speed = max(math.dist(*(
+        [1e6 * float(row[axis]) for axis in ("x_m", "y_m", "z_m")] for row in pair_of))
+        for pair_of in zip(script, script[1:]))
+    assert abs(speed - trial["a"]["speed_max_mm_s"]) < 1e-2 * speed + 1.0, (speed, trial)
+    assert speed <= trial["speed_limit_mm_s"]
+
+
+def plays():
+    (FOLDER / "own.toml").write_text(EXPERIMENT, encoding="utf-8")
+    out = FOLDER / "results"
+    lab("run", FOLDER / "own.toml", "--out", out)
+    sessions = rows(out / "sessions_by_axis.csv")
+    recorded = [row for row in sessions if row["value"] == "people"]
+    assert len([row for row in recorded if row["task"] == "T3"]) == 3 * 2 * PAIRS
+    assert {(row["subject"], row["trial"]) for row in recorded} == {
+        (f"{pair:02}", str(trial)) for pair in range(1, PAIRS + 1) for trial in (1, 2)}
+    assert all(row["subject"] == "" for row in sessions if row["value"] == "nominal")
+    check_between_subjects(out, recorded)
+    check_rankings(rows(out / "rankings.csv"))
+    page = pathlib.Path(lab("report", out).strip())
+    text = page.read_text(encoding="utf-8")
+    for words in ("12 trials of 6 subjects", "none of them reacted to its forces",
+                  "Whether recorded people rank the algorithms alike"):
+        assert words in text, words
+    again = lab("run", FOLDER / "own.toml", "--out", out)
+    assert " 0 sessions played" in again, again
+    # A changed script is another session.
+    script = FOLDER / "people/01-1-a.csv"
+    script.write_text(script.read_text(encoding="utf-8") + "4.001,-0.08,0,0\n", encoding="utf-8")
+    changed = lab("run", FOLDER / "own.toml", "--out", out)
+    assert " 0 sessions played" not in changed, changed
+
+
+def check_between_subjects(out, recorded):
+    task = next(row for row in rows(out / "tasks_by_axis.csv")
+                if row["value"] == "people" and row["algorithm"] == "base")
+    assert (task["subjects"], task["trials"], task["seeds"]) == ("6", "12", "12"), task
+    means = {}
+    for row in recorded:
+        if (row["algorithm"], row["task"]) == ("base", "T3"):
+            means.setdefault(row["subject"], []).append(float(row["mean_mm"]))
+    subjects = [sum(values) / len(values) for values in means.values()]
+    mean = sum(subjects) / len(subjects)
+    assert abs(float(task["mean_mm"]) - mean) < 2e-3, (task, mean)
+    low, high = float(task["ci_low_mm"]), float(task["ci_high_mm"])
+    assert min(subjects) - 1e-3 <= low <= mean <= high <= max(subjects) + 1e-3, (task, subjects)
+    paired = [row for row in rows(out / "paired_by_axis.csv")
+              if row["value"] == "people" and row["measure"] == "mean_mm" and row["task"] == "T3"]
+    assert paired and all(row["seeds"] == "6" for row in paired), paired
+
+
+def check_rankings(table):
+    for value in ("nominal", "people"):
+        here = [row for row in table if row["value"] == value and row["task"] == "T3"]
+        assert sorted(row["rank"] for row in here) == ["1", "2", "3"], here
+        by_rank = sorted(here, key=lambda row: int(row["rank"]))
+        means = [float(row["mean_mm"]) for row in by_rank]
+        assert means == sorted(means), here
+    order = {value: [row["algorithm"] for row in sorted(
+        (row for row in table if row["value"] == value and row["task"] == "T3"),
+        key=lambda row: int(row["rank"]))] for value in ("nominal", "people")}
+    agree = sum(1 if order["people"].index(a) < order["people"].index(b) else -1
+                for i, a in enumerate(order["nominal"]) for b in order["nominal"][i + 1:])
+    tau = [float(row["kendall_tau"]) for row in table
+           if row["value"] == "people" and row["task"] == "T3"]
+    assert all(abs(one - agree / 3) < 1e-3 for one in tau), (order, tau)
+
+
+def one_line():
+    """Sessions as long as their own recordings, and what cannot be played."""
+    (FOLDER / "plane.toml").write_text(
+        'title = "p"\nkind = "plane"\nduration = "script"\nseeds = 1\nalgorithms = ["base"]\n'
+        'tasks = ["T3"]\nhands = { people = "people/", preset = "firm" }\n'
+        '[plane]\ndelay = ["0ms", "80ms"]\njitter = "0ms"\nloss = "0%"\n', encoding="utf-8")
+    lab("run", FOLDER / "plane.toml", "--out", FOLDER / "plane")
+    lengths = {row["duration_s"] for row in rows(FOLDER / "plane/sessions.csv")}
+    assert lengths == {"7", "7.001"}, lengths
+    cells = rows(FOLDER / "plane/qos.csv")
+    assert len(cells) == 2 and all(row["subjects"] == "6" for row in cells), cells
+    manifest = json.loads((FOLDER / "plane/manifest.json").read_text(encoding="utf-8"))
+    assert 'duration = "script"' in manifest["configuration"]
+    assert manifest["people"]["trials"] == 12
+    plan = FOLDER / "plan"
+    lab("plan", FOLDER / "plane.toml", "--out", plan)
+    lab("run", plan, "--shard", "0/2")
+    lab("run", plan, "--shard", "1/2")
+    lab("merge", plan)
+    for name in ("qos.csv", "sessions.csv"):
+        assert (plan / name).read_bytes() == (FOLDER / "plane" / name).read_bytes(), name
+    for setting, words in (("hands=nobody", "neither an operator"),
+                           ("hands=no/where", "no/where/manifest.json"),
+                           ('script=["a.csv", ""]', "a.csv")):
+        refused = lab("run", FOLDER / "plane.toml", "--set", setting, "--out", FOLDER / "x", code=2)
+        assert words in refused, refused
+
+
+PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
+with tempfile.TemporaryDirectory() as made:
+    FOLDER = pathlib.Path(made)
+    imports()
+    plays()
+    one_line()
