@@ -7,6 +7,7 @@
 #include "lab/results/session_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -46,17 +47,24 @@ Order order_in(const std::vector<SessionRow>& sessions, const experiment::Experi
     return order;
 }
 
-/// Of two lists of as many means of the same algorithms; nullopt: fewer than two.
+/// Returns Kendall's tau-b of two lists of means of the same algorithms (Kendall, Biometrika 33,
+/// 1945, 239-251): pairs that are equal in a list are left out of what that list tells apart.
+/// nullopt: a list tells no pair apart.
 std::optional<double> tau_of(const std::vector<double>& a, const std::vector<double>& b)
 {
-    if (a.size() < 2 || a.size() != b.size()) return std::nullopt;
+    if (a.size() != b.size()) return std::nullopt;
     const auto sign = [](double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; };
-    double sum = 0.0, pairs = 0.0;
+    double sum = 0.0, told_by_a = 0.0, told_by_b = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        for (std::size_t k = i + 1; k < a.size(); ++k, pairs += 1.0)
-            sum += sign(a[k] - a[i]) * sign(b[k] - b[i]);
+        for (std::size_t k = i + 1; k < a.size(); ++k) {
+            const double in_a = sign(a[k] - a[i]), in_b = sign(b[k] - b[i]);
+            sum += in_a * in_b;
+            told_by_a += in_a * in_a;
+            told_by_b += in_b * in_b;
+        }
     }
-    return sum / pairs;
+    if (told_by_a * told_by_b == 0.0) return std::nullopt;
+    return sum / std::sqrt(told_by_a * told_by_b);
 }
 
 /// Of resampling what the means are of; nullopt: too few, or not as many for each algorithm.

@@ -103,8 +103,9 @@ def groups(repository):
                  schema="verification"),
             Step(f"{emulator} verify fates.csv --profile lossy.toml --seed 8 --json", exit=1,
                  schema="verification")],
-        "emulator-learn": [Step(f"{emulator} learn {name} --plot")
-                           for name in ("ping.txt", "irtt.json", "probe.csv", "delays.csv")],
+        "emulator-learn": [*(Step(f"{emulator} learn {name} --plot")
+                             for name in ("ping.txt", "irtt.json", "probe.csv", "delays.csv")),
+                           Step(f"{emulator} learn delays.csv --json", schema="learn")],
         "peer-algorithms": [Step(f"hapnet-peer --print-algorithm {name}") for name in ALGORITHMS],
         "lab-explain": [Step(f"{lab} list"), *(
             step for name in scenes for step in (
@@ -130,6 +131,10 @@ def groups(repository):
             Step(f"{lab} run qos {TWO} --set both.jitter=1ms --out other"),
             *(Step(f"{lab} compare plan other {words}", schema=schema)
               for words, schema in (("", None), ("--csv", None), ("--json", "comparison")))],
+        "lab-hands": [
+            Step(f"{lab} import hands hands.csv --columns ax,ay,az,bx,by,bz --units mm "
+                 "--rate 100Hz --subject 01 --trial 1 --out people", files=["people/01-1-a.csv"]),
+            Step(imported)],
         "lab-records": [
             Step(f"{lab} run turns.toml --out turns", files=["turns"]),
             *(step for records in (RECORDS, TURNING) for step in (
@@ -174,6 +179,11 @@ def write_inputs(place, repository):
         is_lost = i % 23 in (4, 5)
         delays.append(f"{i / 100:.2f},{'' if is_lost else f'{20 + i * 37 % 101 / 10:.1f}'}")
     (place / "delays.csv").write_text("\n".join(delays) + "\n")
+    hands = ["ax,ay,az,bx,by,bz"]
+    for i in range(200):
+        gap = abs(i % 80 - 40)  # in mm, between two hands that meet and part
+        hands.append(f"{-gap},{i % 7},0,{30 + gap},{i % 5},1")
+    (place / "hands.csv").write_text("\n".join(hands) + "\n")
 
 
 def relayed(programs):
@@ -198,6 +208,12 @@ def relayed(programs):
     for end in ends:
         end.close()
     return []
+
+
+def imported(programs):
+    """What was done to a recording of two hands."""
+    text = (programs.place / "people/manifest.json").read_text(encoding="utf-8")
+    return [Output("people/manifest.json", text, "json", "hands")]
 
 
 def controlled_play(programs):
