@@ -88,12 +88,15 @@ function(hapnet_page out)
         set(name ${CMAKE_MATCH_1})
         string(REPLACE "|" ";" file ${CMAKE_MATCH_2})
         # A browser has no use for comments, and they were 10 kB of what it has to load.
-        if(HAPNET_SED AND name MATCHES "[.](js|css)$" AND NOT name MATCHES "[.]min[.]")
+        if(HAPNET_SED AND name MATCHES "[.](js|css|html)$" AND NOT name MATCHES "[.]min[.]")
             set(stripped ${folder}/${number}-stripped)
+            set(join_lines)
+            if(NOT name MATCHES "[.]html$")
+                set(join_lines COMMAND ${HAPNET_SED} -z -i -f ${join} ${stripped})
+            endif()
             add_custom_command(OUTPUT ${stripped} DEPENDS ${file} ${strip} ${join}
                 COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
-                COMMAND ${HAPNET_SED} -f ${strip} ${file} > ${stripped}
-                COMMAND ${HAPNET_SED} -z -i -f ${join} ${stripped} VERBATIM)
+                COMMAND ${HAPNET_SED} -f ${strip} ${file} > ${stripped} ${join_lines} VERBATIM)
             set(file ${stripped})
         elseif(name MATCHES "[.]css$")
             add_custom_command(OUTPUT ${folder}/${number}-joined DEPENDS ${file}

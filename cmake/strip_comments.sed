@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
-# Leaves out the comments of a script or style sheet that stand on lines of their own, those behind
-# code that have no quote, and what indents lines: no text of ours goes over two.
+# Leaves out the comments of a script, style sheet or page that stand on lines of their own, those
+# behind code that have no quote, and what indents lines: no text of our scripts goes over two.
+/^[[:space:]]*<!--.*-->$/d
 /^[[:space:]]*\/\//d
 /^[[:space:]]*\/\*.*\*\/[[:space:]]*$/d
 /^[[:space:]]*\/\*/,/\*\//d
