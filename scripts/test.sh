@@ -239,9 +239,9 @@ tally() {
         }'
 }
 
-# reasons RUN: the reason and the name of each test that was skipped, with a tab between. ctest names
-# them; the reason stands in what they said: after "skipped: ", or in the line after GoogleTest's
-# ": Skipped".
+# reasons RUN: the reason and the name of each test that was skipped, with a tab between. ctest
+# names them; the reason stands in what they said: after "skipped: ", or in the line after
+# GoogleTest's ": Skipped".
 reasons() {
     [[ -f $logs/$1.said && -f $logs/$1.log ]] || return 0
     awk '

@@ -123,8 +123,7 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "The version of the messages."),
         base::computed<C>(
             "boot_id", [](const C&) { return net::boot_id(); },
-            "The machine's start; records with the same one share a clock, [unless they show "
-            "otherwise](record.md)."));
+            "The machine's start; records of one share a clock, [mostly](record.md)."));
 }
 
 /// The session with the others. Among more than two, number and clock are of each other.
