@@ -26,8 +26,8 @@ using UpstreamRun = RunOf<ports::Upstream, true>;
 [[nodiscard]] nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state);
 [[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state);
 
-/// The same of several links, whatever they stand between: with what `statistics` has already.
-/// `ends`: of each link; empty: they have none to tell of.
+/// Adds several links and their sums to `statistics`, whatever they stand between, and returns all
+/// as JSON. `ends` has the ends of each link; empty: the links have none to tell of.
 [[nodiscard]] nlohmann::ordered_json json_of_links(RunStatistics statistics, const AnyRun& run,
                                                    const RunState& state,
                                                    std::span<const LinkEnds> ends = {});

@@ -14,8 +14,8 @@
 
 namespace hapnet::emulator {
 
-/// What a run records, and how its paths are set up, whatever moves its datagrams. The options and
-/// the scenario outlive it.
+/// The files that a run records and the setup of its paths, whatever moves its datagrams. The
+/// options and the scenario outlive it.
 struct Plan {
     const Options& options;
     const Scenario& scenario;
@@ -23,8 +23,8 @@ struct Plan {
     std::vector<Paths::Setup> parts; // a thread each
 };
 
-/// Of a run with so many paths, which share the memory; each thread has its part of it. Its fates
-/// have the names of their paths, as where there are several.
+/// The plan of a run with this number of paths, which share the memory; each thread has its part of
+/// it. The fates have the names of their paths, as where there are several.
 [[nodiscard]] Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths,
                            base::TimePoint start);
 

@@ -141,7 +141,7 @@ private:
     struct Fates {
         Fates(const std::string& path, FateColumns columns);
 
-        /// What the rows of a path have besides their fates.
+        /// Contents of the rows of a path besides their fates.
         struct Cells {
             std::string begin;
             NamesOfRegimes regimes;

@@ -40,7 +40,7 @@ public:
     /// can do.
     void open();
 
-    /// Whether it carries IPv6, too: this machine has a route for it.
+    /// True if it carries IPv6, too: this machine has a route for it.
     [[nodiscard]] bool has_ipv6() const { return has_ipv6_; }
 
     // Once it is open.

@@ -133,7 +133,7 @@ constexpr auto fields_of(base::Tag<ClientReport>)
         base::member("flows", &C::flows, "In a run with flows: see there.").left_out_if_none());
 }
 
-/// What a link of datagrams stands between.
+/// Addresses of the two ends of a link of datagrams, and the emulator's addresses toward them.
 struct LinkEnds {
     std::optional<std::string> listen_1{};
     std::optional<std::string> listen_2{};

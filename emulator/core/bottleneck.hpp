@@ -42,7 +42,7 @@ public:
 
     [[nodiscard]] bool is_on() const { return is_on_; }
     [[nodiscard]] bool is_idle() const { return queue_.empty() && evicted_.empty(); }
-    /// Whether nothing happens in it as long as nothing arrives.
+    /// True if nothing happens in it as long as nothing arrives.
     [[nodiscard]] bool rests() const { return is_idle() && !has_regimes_; }
     /// From now on its rate changes by itself, or no longer: whoever changes it is to be asked
     /// first.

@@ -205,7 +205,7 @@ struct RegimeNameFormat {
     [[nodiscard]] std::string describe() const { return "a name of a-z, 0-9 and -"; }
 };
 
-/// Of regimes by their names, each finite and not negative.
+/// Weights of regimes by their names, each finite and not negative.
 using Weights = std::vector<std::pair<std::string, double>>;
 
 /// { bad = 1, gone = 0.5 }
@@ -230,13 +230,14 @@ constexpr auto fields_of(base::Tag<Regime>)
 {
     return base::fields(
         "regime",
-        base::field("name", &Regime::name, RegimeNameFormat{}, "what keys and statistics call it")
+        base::field("name", &Regime::name, RegimeNameFormat{}, "its name in keys and statistics")
             .required(),
         base::field("stay", &Regime::stay,
                     "how long it lasts on average (exponential law), 1ms to 720h")
             .required(),
         base::field("to", &Regime::to, WeightsFormat{},
-                    "weights of the regimes that may follow; without it all others are alike"));
+                    "weights of the regimes that may follow; without it all others weigh the "
+                    "same"));
 }
 
 inline constexpr std::size_t regimes_max = 4;
@@ -245,10 +246,10 @@ inline constexpr std::size_t regimes_max = 4;
 inline constexpr std::array<std::string_view, 7> regime_keys{
     "rate", "loss", "corrupt", "duplicate", "delay", "jitter", "order"};
 
-/// Whether they can be: their number, names, stays, and that each comes again and again.
+/// Checks their number, names, stays and weights, and that each comes again and again.
 [[nodiscard]] base::Result<void> validate(const Regimes& regimes);
 
-/// Whether they are the same but for their conditions: names, stays, weights, and togetherness.
+/// True if all but their conditions is equal: names, stays, weights, and togetherness.
 [[nodiscard]] bool have_same_course(const Regimes& a, const Regimes& b);
 
 /// Their names, in their order.

@@ -133,7 +133,7 @@ constexpr auto fields_of(base::Tag<StreamShape>)
             .left_out_if_none());
 }
 
-/// What became of one regime.
+/// Share of the time and number of stays of one regime.
 struct RegimeReport {
     double share = 0.0;
     std::uint64_t stays = 0;

@@ -116,8 +116,8 @@ struct Fate {
     friend bool operator==(const Fate&, const Fate&) = default;
 };
 
-/// The same of a datagram that has no destination: the first cause counts, and the regime and the
-/// states of the laws stay.
+/// Returns the fate of a datagram that has no destination: the first cause counts, and the regime
+/// and the states of the laws stay.
 [[nodiscard]] inline Fate without_destination(const Fate& fate)
 {
     if (fate.drop) return fate;

@@ -104,7 +104,7 @@ public:
     [[nodiscard]] const Conditions& conditions() const { return *conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
-    /// What has become of each regime until this time since the start; empty: there are none.
+    /// Time and stays of each regime until this time since the start; empty: there are none.
     [[nodiscard]] std::vector<RegimeCourse> regime_course(base::Duration until) const
     {
         return pipeline_.regime_course(until);

@@ -45,7 +45,7 @@ struct PathParts {
 /// A way as the names of its random streams begin: with '/' instead of '.', "client/3/up".
 [[nodiscard]] std::string stream_name(std::string_view path, Direction direction);
 
-/// The same of what both ways share: "both", "client/3/both", "1-2/both".
+/// As above, for streams that both ways share: "both", "client/3/both", "1-2/both".
 [[nodiscard]] std::string stream_name_of_both(std::string_view path);
 
 /// A way for people: "up: from A to B", "1-2: from 1 to 2", "2-1: from 2 to 1", "wan.up",
@@ -69,10 +69,10 @@ struct Way {
 /// "client.3.down", "flow.voice.up"; nullopt when it can be no such name.
 [[nodiscard]] std::optional<Way> parse_way(std::string_view text);
 
-/// Whether it is the letter of a command, "a" to "h".
+/// True if it is the letter of a command, "a" to "h".
 [[nodiscard]] bool is_command(std::string_view text);
 
-/// Whether it is the name of the path between two commands, "a-c".
+/// True if it is the name of the path between two commands, "a-c".
 [[nodiscard]] bool is_of_commands(std::string_view path);
 
 /// The way from one to the other of two different peers, by their numbers, or commands, by their

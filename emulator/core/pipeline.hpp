@@ -52,12 +52,12 @@ public:
     {
         return regimes_ == nullptr ? own_fate(packet) : fate_at(packet);
     }
-    /// The same as if that regime held, by its index. Ensures that there are regimes.
+    /// The fate as if the regime with this index held. Ensures that there are regimes.
     [[nodiscard]] Fate on_packet(const Packet& packet, std::size_t regime);
 
     /// The chain of the regimes, at the beginning; nullopt: there are none.
     [[nodiscard]] std::optional<RegimeChain> chain() const;
-    /// What has become of each regime until this time; empty: there are none.
+    /// Time and stays of each regime until this time; empty: there are none.
     [[nodiscard]] std::vector<RegimeCourse> regime_course(base::Duration until) const;
 
     /// That of a further stage of this direction.
@@ -79,7 +79,7 @@ private:
         LossProcess process;
     };
 
-    /// What the stages with a memory have drawn for a datagram.
+    /// Draws of the stages with a memory for a datagram.
     struct Draws {
         std::optional<DropCause> lost{};
         std::array<LossState, loss_laws_max> states{};

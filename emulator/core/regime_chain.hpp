@@ -47,7 +47,7 @@ public:
     /// When it ends.
     [[nodiscard]] base::Duration end() const { return end_; }
 
-    /// What has become of each until this time, or until that of the last call if it is later.
+    /// Time and stays of each until this time, or until that of the last call if it is later.
     [[nodiscard]] std::vector<RegimeCourse> course(base::Duration until) const;
 
 private:

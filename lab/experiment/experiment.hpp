@@ -37,7 +37,7 @@ struct NamedAlgorithm {
 struct Hands {
     device::Operator left{};
     device::Operator right{};
-    /// What recorded people meant to do, instead of a task; nullptr: simulated hands play.
+    /// Intended motions of recorded people, instead of a task; nullptr: simulated hands play.
     std::shared_ptr<const hands::Population> people{};
 
     /// How often each seed is played: once for each of the people's trials.

@@ -262,7 +262,7 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
         base::field("kind", &Experiment::kind, KindFormat{}, "what to find out").required(),
         base::field(
             "duration", &Experiment::duration, DurationFormat{},
-            "of a session, hands off included: the last 3 s, below 6 s the last half; "
+            "length of a session, hands off included: the last 3 s, below 6 s the last half. "
             "`\"script\"`: as long as the longest `script` or `replay`, of people each trial "
             "as long as its own scripts, and hands off")
             .always(),

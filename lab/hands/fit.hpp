@@ -31,7 +31,7 @@ struct FitRules {
 
 struct Fit {
     double scale = 1.0;
-    /// What keeps the scale from being larger: "workspace along x", "speed"; empty: nothing.
+    /// Limit that keeps the scale from being larger: "workspace along x", "speed"; empty: nothing.
     std::string limited_by{};
     double meeting_s = 0.0;      // from the beginning of the motion
     double touching_share = 0.0; // of the time, in which both mean to be so near that they touch

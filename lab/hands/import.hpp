@@ -42,7 +42,7 @@ struct Imported {
 [[nodiscard]] base::Result<Imported> import_hands(std::span<const TextFile> files,
                                                   const ImportRules& rules);
 
-/// What was done, in lines for a person.
+/// Returns lines for a person that say what was done.
 [[nodiscard]] std::string told(const ImportedTrial& trial);
 
 } // namespace hapnet::lab::hands

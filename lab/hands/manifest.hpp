@@ -16,7 +16,7 @@ namespace hapnet::lab::hands {
 
 // manifest.json of a folder of trials: docs/formats/hands.md.
 
-/// What became of the recording of one person.
+/// The imported recording of one person.
 struct ImportedHand {
     std::string script;
     std::string source;
@@ -86,8 +86,8 @@ constexpr auto fields_of(base::Tag<ImportedTrial>)
                      "Axes of the recording that became right, up and toward the user."),
         base::member("scale", &T::scale, "Factor that all distances were multiplied by."),
         base::member("scale_limited_by", &T::scale_limited_by,
-                     "What kept the scale from being larger: the workspace along an axis, or the "
-                     "speed; empty: it was given, or is 1."),
+                     "Limit that kept the scale from being larger: the workspace along an axis, or "
+                     "the speed; empty: the scale was given, or is 1."),
         base::member("press_mm", &T::press_mm,
                      "How deep in the cube the hands mean to be where they are nearest."),
         base::member("meeting_s", &T::meeting_s, "When that is, from the beginning of the scripts.")
@@ -97,8 +97,8 @@ constexpr auto fields_of(base::Tag<ImportedTrial>)
                      "both touch the cube; of one hand, so far to the right that it does.")
             .rounded(4),
         base::member("speed_limit_mm_s", &T::speed_limit_mm_s, "Speed that no script exceeds."),
-        base::member("a", &T::a, "Of the person who acts as A."),
-        base::member("b", &T::b, "Of the person who acts as B; null: a simulated hand does."));
+        base::member("a", &T::a, "The person who acts as A."),
+        base::member("b", &T::b, "The person who acts as B; null: a simulated hand does."));
 }
 
 /// A population: the trials of a folder.
@@ -111,7 +111,7 @@ constexpr auto fields_of(base::Tag<Manifest>)
 {
     using M = Manifest;
     return base::fields("hands", base::member("kind", &M::kind, "`hands`"),
-                        base::member("version", &M::version, "Of this format: 1."),
+                        base::member("version", &M::version, "Version of this format: 1."),
                         base::member("trials", &M::trials, "In the order of their import."));
 }
 
@@ -125,7 +125,7 @@ inline constexpr std::string_view manifest_name = "manifest.json";
 /// Adds a trial, in the place of the one that has the same subject and name.
 void put(Manifest& manifest, ImportedTrial trial);
 
-/// Whether it can name a subject, a trial or a file of one: letters, digits, - and _, at most 200.
+/// True if it can name a subject, a trial or a file of one: letters, digits, - and _, at most 200.
 [[nodiscard]] bool is_plain_name(std::string_view name);
 
 } // namespace hapnet::lab::hands

@@ -14,11 +14,11 @@
 
 namespace hapnet::lab::hands {
 
-/// What two hands mean to do in a session, by the recording of one or two people.
+/// Intended motions of two hands in a session, by the recording of one or two people.
 struct Trial {
     std::string subject;
     std::string name;
-    /// Of A and of B; empty: the simulated hand does what the task says.
+    /// Motions of A and of B; empty: the simulated hand does what the task says.
     std::array<std::shared_ptr<const device::HandTrace>, 2> ways{};
 
     /// Until the last of them ends, seconds.

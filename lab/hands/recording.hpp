@@ -16,7 +16,7 @@
 
 namespace hapnet::lab::hands {
 
-/// What each axis of the scene (x right, y up, z toward the user) is in a recording: "x,z,-y".
+/// Axes of a recording that become x (right), y (up), z (toward the user) of the scene: "x,z,-y".
 struct Axes {
     std::array<int, 3> of{0, 1, 2}; // of the recording: 0 is its x
     glm::dvec3 sign{1.0};
@@ -57,7 +57,7 @@ struct Sample {
     std::size_t line = 0; // of the file
 };
 
-/// What a table says about one person.
+/// The recorded motion of one person in a table.
 struct Track {
     std::vector<Sample>
         samples;            // at least two, in the order of time; rows without a place left out

@@ -17,7 +17,7 @@ namespace hapnet::lab::results {
 struct PartyCells {
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};
-    /// Of recorded people, where such hands played.
+    /// Numbers of recorded people and of their trials, where such hands played.
     std::optional<std::size_t> subjects{};
     std::optional<std::size_t> trials{};
 };

@@ -151,7 +151,7 @@ public:
     };
     [[nodiscard]] const Numbering& numbering() const { return current_; }
     std::uint32_t next_sequence() { return ++current_.sequence; }
-    /// Whether its next state has the body although nothing moves: the first, and every 64th, or
+    /// True if its next state has the body although nothing moves: the first, and every 64th, or
     /// where not every tick has a state, one in 64 ticks.
     [[nodiscard]] bool is_body_due(base::TimePoint now, bool is_each_tick)
     {

@@ -31,7 +31,7 @@ struct SendPolicy {
     std::optional<base::Probability> deadband; // Weber's fraction; with it `every` is 1
     base::Duration silence_max{std::chrono::milliseconds{50}}; // of a deadband, between messages
 
-    /// Whether every tick has a message.
+    /// True if every tick has a message.
     [[nodiscard]] bool is_each_tick() const { return every == 1 && !deadband; }
 
     friend bool operator==(const SendPolicy&, const SendPolicy&) = default;

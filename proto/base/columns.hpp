@@ -38,7 +38,7 @@ struct WrittenNumber {
 };
 [[nodiscard]] std::optional<WrittenNumber> number_in(std::string_view cell);
 
-/// Whether a cell says that there is no value: empty, "nan", "-", "*", "lost" or "timeout".
+/// True if a cell says that there is no value: empty, "nan", "-", "*", "lost" or "timeout".
 [[nodiscard]] bool says_lost(std::string_view cell);
 
 /// A unit that the numbers of a column may have, and what one of it is.
@@ -51,7 +51,7 @@ struct ColumnUnit {
 struct ColumnKind {
     std::string_view what;
     std::span<const ColumnUnit> units{};
-    /// What 1 is in a column that is called "<what>" alone; nullopt: the name has to say a unit.
+    /// Value of 1 in a column that is called "<what>" alone; nullopt: the name has to say a unit.
     std::optional<double> bare_factor{};
     double most = 0.0; // after its unit was applied
     std::string_view most_text{};
@@ -86,8 +86,8 @@ private:
 struct TableLayout {
     char separator = ',';
     std::size_t cells = 1;
-    /// Of each kind that was asked for, in that order; all without a value: a single column without
-    /// a name, of a kind that may stand alone.
+    /// Columns of the kinds asked for, in that order; all without a value: a single column
+    /// without a name, of a kind that may stand alone.
     std::vector<std::optional<NumberColumn>> columns{};
     bool has_header = false; // the first line has no values
 };

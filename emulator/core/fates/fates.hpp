@@ -65,7 +65,7 @@ struct Fates {
 /// would not have written.
 [[nodiscard]] base::Result<Fates> parse_fates(std::string_view text);
 
-/// The same fates, whose regimes are counted as in these lists. The error: they speak of others.
+/// Returns the fates with regimes counted as in these lists. The error: a regime that they lack.
 [[nodiscard]] base::Result<Fates> with_regimes(Fates fates, const RegimeNames& up,
                                                const RegimeNames& down);
 

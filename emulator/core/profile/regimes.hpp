@@ -33,20 +33,19 @@ struct RegimePatch {
 /// The regimes with other conditions. The error: there is none of this name.
 [[nodiscard]] base::Result<Regimes> with_patch(const Regimes& regimes, const RegimePatch& patch);
 
-/// Whether a setting of a direction says what its regimes do not say themselves: else it would do
-/// nothing while they hold. The error says what to write instead; `way` is what stands before the
-/// keys there: "up.".
+/// Refuses a setting of a direction that its regimes set themselves: it would do nothing while they
+/// hold. The error says what to write instead; `way` is what stands before the keys there: "up.".
 [[nodiscard]] base::Result<void> ensure_own(const Patch& patch, const Regimes& regimes,
                                             std::string_view way);
 
-/// Of a path, up and down.
+/// Names of the regimes of a path, up and down.
 using NamesOfRegimes = std::array<RegimeNames, 2>;
 [[nodiscard]] NamesOfRegimes names_of_regimes(const Path& path);
 
-/// Whether any path has regimes.
+/// True if any path has regimes.
 [[nodiscard]] bool has_regimes(const Profile& profile);
 
-/// What regimes a path has at the beginning, by its name.
+/// Returns the regimes that a path has at the beginning, by its name; empty: no path has regimes.
 [[nodiscard]] std::function<NamesOfRegimes(const std::string& path)>
 regimes_of_paths(const Profile& profile);
 

@@ -77,8 +77,8 @@ struct Setting {
 [[nodiscard]] base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
                                                std::string_view name = {});
 
-/// Whether no setting for all paths, or for this one, says what the regimes of `path` say
-/// themselves; see ensure_own().
+/// Refuses settings for all paths, or for this one, that the regimes of `path` set themselves; see
+/// ensure_own().
 [[nodiscard]] base::Result<void> ensure_own_settings(std::span<const Setting> settings,
                                                      std::string_view name, const Path& path);
 

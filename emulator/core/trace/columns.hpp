@@ -26,7 +26,7 @@ enum class Measure : std::uint8_t { delay, loss, rate, lost };
 [[nodiscard]] base::Result<base::TableLayout>
 find_layout(const base::LineReader& lines, Measure measure, const base::Columns& columns);
 
-/// Of such a layout.
+/// The columns of the values and of the times in such a layout.
 [[nodiscard]] inline const std::optional<base::NumberColumn>&
 value_of(const base::TableLayout& layout)
 {

@@ -70,6 +70,8 @@ class ADesign(unittest.TestCase):
             ('"40ms"', '"40"', "FILE:3: levels: '40' has no unit: write one of"),
             ('"40ms"', "40", "FILE:3: levels: 40 is no time: write it as a text"),
             ('"40ms"', '"40kg"', "FILE:3: levels: '40kg' has the unknown unit 'kg'"),
+            ('"40ms"', '"40\\u0007s"', "FILE:3: levels: '40\\x07s' has the unknown unit '\\x07s'"),
+            ("task =", '"\\u001b" =', "FILE: '\\x1b': unknown key: use title"),
             ('"40ms"', '"90ms"', "FILE:3: levels: 80ms comes after 90ms: write them ascending"),
             ('"both.delay"', '"both.dealy"', "FILE:2: factor: 'both.dealy' is no condition that "
              "gets worse as it grows: did you mean 'both.delay'?"),

@@ -17,7 +17,10 @@ import unittest
 import xml.dom.minidom
 
 from hapnet import read_csv
-from hapnet.study.answers import folder_of
+from hapnet.study.analyse import read_answers
+from hapnet.study.answers import AnswersError, folder_of
+from hapnet.study.design import read_design
+from hapnet.study.figure import svg
 
 from terminal import PROGRAM, WITHIN_S, Terminal
 
@@ -172,6 +175,31 @@ class AStudy(unittest.TestCase):
             file.write("seed = 2\n")
         self.assertIn("the design has changed", self.simulate(1, code=2))
 
+    def test_reads_or_refuses_answers_of_any_bytes(self):
+        self.simulate(1)
+        path = os.path.join(folder_of(self.out, 1), "answers.jsonl")
+        with open(path, "rb") as file:
+            whole = file.read()
+        design, draw = read_design(self.design), random.Random(5)
+        read = 0
+        for _ in range(1000):
+            data = bytearray(whole)
+            for _ in range(draw.randint(1, 3)):
+                at = draw.randrange(len(data))
+                data[at:at + draw.randrange(4)] = draw.choice(
+                    (b"", b"0", b"9" * 30, b"\xff", b"[", b"{", b'"', b"\n", b"\r", b"NaN"))
+            with open(path, "wb") as file:
+                file.write(data)
+            try:
+                answers, _, _ = read_answers(design, self.out, 1)
+            except AnswersError as refused:
+                self.assertRegex(str(refused), r"answers\.jsonl:\d+: .*: .*(--out|--participant)")
+            else:
+                read += 1
+                self.assertEqual([one.trial.number for one in answers],
+                                 list(range(1, len(answers) + 1)))
+        self.assertGreater(read, 20)
+
     def test_lets_one_process_ask_a_participant(self):
         person = Terminal(*self.words(1))
         person.until("Enter goes on: ")
@@ -200,6 +228,28 @@ class AStudy(unittest.TestCase):
             drawing = file.read()
         self.assertEqual(drawing.count("<polyline"), 6)
         xml.dom.minidom.parseString(drawing)
+
+    def test_draws_any_number_of_participants_within_the_figure(self):
+        curve = {"location": 80.0, "scale": 20.0, "early": 0.0, "late": 0.0, "core": "logistic"}
+        known = {"threshold": 80.0, "bound": "=", "ci_low": 60.0, "ci_high": 100.0, "curve": curve,
+                 "levels": [{"level": 0.0, "noticed": 0, "of": 500}]}
+        beyond = {**known, "threshold": 160.0, "bound": ">", "ci_high": None}
+        below = {**known, "threshold": 0.0, "bound": "<", "ci_low": None}
+        unknown = {**known, "threshold": None, "bound": None, "ci_low": None, "ci_high": None,
+                   "curve": None}
+        for rows in ([known], [unknown], [known, beyond, below, unknown], [known] * 500):
+            rows = [{**row, "participant": i} for i, row in enumerate(rows, 1)]
+            drawing = svg({"title": "<&>" * 300, "factor": "both.delay", "unit": "ms", "at": 0.5,
+                           "participants": rows, "all": {"threshold": 80.0, "ci_low": None,
+                                                         "ci_high": None}}, (0.0, 160.0), "share")
+            root = xml.dom.minidom.parseString(drawing).documentElement
+            self.assertLessEqual(int(root.getAttribute("height")), 760)
+            dots = [float(one.getAttribute(key)) for one in root.getElementsByTagName("circle")
+                    for key in ("cx", "cy")]
+            self.assertGreater(min(dots), 20.0)
+            self.assertLess(max(dots), 740.0)
+            self.assertEqual(drawing.count("<circle"),
+                             1 + len(rows) + sum(row["bound"] == "=" for row in rows))
 
     def test_writes_what_the_schemas_say(self):
         try:
@@ -242,11 +292,26 @@ class AStudy(unittest.TestCase):
             (["run", self.design, "--partcipant", "1"], "did you mean --participant?"),
             (["analyse", self.design, "--out", self.out + "-none"], "there is no such folder"),
             (["check", self.design + "x"], "there is no such file"),
+            (["check", self.folder], "Is a directory: name a design"),
             ([], "which command?"),
             (["check", self.design, "--", "--id", "3"], "they go with run"),
             (self.words(1, "--device", "sim"), "--dry plays nothing"),
         ):
             self.assertIn(message, self.run_program(*words, code=2))
+
+    def test_tells_what_the_system_refuses_with_the_place(self):
+        own = os.path.join(folder_of(self.out, 1), "answers.jsonl")
+        os.makedirs(own)
+        for words in (["analyse", self.design, "--out", self.out], self.words(1)):
+            self.assertIn(f"{own}: Is a directory: see to it", self.run_program(*words, code=3))
+
+    def test_ends_without_a_word_when_no_one_reads_on(self):
+        read, write = os.pipe()
+        os.close(read)
+        done = subprocess.run([sys.executable, PROGRAM, "check", self.design], stdout=write,
+                              stderr=subprocess.PIPE, text=True, timeout=WITHIN_S)
+        os.close(write)
+        self.assertEqual((done.returncode, done.stderr), (3, ""))
 
     def test_tells_what_would_be_played(self):
         said = self.run_program("check", self.design, "--participant", "3")

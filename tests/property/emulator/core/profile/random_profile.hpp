@@ -244,7 +244,7 @@ private:
         return drawn;
     }
 
-    /// Of two or three regimes, whose names do not change.
+    /// Two or three regimes, whose names do not change.
     Regimes regimes()
     {
         std::vector<Regime> all;
