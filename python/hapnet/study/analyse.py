@@ -147,8 +147,7 @@ def write(design: Design, out: str, result: dict[str, Any]) -> list[str]:
         "thresholds.csv": table(THRESHOLDS, [{**row, **common} for row in [*rows, everyone]]),
         "levels.csv": table(LEVELS, levels),
         "analysis.json": json.dumps(result, indent=2) + "\n",
-        "study.svg": svg(design.title, design.factor, design.unit, rows,
-                         (design.lowest, design.highest), result["at"], share),
+        "study.svg": svg(result, (design.lowest, design.highest), share),
     }
     for name, text in texts.items():
         write_whole(os.path.join(out, name), text)

@@ -135,8 +135,11 @@ CURES = {
 def read_lines(file: int, path: str) -> tuple[list[dict[str, Any]], int]:
     """The whole lines of a file, and how many bytes they take."""
     data = b""
-    while chunk := os.pread(file, 1 << 20, len(data)):
-        data += chunk
+    try:
+        while chunk := os.pread(file, 1 << 20, len(data)):
+            data += chunk
+    except OSError as refused:
+        raise OSError(refused.errno, refused.strerror, path) from None
     whole = data.rfind(b"\n") + 1
     lines = []
     for number, line in enumerate(data[:whole].splitlines(), 1):

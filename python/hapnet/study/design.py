@@ -153,7 +153,8 @@ class _Reader:
         if found is None:
             found = re.search(rf"^\s*\[+\s*{last}", self._source, re.MULTILINE)
         line = f":{self._source.count(chr(10), 0, found.end()) + 1}" if found else ""
-        return DesignError(f"{self._path}{line}: {self._before}{key}: {words}")
+        name = key if key.isprintable() else repr(key)
+        return DesignError(f"{self._path}{line}: {self._before}{name}: {words}")
 
     def take(self, key: str, default: Any, read: Callable[[Any], Any]) -> Any:
         """The value of a key, as `read` makes it; the default without it."""

@@ -5,6 +5,9 @@ Jaekel and Wichmann, "Bayesian inference for psychometric functions", Journal of
 478-492), with the prior of the fit, over all thresholds from the reference to twice the range and
 all scales, for the core and the lapses of the fit.
 
+A staircase chooses its levels by the answers alone, so that its likelihood, and with it the
+posterior, is the same function of the counts as for levels that were fixed before.
+
 The lab draws seeds again instead (lab/metrics/psychometric.hpp): one seed gives an answer at every
 level. Trials of a participant are too few for that, and those of a staircase depend on each
 other."""
@@ -19,9 +22,7 @@ from hapnet.study.psychometric import (
     LEAST, TWO_INTERVALS, YES_NO, Count, Curve, core_at, fitted, rise_of, scaled,
 )
 
-# By which share of the posterior 95 % of simulated observers are held: tests/soak/study_soak.py
-# measures it. Staircases choose their own levels, which the posterior does not know.
-MASS_OF_LEVELS, MASS_OF_STAIRCASES = 0.95, 0.94
+MASS = 0.95  # of the posterior; tests/soak/study_soak.py measures how many observers it holds
 LOG_SCALES = [i / 4 for i in range(-14, 15)]  # in standard deviations of the prior
 COARSE, FINE = 48, 64  # thresholds
 NEGLIGIBLE = 1e-5
@@ -32,7 +33,6 @@ def interval_of(design: Design, counts: Sequence[Count],
     """The ends of the interval; None where one lies beyond the levels. `curve`: the fit."""
     kind = TWO_INTERVALS if design.two_intervals else YES_NO
     curve = curve or fitted(counts, kind)
-    mass = MASS_OF_STAIRCASES if design.staircase else MASS_OF_LEVELS
     posterior = _Marginal(counts, curve, kind.at)
     top = design.highest + (design.highest - design.reference)
     places, weights = posterior.over(design.reference, top, COARSE)
@@ -40,7 +40,7 @@ def interval_of(design: Design, counts: Sequence[Count],
     held = [i for i, weight in enumerate(weights) if weight > limit]
     low, high = places[max(held[0] - 1, 0)], places[min(held[-1] + 1, len(places) - 1)]
     places, weights = posterior.over(low, high, FINE)
-    tail = 0.5 * (1.0 - mass)
+    tail = 0.5 * (1.0 - MASS)
     ends = _quantile(places, weights, tail), _quantile(places, weights, 1.0 - tail)
     return ends[0], ends[1] if ends[1] <= design.highest else None
 

@@ -45,8 +45,10 @@ def main(words: Optional[Sequence[str]] = None) -> int:
         if beyond is not None and given.command != "run":
             raise BadUsage("words after -- are options of a peer: they go with run")
         design = read_design(given.design)
-        return {"run": _run, "analyse": _analyse, "check": _check}[given.command](
+        code = {"run": _run, "analyse": _analyse, "check": _check}[given.command](
             design, given, beyond or [])
+        sys.stdout.flush()  # here, where a refusal is told
+        return code
     except (BadUsage, DesignError, AnswersError) as wrong:
         return _refuse(str(wrong), BAD_USAGE)
     except (NeverValid, Left) as failed:
@@ -54,12 +56,25 @@ def main(words: Optional[Sequence[str]] = None) -> int:
     except ProgramFailed as failed:
         return _refuse(str(failed), FAILED if failed.code is not None else SYSTEM)
     except OSError as refused:
-        if isinstance(refused, FileNotFoundError) and refused.filename == given.design:
-            return _refuse(f"{given.design}: there is no such file", BAD_USAGE)
-        return _refuse(str(refused), SYSTEM)
+        return _refused_by_system(refused, given)
     except KeyboardInterrupt:
         return _refuse("interrupted; the same command goes on with the trial that has no answer",
                        INTERRUPTED)
+
+
+def _refused_by_system(refused: OSError, given: argparse.Namespace) -> int:
+    if isinstance(refused, BrokenPipeError):  # as by head: what is left is for no one
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        words = "the output is closed; the same command goes on"
+        return _refuse(words, SYSTEM) if given.command == "run" else SYSTEM
+    words = refused.strerror or str(refused)
+    if isinstance(refused, FileNotFoundError) and refused.filename == given.design:
+        return _refuse(f"{given.design}: there is no such file", BAD_USAGE)
+    if refused.filename == given.design:
+        return _refuse(f"{given.design}: {words}: name a design, a file in TOML", BAD_USAGE)
+    if refused.filename is None:
+        return _refuse(words, SYSTEM)
+    return _refuse(f"{refused.filename}: {words}: see to it, or name another --out", SYSTEM)
 
 
 def _refuse(words: str, code: int) -> int:

@@ -22,15 +22,15 @@ def parse(value: object, unit: str) -> float:
         raise ValueError(f"{value!r} is no {KINDS[unit]}: write it as a text, such as {example}")
     found = re.fullmatch(r"(\d{1,12}(?:\.\d{1,9})?)(\D{0,8})", value)
     if found is None:
-        raise ValueError(f"'{value}' is no {KINDS[unit]}: write a number and a unit, as {example}")
+        raise ValueError(f"{value!r} is no {KINDS[unit]}: write a number and a unit, as {example}")
     number, word = found.groups()
     if word not in UNITS[unit]:
         units = ", ".join(UNITS[unit])
-        what = f"has the unknown unit '{word}'" if word else "has no unit"
-        raise ValueError(f"'{value}' {what}: write one of {units}, as {example}")
+        what = f"has the unknown unit {word!r}" if word else "has no unit"
+        raise ValueError(f"{value!r} {what}: write one of {units}, as {example}")
     result = float(number) * UNITS[unit][word]
     if unit == "%" and result > 100.0:
-        raise ValueError(f"'{value}' is more than 100%")
+        raise ValueError(f"{value!r} is more than 100%: write a share of at most 100%")
     return result
 
 
