@@ -216,7 +216,7 @@ private:
         }
         const DelayInterval delay = delay_interval(own, regime);
         text += fmt::format(
-            ", delay {:.4g} ms (95 %: {:.4g} to {:.4g} ms), sd {:.4g} ms (95 %: "
+            ", delay {:.6g} ms (95 %: {:.6g} to {:.6g} ms), sd {:.4g} ms (95 %: "
             "{:.4g} to {:.4g} ms)",
             delay.mean, delay.mean - z * delay.mean_error, delay.mean + z * delay.mean_error,
             delay.sd, std::max(delay.sd - z * delay.sd_error, 0.0), delay.sd + z * delay.sd_error);

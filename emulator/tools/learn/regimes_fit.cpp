@@ -29,12 +29,90 @@ constexpr std::uint8_t lost_symbol = most_classes;
 constexpr std::uint8_t unknown_symbol = most_classes + 1;
 constexpr std::size_t symbols = most_classes + 1; // that a state has a probability of
 
-/// A series, in which delays stand in classes of about equal numbers.
+/// A series, in which delays stand in classes.
 struct Series {
     std::vector<std::uint8_t> rows{};
     std::size_t classes = 0;
     std::array<double, most_classes> mean{}; // delay in each, in ns
     std::array<double, symbols> share{};     // of all rows
+};
+
+/// Classes of sorted delays. Classes of equal numbers alone would put the slowest delays of a good
+/// regime and the few delays of a rare bad one into the same class, where nothing tells them apart.
+/// So half of the classes have equal numbers, and the others are made where a class is widest.
+class Classes {
+public:
+    /// Makes at most `most` classes. `sorted` has a delay.
+    Classes(const std::vector<double>& sorted, std::size_t most) : sorted_{sorted}
+    {
+        sum_logarithms();
+        for (std::size_t i = 1; i < most / 2; ++i) cut_at(sorted.size() * i / (most / 2));
+        std::vector<Cut> cuts;
+        for (std::size_t i = 0; i + 1 < ends_.size(); ++i)
+            cuts.push_back(best_cut(ends_[i], ends_[i + 1]));
+        while (ends_.size() <= most) {
+            const auto best = std::ranges::max_element(cuts, {}, &Cut::gain);
+            if (best->gain <= 0.0) break;
+            const std::size_t place = best->place;
+            const auto after = ends_.insert(std::ranges::lower_bound(ends_, place), place);
+            *best = best_cut(*(after - 1), place);
+            cuts.insert(best + 1, best_cut(place, *(after + 1)));
+        }
+    }
+
+    /// Each class begins above one, but for the first.
+    [[nodiscard]] std::vector<double> edges() const
+    {
+        std::vector<double> edges;
+        for (std::size_t i = 1; i + 1 < ends_.size(); ++i) edges.push_back(sorted_[ends_[i] - 1]);
+        return edges;
+    }
+
+private:
+    static constexpr std::size_t delays_min = 10; // in a class
+
+    struct Cut {
+        std::size_t place = 0;
+        double gain = 0.0; // of squared deviations within classes, which it takes away
+    };
+
+    /// Sums the logarithms of the distance from the least delay: deviations are those of
+    /// logarithms, so that a long tail does not take all classes.
+    void sum_logarithms()
+    {
+        const double least = sorted_.front();
+        const double scale = std::max(sorted_[sorted_.size() / 2] - least, 1e3);
+        for (const double delay : sorted_)
+            sums_.push_back(sums_.back() + base::log(delay - least + scale) - base::log(scale));
+    }
+
+    /// Ends a class at the first place from here on where the delay changes.
+    void cut_at(std::size_t place)
+    {
+        place = std::max<std::size_t>(place, 1);
+        while (place < sorted_.size() && sorted_[place] == sorted_[place - 1]) ++place;
+        const std::size_t before = ends_[ends_.size() - 2];
+        if (place < sorted_.size() && place > before) ends_.insert(ends_.end() - 1, place);
+    }
+
+    /// The place where one-dimensional k-means would cut the class of these delays in two.
+    [[nodiscard]] Cut best_cut(std::size_t begin, std::size_t end) const
+    {
+        Cut best;
+        for (std::size_t i = begin + delays_min; i + delays_min <= end; ++i) {
+            if (sorted_[i] == sorted_[i - 1]) continue;
+            const auto left = static_cast<double>(i - begin);
+            const auto right = static_cast<double>(end - i);
+            const double apart = (sums_[end] - sums_[i]) / right - (sums_[i] - sums_[begin]) / left;
+            const double gain = apart * apart * left * right / (left + right);
+            if (gain > best.gain) best = {i, gain};
+        }
+        return best;
+    }
+
+    const std::vector<double>& sorted_;
+    std::vector<double> sums_{0.0};                    // of the logarithms before each delay
+    std::vector<std::size_t> ends_{0, sorted_.size()}; // of the classes
 };
 
 Series series_of(const MeasuredWay& way)
@@ -46,12 +124,8 @@ Series series_of(const MeasuredWay& way)
     std::sort(sorted.begin(), sorted.end());
     const auto fitting =
         static_cast<std::size_t>(std::sqrt(static_cast<double>(sorted.size())) / 4);
-    const std::size_t wanted = std::clamp(fitting, std::size_t{4}, most_classes);
-    std::vector<double> edges; // each class begins above one, but for the first
-    for (std::size_t i = 1; i < wanted && !sorted.empty(); ++i) {
-        const double edge = sorted[sorted.size() * i / wanted];
-        if (edge < sorted.back() && (edges.empty() || edge > edges.back())) edges.push_back(edge);
-    }
+    const std::size_t most = std::clamp(fitting, std::size_t{4}, most_classes);
+    const auto edges = sorted.empty() ? std::vector<double>{} : Classes{sorted, most}.edges();
     Series series{.classes = edges.size() + 1};
     std::array<double, most_classes> counts{};
     for (std::size_t i = 0; i < way.delays.size(); ++i) {

@@ -376,8 +376,7 @@ TEST(LearnRegimes, FindsTwoRegimesOfFourThousandEpisodes)
             conditions.loss.clear();
             return played(conditions, 50'000, 5ms, 1us);
         };
-        // A few rows at the ends of stays count to the wrong regime.
-        EXPECT_LT(distance_between(alone(is), alone(was)), 0.05);
+        EXPECT_LT(distance_between(alone(is), alone(was)), 0.03);
         const auto mean_of = [](const MeasuredWay& one) {
             double sum = 0.0;
             for (const auto& delay : one.delays) sum += base::to_seconds(*delay);
@@ -388,6 +387,32 @@ TEST(LearnRegimes, FindsTwoRegimesOfFourThousandEpisodes)
     EXPECT_NE(to_text(lesson).find("regime bad:"), std::string::npos);
     EXPECT_NE(to_text(lesson).find("95 %"), std::string::npos);
     EXPECT_TRUE(is_near(learned, way));
+}
+
+TEST(LearnRegimes, KeepsTheSlowDelaysOfAGoodRegimeApartFromThoseOfARareBadOne)
+{
+    // Bad are 4.8 % of the time, and 3.4 % of what arrives.
+    const Conditions truth{.order = Order::free,
+                           .regimes = {{Regime{"good",
+                                               3s,
+                                               {},
+                                               {.loss = {{RandomLoss{0.1_percent}}},
+                                                .delay = constant(20ms),
+                                                .jitter = Variation{GammaLaw{1ms, 500us}, {}}}},
+                                        Regime{"bad",
+                                               150ms,
+                                               {},
+                                               {.loss = {{RandomLoss{30_percent}}},
+                                                .delay = constant(80ms),
+                                                .jitter = Variation{GammaLaw{20ms, 10ms}, {}}}}}}};
+    const auto way = played(truth, 200'000, 1ms, 1us);
+    const auto fit = fit_regimes(way, 2);
+    ASSERT_TRUE(fit);
+    // No delay of 20 ms + gamma(1 ms, 0.5 ms) reaches 60 ms, and none of the others is below 80.
+    for (std::size_t i = 0; i < way.delays.size(); ++i) {
+        if (!way.delays[i]) continue;
+        ASSERT_EQ(fit->regimes[1].is_own[i], *way.delays[i] > 60ms ? 1 : 0) << "row " << i;
+    }
 }
 
 TEST(LearnRegimes, FindsThreeRegimesAndWhatFollowsWhat)
