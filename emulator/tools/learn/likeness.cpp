@@ -24,6 +24,8 @@ constexpr base::Duration spacing_where_unknown = 10ms;
 constexpr std::size_t played_rows_min = 20'000;
 constexpr std::size_t losses_min = 30;
 constexpr std::uint64_t plays_of_regimes = 40;
+constexpr std::uint64_t plays_min = 8;
+constexpr std::size_t rows_in_all_plays = 4'000'000;
 
 std::vector<base::Duration> sorted_delays(const MeasuredWay& way)
 {
@@ -137,7 +139,7 @@ double distance_between(const MeasuredWay& a, const MeasuredWay& b)
 
 std::optional<double> autocorrelation(const MeasuredWay& way, base::Duration lag)
 {
-    constexpr std::size_t times_lag = 4; // a shorter series says little
+    constexpr std::size_t times_lag = 3; // a shorter series says little
     if (!way.spacing || *way.spacing <= base::Duration{0}) return std::nullopt;
     const auto rows = static_cast<std::size_t>((lag + *way.spacing / 2) / *way.spacing);
     if (rows == 0 || way.delays.size() < times_lag * rows) return std::nullopt;
@@ -232,7 +234,12 @@ bool is_like(const MeasuredWay& model, const MeasuredWay& learned)
 
 bool is_near(const Conditions& conditions, const MeasuredWay& learned)
 {
-    const std::uint64_t plays = conditions.regimes.empty() ? 1 : plays_of_regimes;
+    // Long series have many stays, and their plays differ less.
+    const auto affordable = rows_in_all_plays / std::max<std::size_t>(learned.delays.size(), 1);
+    const std::uint64_t plays =
+        conditions.regimes.empty()
+            ? 1
+            : std::clamp<std::uint64_t>(affordable, plays_min, plays_of_regimes);
     for (std::uint64_t play = 1; play <= plays; ++play)
         if (is_like(played_like(conditions, learned, base::Seed{play}), learned)) return true;
     return false;
