@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <iostream>
 #include <string>
 
 namespace hapnet::emulator::tools::verify_regimes_test {
@@ -66,6 +67,16 @@ std::vector<std::string> failed(const std::vector<TestResult>& results)
     return names;
 }
 
+/// The figures of a soak, which shows lines that begin with two spaces.
+void print(const std::vector<TestResult>& results, std::uint64_t seed)
+{
+    for (const TestResult& result : results) {
+        std::cout << "  seed " << seed << ", " << result.name << ": " << result.sentence;
+        if (result.p_value) std::cout << ", p = " << *result.p_value;
+        std::cout << std::endl;
+    }
+}
+
 TEST(VerifyRegimes, PassesWhereTheyAreAsAsked)
 {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -77,6 +88,7 @@ TEST(VerifyRegimes, PassesWhereTheyAreAsAsked)
         }
         EXPECT_LT(unable, 3U);
         EXPECT_GT(results.size(), 15U);
+        if (std::getenv("HAPNET_SOAK_PACKETS") != nullptr) print(results, seed);
     }
 }
 
