@@ -82,28 +82,37 @@ public:
         try_out("normal", values_.mean, NormalLaw{{}, in_microseconds(values_.sd)});
         const double start = std::max(least - (values_.mean - least) / n, 0.0);
         try_out("exponential", start, ExponentialLaw{in_microseconds(values_.mean - start)});
-        // Where a law with a beginning begins is not one of its parameters.
-        for (const double back : {0.0, 0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2}) {
-            const double from = std::max(least - back * values_.sd, 0.0);
-            try_from(from);
-            if (from == 0.0) break;
-        }
+        try_before(least);
+        // Of a regime: a few of its delays may be those of another one.
+        const double few = values_.sorted[values_.sorted.size() / 500];
+        if (few - least > values_.sd) try_before(few);
         std::stable_sort(models_.begin(), models_.end(),
                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
         return std::move(models_);
     }
 
 private:
+    /// Tries laws that begin there and earlier: where they begin is not one of their parameters.
+    void try_before(double least)
+    {
+        for (const double back : {0.0, 0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2}) {
+            const double from = std::max(least - back * values_.sd, 0.0);
+            try_from(from);
+            if (from == 0.0) break;
+        }
+    }
+
     void try_from(double from)
     {
         const double mean = values_.mean - from;
         try_out("gamma", from, GammaLaw{in_microseconds(mean), in_microseconds(values_.sd)});
-        const auto n = static_cast<double>(values_.sorted.size());
-        const double first = std::max(values_.sorted.front() - from, 1e3);
+        const auto begin = std::ranges::lower_bound(values_.sorted, from);
+        const auto n = static_cast<double>(values_.sorted.end() - begin);
+        const double first = std::max(*begin - from, 1e3);
         double sum = 0.0;
         double squares = 0.0;
-        for (const double value : values_.sorted) {
-            const double log = base::log(std::max(value - from, 1e3));
+        for (auto value = begin; value != values_.sorted.end(); ++value) {
+            const double log = base::log(std::max(*value - from, 1e3));
             sum += log;
             squares += log * log;
         }

@@ -376,7 +376,7 @@ TEST(LearnRegimes, FindsTwoRegimesOfFourThousandEpisodes)
             conditions.loss.clear();
             return played(conditions, 50'000, 5ms, 1us);
         };
-        EXPECT_LT(distance_between(alone(is), alone(was)), 0.03);
+        EXPECT_LT(distance_between(alone(is), alone(was)), 0.03) << to_text(lesson);
         const auto mean_of = [](const MeasuredWay& one) {
             double sum = 0.0;
             for (const auto& delay : one.delays) sum += base::to_seconds(*delay);
