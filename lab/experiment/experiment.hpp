@@ -10,6 +10,7 @@
 #include "lab/experiment/impairment.hpp"
 #include "lab/hands/population.hpp"
 #include "lab/metrics/criteria.hpp"
+#include "lab/metrics/verdict.hpp"
 #include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/time.hpp"
@@ -134,6 +135,7 @@ struct SearchRanges {
     std::optional<RangeOf<Impairment::jitter>> jitter{};
     std::optional<RangeOf<Impairment::random_loss>> random_loss{};
     std::optional<RangeOf<Impairment::burst_loss>> burst_loss{};
+    std::optional<RangeOf<Impairment::interval>> interval{};
 
     friend bool operator==(const SearchRanges&, const SearchRanges&) = default;
 };
@@ -162,6 +164,8 @@ struct Table1 {
 /// Fig. 6: the level of each impairment at which half of the sessions fail.
 struct Limits {
     SearchRanges ranges{};
+    /// A session fails that is not at least of the tier: a limit for each.
+    std::vector<metrics::Tier> tiers{metrics::Tier::usable};
     emulator::Order jitter_order = emulator::Order::free; // of messages under searched jitter
     std::optional<Sensitivity> sensitivity{};
 

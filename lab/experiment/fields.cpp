@@ -126,6 +126,26 @@ std::string TaskNames::describe() const
                        fmt::join(base::names_of_enum<device::Task>, "\"`, `\""));
 }
 
+void TierNames::read(const Node& node, std::vector<metrics::Tier>& target, Reading& reading) const
+{
+    target.clear();
+    for (const std::string& name : read_texts(node, reading)) {
+        const auto tier = name == name_of(metrics::Tier::good)     ? metrics::Tier::good
+                          : name == name_of(metrics::Tier::usable) ? metrics::Tier::usable
+                                                                   : metrics::Tier::unusable;
+        if (tier == metrics::Tier::unusable) {
+            return reading.complain(node.place,
+                                    fmt::format("unknown tier '{}': use usable or good", name));
+        }
+        target.push_back(tier);
+    }
+}
+
+std::string TierNames::print(const std::vector<metrics::Tier>& tiers) const
+{
+    return base::List<base::Choice>{}.print(tiers);
+}
+
 void PeerCounts::read(const Node& node, std::vector<std::uint32_t>& target, Reading& reading) const
 {
     if (!std::holds_alternative<Node::List>(node.value)) {
@@ -332,8 +352,8 @@ void RangesFormat::read(const Node& node, SearchRanges& target, Reading& reading
 {
     base::Table::read(node, target, reading);
     if (target != SearchRanges{}) return;
-    reading.complain(node.place, "there is no [limit.delay], [limit.jitter], [limit.random-loss] "
-                                 "or [limit.burst-loss]");
+    reading.complain(node.place, "there is no [limit.delay], [limit.jitter], [limit.random-loss], "
+                                 "[limit.burst-loss] or [limit.interval]");
 }
 
 Experiment usual_experiment()

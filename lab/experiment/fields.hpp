@@ -34,6 +34,17 @@ struct TaskNames {
     [[nodiscard]] std::string describe() const;
 };
 
+/// Different tiers that a session may miss, or one.
+struct TierNames {
+    void read(const base::Node& node, std::vector<metrics::Tier>& target,
+              base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<metrics::Tier>& tiers) const;
+    [[nodiscard]] std::string describe() const
+    {
+        return "a list of different tiers, or one: `\"usable\"`, `\"good\"`";
+    }
+};
+
 /// Different numbers of peers, or one.
 struct PeerCounts {
     void read(const base::Node& node, std::vector<std::uint32_t>& target,
@@ -131,7 +142,8 @@ constexpr auto fields_of(base::Tag<SearchRanges> /*struct*/)
     return base::fields("limit", base::field("delay", &SearchRanges::delay, RangeFormat{}),
                         base::field("jitter", &SearchRanges::jitter, RangeFormat{}),
                         base::field("random-loss", &SearchRanges::random_loss, RangeFormat{}),
-                        base::field("burst-loss", &SearchRanges::burst_loss, RangeFormat{}));
+                        base::field("burst-loss", &SearchRanges::burst_loss, RangeFormat{}),
+                        base::field("interval", &SearchRanges::interval, RangeFormat{}));
 }
 
 constexpr auto fields_of(base::Tag<Sensitivity> /*struct*/)
@@ -160,6 +172,8 @@ constexpr auto fields_of(base::Tag<Table1> /*struct*/)
 constexpr auto fields_of(base::Tag<Limits> /*struct*/)
 {
     return base::fields("limits", base::field("limit", &Limits::ranges, RangesFormat{}).required(),
+                        base::field("tiers", &Limits::tiers, TierNames{},
+                                    "what a session has to be; each has limits of its own"),
                         base::field("jitter_order", &Limits::jitter_order,
                                     "whether messages under searched jitter overtake one another"),
                         base::field("convention", &Limits::sensitivity));

@@ -50,10 +50,17 @@ void read_share_level(const base::Node& node, ImpairmentLevel& target, base::Rea
     target = level;
 }
 
-void read_burst_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
+/// Of bursts and intervals, which are whole numbers.
+base::Count count_format(Impairment impairment)
+{
+    return {0, impairment == Impairment::interval ? peer::SendPolicy::every_max : burst_period};
+}
+
+void read_count_level(const base::Node& node, const base::Count& format, ImpairmentLevel& target,
+                      base::Reading& reading)
 {
     std::uint32_t count = 0;
-    base::Count{0, burst_period}.read(node, count, reading);
+    format.read(node, count, reading);
     target = {static_cast<std::int64_t>(count) * thousand};
 }
 
@@ -75,6 +82,7 @@ void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentL
         conditions.loss.push_back(emulator::Burst{
             static_cast<std::uint32_t>(level.thousandths / thousand), burst_period, {}});
         return;
+    case Impairment::interval: return;
     }
 }
 
@@ -83,7 +91,7 @@ void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentL
 std::string_view unit_of(Impairment impairment)
 {
     constexpr std::array<std::string_view, impairments.size()> units{"ms", "ms", "percent",
-                                                                     "of_100"};
+                                                                     "of_100", "ticks"};
     return units[static_cast<std::size_t>(impairment)];
 }
 
@@ -105,15 +113,22 @@ void LevelFormat::read(const base::Node& node, ImpairmentLevel& target,
     case Impairment::delay:
     case Impairment::jitter: return read_time_level(node, target, reading);
     case Impairment::random_loss: return read_share_level(node, target, reading);
-    case Impairment::burst_loss: return read_burst_level(node, target, reading);
+    case Impairment::burst_loss:
+    case Impairment::interval:
+        return read_count_level(node, count_format(impairment), target, reading);
     }
 }
 
 std::string LevelFormat::print(ImpairmentLevel level) const
 {
-    if (impairment == Impairment::burst_loss) return to_text(level);
-    if (impairment == Impairment::random_loss) return base::quoted(to_text(level) + "%");
-    return base::value_text(duration_of(level));
+    switch (impairment) {
+    case Impairment::delay:
+    case Impairment::jitter: return base::value_text(duration_of(level));
+    case Impairment::random_loss: return base::quoted(to_text(level) + "%");
+    case Impairment::burst_loss:
+    case Impairment::interval: return to_text(level);
+    }
+    return {};
 }
 
 std::string LevelFormat::describe() const
@@ -122,7 +137,8 @@ std::string LevelFormat::describe() const
     case Impairment::delay:
     case Impairment::jitter: return level_time.describe();
     case Impairment::random_loss: return base::Share{}.describe();
-    case Impairment::burst_loss: return base::Count{0, burst_period}.describe();
+    case Impairment::burst_loss:
+    case Impairment::interval: return count_format(impairment).describe();
     }
     return {};
 }
@@ -135,6 +151,12 @@ emulator::Path impaired(const emulator::Path& ground, Impairment impairment, Imp
     impair(path.up, impairment, level, order);
     impair(path.down, impairment, level, order);
     return path;
+}
+
+peer::SendPolicy thinned(const peer::SendPolicy& send, Impairment impairment, ImpairmentLevel level)
+{
+    if (impairment != Impairment::interval || level == ImpairmentLevel{}) return send;
+    return {.every = static_cast<std::uint32_t>(level.thousandths / thousand), .deadband = {}};
 }
 
 } // namespace hapnet::lab::experiment

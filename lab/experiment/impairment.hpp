@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
+#include "peer/core/send_policy.hpp"
 #include "proto/base/formats.hpp"
 #include "proto/base/names.hpp"
 #include "proto/base/reading.hpp"
@@ -16,18 +17,21 @@
 
 namespace hapnet::lab::experiment {
 
-/// What Fig. 6 of the paper makes worse and worse.
-enum class Impairment : std::uint8_t { delay, jitter, random_loss, burst_loss };
+/// What a search makes worse and worse: what Fig. 6 of the paper does, and the interval between the
+/// messages of a player, who asks less of the network's rate the longer it is.
+enum class Impairment : std::uint8_t { delay, jitter, random_loss, burst_loss, interval };
 inline constexpr std::array impairments{Impairment::delay, Impairment::jitter,
-                                        Impairment::random_loss, Impairment::burst_loss};
+                                        Impairment::random_loss, Impairment::burst_loss,
+                                        Impairment::interval};
 
 constexpr auto names_of(base::Tag<Impairment> /*enum*/)
 {
-    return base::names("delay", "jitter", "random-loss", "burst-loss");
+    return base::names("delay", "jitter", "random-loss", "burst-loss", "interval");
 }
 using base::name_of;
 
-/// What its levels count: "ms", "percent" or "of_100" (messages lost in a row of every 100).
+/// What its levels count: "ms", "percent", "of_100" (messages lost in a row of every 100) or
+/// "ticks" (from one message to the next).
 [[nodiscard]] std::string_view unit_of(Impairment impairment);
 
 /// How much of an impairment, in thousandths of its unit: whole, so that a search visits the same
@@ -42,7 +46,7 @@ struct ImpairmentLevel {
 [[nodiscard]] std::string to_text(ImpairmentLevel level);
 [[nodiscard]] double in_units(ImpairmentLevel level);
 
-/// A level as it is written: "160ms", "93%" or a number of messages from 0 to 100.
+/// A level as it is written: "160ms", "93%", or a whole number of messages or ticks.
 struct LevelFormat {
     Impairment impairment{};
 
@@ -53,9 +57,15 @@ struct LevelFormat {
 
 /// The path `ground` with so much of the impairment, the same both ways. ImpairmentLevel 0 leaves
 /// `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J, each datagram on its own:
-/// unless `order` keeps them from it they overtake one another.
+/// unless `order` keeps them from it they overtake one another. The interval leaves every path as
+/// it is.
 [[nodiscard]] emulator::Path impaired(const emulator::Path& ground, Impairment impairment,
                                       ImpairmentLevel level,
                                       emulator::Order order = emulator::Order::free);
+
+/// How players send at a level of the impairment: every so many ticks where it is the interval.
+/// Other impairments, and level 0, leave `send` as it is.
+[[nodiscard]] peer::SendPolicy thinned(const peer::SendPolicy& send, Impairment impairment,
+                                       ImpairmentLevel level);
 
 } // namespace hapnet::lab::experiment

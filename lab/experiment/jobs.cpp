@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace hapnet::lab::experiment {
@@ -173,10 +174,14 @@ public:
         session_.seed = seed;
         const auto order = std::get<Limits>(experiment_.kind).jitter_order;
         const auto path = impaired(experiment_.path, impairment_, level, order);
-        const auto spec = make_session_spec(experiment_, session_, path);
+        // What fewer messages cost counts: the reference sends as the experiment says.
+        const auto unthinned = make_session_spec(experiment_, session_, path);
+        auto spec = unthinned;
+        for (auto& player : spec.setting.players)
+            player.send = thinned(player.send, impairment_, level);
         const auto played = play_(spec);
         if (!played) return tl::unexpected{played.error()};
-        const auto reference = reference_of(spec, play_);
+        const auto reference = reference_of(unthinned, play_);
         if (!reference) return tl::unexpected{reference.error()};
         const auto scores = scores_of(played->metrics, *reference);
         scores_.emplace(std::pair{level, seed}, scores);
@@ -194,14 +199,19 @@ private:
     Sessions scores_;
 };
 
+/// By what a session fails: it is not at least of the tier.
+struct Demand {
+    const metrics::Criteria& criteria;
+    metrics::Tier tier = metrics::Tier::usable;
+};
+
 /// Looks for the levels that count, and says which seeds fail at them.
-base::Result<std::vector<metrics::LevelOutcome>> searched(LevelPlayer& player,
-                                                          const SearchRange& range, Seeds seeds,
-                                                          const metrics::Criteria& criteria)
+base::Result<std::vector<metrics::LevelOutcome>>
+searched(LevelPlayer& player, const SearchRange& range, Seeds seeds, const Demand& demand)
 {
     const auto fails = [&](ImpairmentLevel level, std::uint32_t index) -> base::Result<bool> {
         return player.scores_at(level, seeds.first + index).map([&](const auto& scores) {
-            return judge(scores, criteria).tier == metrics::Tier::unusable;
+            return judge(scores, demand.criteria).tier < demand.tier;
         });
     };
     const auto outcome_at = [&](ImpairmentLevel level,
@@ -230,16 +240,17 @@ base::Result<std::vector<metrics::LevelOutcome>> searched(LevelPlayer& player,
     return outcomes;
 }
 
-/// All that was played for a search.
+/// All that was played for a search; `outcomes` are those of each tier.
 std::vector<CurvePoint> curve_of(const LevelPlayer& player,
-                                 const std::vector<metrics::LevelOutcome>& outcomes,
+                                 std::span<const std::vector<metrics::LevelOutcome>> outcomes,
                                  const metrics::Criteria& criteria)
 {
     std::vector<CurvePoint> curve;
     for (const auto& [which, scores] : player.all()) {
         const auto& [level, seed] = which;
-        const bool counts = std::ranges::find(outcomes, in_units(level),
-                                              &metrics::LevelOutcome::level) != outcomes.end();
+        const bool counts = std::ranges::any_of(outcomes, [at = in_units(level)](const auto& tier) {
+            return std::ranges::find(tier, at, &metrics::LevelOutcome::level) != tier.end();
+        });
         curve.push_back({level, seed, counts, scores, judge(scores, criteria).tier});
     }
     return curve;
@@ -267,11 +278,15 @@ struct RunJob {
                             experiment.first_seed, job.party},
                            job.range.impairment,
                            play};
-        auto outcomes =
-            searched(player, job.range, {experiment.first_seed, experiment.seeds}, criteria);
-        if (!outcomes) return tl::unexpected{outcomes.error()};
-        auto curve = curve_of(player, *outcomes, criteria);
-        return SearchResult{*std::move(outcomes), std::move(curve)};
+        SearchResult result;
+        for (const metrics::Tier tier : std::get<Limits>(experiment.kind).tiers) {
+            auto outcomes = searched(player, job.range, {experiment.first_seed, experiment.seeds},
+                                     {criteria, tier});
+            if (!outcomes) return tl::unexpected{outcomes.error()};
+            result.outcomes.push_back(*std::move(outcomes));
+        }
+        result.curve = curve_of(player, result.outcomes, criteria);
+        return result;
     }
 
     base::Result<JobResult> operator()(const SensitivityJob& job) const
@@ -287,7 +302,7 @@ struct RunJob {
             metrics::Criteria by_order = criteria;
             by_order.filter_order = order;
             auto outcomes =
-                searched(player, job.range, {experiment.first_seed, sensitivity.seeds}, by_order);
+                searched(player, job.range, {experiment.first_seed, sensitivity.seeds}, {by_order});
             if (!outcomes) return tl::unexpected{outcomes.error()};
             result.outcomes.push_back(*std::move(outcomes));
         }

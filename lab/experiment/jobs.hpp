@@ -64,15 +64,16 @@ struct SessionResult {
 struct CurvePoint {
     ImpairmentLevel level{};
     std::uint32_t seed = 1;
-    bool counts = false; // not only for the coarse scan
+    bool counts = false; // for one of the tiers, and not only for its coarse scan
     metrics::Scores scores{};
     metrics::Tier tier{};
 };
 
-/// What came of the levels that count (levels in the impairment's unit), and all sessions.
+/// What came of the levels that count (levels in the impairment's unit, ascending), for each tier
+/// of the experiment in their order, and all sessions.
 struct SearchResult {
-    std::vector<metrics::LevelOutcome> outcomes{}; // ascending
-    std::vector<CurvePoint> curve{};               // ascending in level, then seed
+    std::vector<std::vector<metrics::LevelOutcome>> outcomes{};
+    std::vector<CurvePoint> curve{}; // ascending in level, then seed
 };
 
 /// The same by the filter orders of the sensitivity check, in their order.

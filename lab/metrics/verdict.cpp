@@ -109,7 +109,8 @@ Judgement judge(const Scores& scores, const Criteria& criteria)
 
     Judgement judgement{.failures = std::move(failures.sentences),
                         .failed = std::move(failures.metrics),
-                        .shortcomings = std::move(shortcomings.sentences)};
+                        .shortcomings = std::move(shortcomings.sentences),
+                        .short_of = std::move(shortcomings.metrics)};
     if (judgement.failures.empty())
         judgement.tier = judgement.shortcomings.empty() ? Tier::good : Tier::usable;
     return judgement;

@@ -27,6 +27,8 @@ struct Judgement {
     std::vector<std::string_view> failed;
     /// What keeps it from `good` besides, e.g. "contact lost 12 % > 5 %".
     std::vector<std::string> shortcomings;
+    /// The metrics of `shortcomings`, in the same order.
+    std::vector<std::string_view> short_of;
 };
 
 /// Judges the metrics that the task exercised; the others count as kept.

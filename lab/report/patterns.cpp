@@ -17,11 +17,12 @@ namespace hapnet::lab::report {
 namespace {
 
 /// What programs call so, and people otherwise.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> names_for_people{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> names_for_people{
     {{"percent", "%"},
      {"of_100", "of 100"},
      {"random-loss", "random loss"},
      {"burst-loss", "burst loss"},
+     {"interval", "interval between messages"},
      {"both.delay", "delay of the path"},
      {"jitter_order", "order of jittered messages"},
      {"algorithm.dead-reckoning.velocity", "velocity of dead reckoning"},

@@ -6,86 +6,14 @@
 #include "lab/results/party_columns.hpp"
 #include "lab/results/shipped.hpp"
 #include "lab/results/summary.hpp"
+#include "lab/results/task_limits.hpp"
 
-#include <algorithm>
 #include <spdlog/fmt/fmt.h>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace hapnet::lab::results {
 
 namespace {
-
-/// The threshold of one task, or of the worst of them.
-struct TaskLimit {
-    const experiment::NamedAlgorithm* algorithm = nullptr;
-    experiment::Impairment impairment{};
-    std::string_view task;
-    experiment::Party party{};
-    metrics::Threshold threshold{};
-    std::string_view decided_by{}; // see decided_by()
-};
-
-/// Less, and found rather than not.
-bool is_worse(const metrics::Threshold& a, const metrics::Threshold& b)
-{
-    return std::tuple{a.p50, a.is_open} < std::tuple{b.p50, b.is_open};
-}
-
-/// The metric that most of the sessions fail by at the first level that counts from p50 on; empty
-/// where less than half fails at the top of the range.
-std::string_view decided_by(const experiment::SearchResult& search,
-                            const metrics::Threshold& threshold, const metrics::Criteria& criteria)
-{
-    if (threshold.is_open) return {};
-    std::vector<std::pair<std::string_view, std::size_t>> counts; // in the order of the criteria
-    std::optional<experiment::ImpairmentLevel> level;
-    for (const experiment::CurvePoint& point : search.curve) {
-        const bool is_failure = point.counts && point.tier == metrics::Tier::unusable;
-        if (!is_failure || in_units(point.level) < threshold.p50) continue;
-        if (!level) level = point.level;
-        if (*level != point.level) break;
-        for (const std::string_view metric : judge(point.scores, criteria).failed) {
-            const auto known =
-                std::ranges::find(counts, metric, [](auto& one) { return one.first; });
-            if (known == counts.end()) {
-                counts.emplace_back(metric, 1);
-            } else {
-                ++known->second;
-            }
-        }
-    }
-    const auto most = std::ranges::max_element(counts, {}, [](auto& one) { return one.second; });
-    return most == counts.end() ? std::string_view{} : most->first;
-}
-
-/// The tasks of an algorithm and impairment, and after them the worst.
-std::vector<TaskLimit> limits_of(const experiment::Experiment& experiment,
-                                 const metrics::Criteria& criteria,
-                                 std::span<const experiment::JobResult> results)
-{
-    const auto jobs = make_jobs(experiment);
-    std::vector<TaskLimit> limits;
-    std::optional<TaskLimit> worst;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        const auto* job = std::get_if<experiment::SearchJob>(&jobs[i]);
-        if (job == nullptr) continue;
-        const auto& search = std::get<experiment::SearchResult>(results[i]);
-        const auto threshold = metrics::threshold_of(search.outcomes, in_units(job->range.to));
-        limits.push_back({&experiment.algorithms[job->algorithm], job->range.impairment,
-                          name_of(job->task), job->party, threshold,
-                          decided_by(search, threshold, criteria)});
-        if (!worst || is_worse(limits.back().threshold, worst->threshold)) {
-            worst = limits.back();
-            worst->task = worst_task;
-        }
-        if (job->task != experiment.tasks.back()) continue;
-        limits.push_back(*worst);
-        worst.reset();
-    }
-    return limits;
-}
 
 Bound bound_of(const metrics::Threshold& threshold)
 {
@@ -97,7 +25,7 @@ const TaskLimit* limit_of(const std::vector<TaskLimit>& limits, const TaskLimit&
 {
     for (const TaskLimit& other : limits) {
         if (other.algorithm->name == algorithm && other.impairment == like.impairment &&
-            other.task == like.task && other.party == like.party) {
+            other.task == like.task && other.party == like.party && other.tier == like.tier) {
             return &other;
         }
     }
@@ -130,14 +58,16 @@ Table limits_table(const experiment::Experiment& experiment, const metrics::Crit
 {
     Table table{"limits",
                 columns_in(fmt::format("algorithm,impairment,task,limit:2,bound,unit,paper_limit,"
-                                       "status,class,p50:2,p10:2,ci_low:2,ci_high:2,seeds,{},band+,"
-                                       "decided_by",
+                                       "status,class,p50:2,p10:2,ci_low:2,ci_high:2,seeds,{},tier?,"
+                                       "band+,decided_by",
                                        party_columns))};
-    const auto limits = limits_of(experiment, criteria, results);
+    const auto limits = task_limits(experiment, criteria, results);
     const bool is_shipped = plays_as_shipped(experiment, criteria, "fig6a");
     for (const TaskLimit& one : limits) {
         const metrics::Threshold& threshold = one.threshold;
-        const bool is_papers = is_shipped && is_built_in(*one.algorithm);
+        // The paper says what was accepted: that is the tier usable.
+        const bool is_papers =
+            is_shipped && is_built_in(*one.algorithm) && one.tier == metrics::Tier::usable;
         const PaperCells paper = is_papers ? paper_cells(limits, one) : PaperCells{};
         const auto party = party_cells(experiment, one.party);
         const bool has_band = is_papers && one.task == worst_task && !party.peers && !party.scene;
@@ -145,7 +75,7 @@ Table limits_table(const experiment::Experiment& experiment, const metrics::Crit
         table.add(one.algorithm->name, impairment, one.task, threshold.p50, bound_of(threshold),
                   unit_of(one.impairment), paper.limit, paper.status, paper.provenance,
                   threshold.p50, threshold.p10, threshold.low, threshold.high, threshold.seeds,
-                  party.peers, party.scene,
+                  party.peers, party.scene, tier_cell(experiment, one.tier),
                   has_band ? limit_band(one.algorithm->name, impairment) : std::string_view{},
                   one.decided_by);
     }
@@ -157,14 +87,13 @@ Table paired_limits_table(const experiment::Experiment& experiment,
                           std::span<const experiment::JobResult> results)
 {
     Table table{"paired", columns_in(paired_columns)};
-    const auto limits = limits_of(experiment, criteria, results);
+    const auto limits = task_limits(experiment, criteria, results);
     const std::string& reference = experiment.algorithms.front().name;
     for (const TaskLimit& one : limits) {
         const TaskLimit* against = limit_of(limits, one, reference);
         if (one.algorithm->name == reference || against == nullptr) continue;
         const auto difference = difference_of(one.threshold, against->threshold);
-        table.add(one.algorithm->name, reference, one.task,
-                  fmt::format("p50 of {}, {}", name_of(one.impairment), unit_of(one.impairment)),
+        table.add(one.algorithm->name, reference, one.task, p50_of(one.impairment, one.tier),
                   one.threshold.seeds, difference.value, difference.interval.low,
                   difference.interval.high, std::optional<double>{});
     }

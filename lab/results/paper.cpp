@@ -156,7 +156,8 @@ Provenance base_provenance(experiment::Impairment impairment, std::string_view t
         return in_t1 ? Provenance::calibrated : Provenance::predicted;
     case experiment::Impairment::burst_loss:
         return in_t1 ? Provenance::selected : Provenance::predicted;
-    case experiment::Impairment::jitter: break;
+    case experiment::Impairment::jitter:
+    case experiment::Impairment::interval: break;
     }
     return Provenance::predicted;
 }
@@ -180,7 +181,8 @@ Provenance limit_provenance(std::string_view algorithm, experiment::Impairment i
                             std::string_view task)
 {
     using experiment::Impairment;
-    if (paper_of(algorithm) == nullptr) return Provenance::none;
+    if (paper_of(algorithm) == nullptr || impairment == Impairment::interval)
+        return Provenance::none;
     if (algorithm == "base") return base_provenance(impairment, task);
     if (algorithm == "sep") {
         const bool is_base =

@@ -4,6 +4,7 @@
 
 #include "lab/metrics/precision.hpp"
 #include "lab/results/session_rows.hpp"
+#include "lab/results/task_limits.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -95,23 +96,25 @@ void add_session_figures(const experiment::Experiment& experiment,
     }
 }
 
-void add_limit(const experiment::Experiment& experiment, const experiment::SearchJob& job,
-               const experiment::SearchResult& result, std::vector<Figure>& figures)
+void add_limits(const experiment::Experiment& experiment, const experiment::SearchJob& job,
+                const experiment::SearchResult& result, std::vector<Figure>& figures)
 {
-    const double top = in_units(job.range.to);
-    const auto threshold = metrics::threshold_of(result.outcomes, top);
-    if (threshold.is_open) return;
-    Figure& figure = figures.emplace_back();
-    figure.algorithm = experiment.algorithms[job.algorithm].name;
-    figure.task = name_of(job.task);
-    figure.name =
-        fmt::format("p50 of {}, {}", name_of(job.range.impairment), unit_of(job.range.impairment));
-    figure.seeds = threshold.seeds;
-    figure.ticks = ticks_of(experiment, result.curve.size() + threshold.seeds);
-    figure.found = threshold.p50;
-    figure.replicates = [outcomes = result.outcomes](std::size_t draws) {
-        return metrics::p50_replicates(outcomes, draws);
-    };
+    const auto& tiers = std::get<experiment::Limits>(experiment.kind).tiers;
+    for (std::size_t i = 0; i < tiers.size(); ++i) {
+        const auto& outcomes = result.outcomes[i];
+        const auto threshold = metrics::threshold_of(outcomes, in_units(job.range.to));
+        if (threshold.is_open) continue;
+        Figure& figure = figures.emplace_back();
+        figure.algorithm = experiment.algorithms[job.algorithm].name;
+        figure.task = name_of(job.task);
+        figure.name = p50_of(job.range.impairment, tiers[i]);
+        figure.seeds = threshold.seeds;
+        figure.ticks = ticks_of(experiment, result.curve.size() + threshold.seeds);
+        figure.found = threshold.p50;
+        figure.replicates = [outcomes](std::size_t draws) {
+            return metrics::p50_replicates(outcomes, draws);
+        };
+    }
 }
 
 std::vector<Figure> figures_of(const AxisFindings& findings, const metrics::Criteria& criteria)
@@ -123,8 +126,8 @@ std::vector<Figure> figures_of(const AxisFindings& findings, const metrics::Crit
         for (std::size_t i = 0; i < jobs.size(); ++i) {
             const auto* search = std::get_if<experiment::SearchJob>(&jobs[i]);
             if (search == nullptr) continue;
-            add_limit(experiment, *search, std::get<experiment::SearchResult>(findings.results[i]),
-                      figures);
+            add_limits(experiment, *search, std::get<experiment::SearchResult>(findings.results[i]),
+                       figures);
         }
         return figures;
     }

@@ -25,6 +25,7 @@ export const general = (value, digits = 6) => {
 
 const peopleSay = {
   percent: "%", of_100: "of 100", "random-loss": "random loss", "burst-loss": "burst loss",
+  interval: "interval between messages",
 };
 /** What programs call otherwise than people. */
 export const inWords = (name) => peopleSay[name] ?? name;

@@ -137,6 +137,17 @@ TEST(Levels, ImpairBothWaysOnTopOfWhatIsThere)
     EXPECT_EQ(impaired(ground, Impairment::jitter, {}), ground);
 }
 
+TEST(Levels, OfTheIntervalThinTheMessagesAndLeaveThePath)
+{
+    emulator::Path ground;
+    ground.up.loss.push_back(emulator::RandomLoss{});
+    EXPECT_EQ(impaired(ground, Impairment::interval, {20'000}), ground);
+    const peer::SendPolicy deadband{.deadband = base::Probability::from_fraction(0.08).value()};
+    EXPECT_EQ(thinned(deadband, Impairment::interval, {20'000}), peer::SendPolicy{.every = 20});
+    EXPECT_EQ(thinned(deadband, Impairment::interval, {}), deadband) << "at rest";
+    EXPECT_EQ(thinned(deadband, Impairment::delay, {20'000}), deadband);
+}
+
 TEST(Paper, Table1IsMetWithinItsBandsAndNotBeyond)
 {
     const metrics::Spread base{13.25, 0.0, 44.5, 10.57};
