@@ -9,6 +9,7 @@
 #include "lab/results/paper.hpp"
 #include "lab/results/party_columns.hpp"
 #include "lab/results/replay.hpp"
+#include "lab/results/requirements.hpp"
 #include "lab/results/session_rows.hpp"
 #include "lab/results/shipped.hpp"
 #include "lab/results/summary.hpp"
@@ -208,6 +209,11 @@ struct ResultsOf {
         found.tables = {limits_table(experiment, criteria, results),
                         paired_limits_table(experiment, criteria, results),
                         curves_table(experiment, criteria, results), sessions()};
+        if (has_requirements(limits)) {
+            found.tables.push_back(requirements_table(
+                make_requirements(experiment, task_limits(experiment, criteria, results))));
+            found.tables.push_back(network_classes_table());
+        }
         if (limits.sensitivity && limits.sensitivity->seeds > 0) {
             found.tables.push_back(sensitivity_table(experiment, *limits.sensitivity, results));
         }

@@ -65,7 +65,8 @@ const std::vector<TableRule>& table_rules()
     static const std::vector<TableRule> rules{
         {"table1", {"algorithm"}, true},
         {"tasks", {"algorithm", "task"}, true},
-        {"limits", {"algorithm", "impairment", "task"}, true, true},
+        {"limits", {"algorithm", "impairment", "task", "tier"}, true, true},
+        {"requirements", {"algorithm", "task", "tier"}, true, true},
         {"limits_by_convention", {}, true, true},
         {"curves", {}, true, true},
         {"trajectories", {}, true},
@@ -151,8 +152,10 @@ Outcome put_in_order(Table& table, const TableRule& rule)
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         if (rule.has_parties) table.rows[i][*algorithm] = algorithm_and_party(TableRow{table, i});
         std::string name;
-        for (const std::string_view key : rule.keys)
-            name += (name.empty() ? "" : ", ") + TableRow{table, i}.text(key);
+        for (const std::string_view key : rule.keys) {
+            const auto text = TableRow{table, i}.text(key);
+            if (!text.empty()) name += (name.empty() ? "" : ", ") + text;
+        }
         names.push_back(std::move(name));
     }
     if (rule.is_ranked) {

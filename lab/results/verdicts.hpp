@@ -51,9 +51,9 @@ constexpr auto names_of(base::Tag<LimitStatus>)
                        "by-construction-met", "by-construction-missed", "predicted-met",
                        "predicted-missed", "undecided");
 }
-/// Whether a limit was found, or nothing failed as far as was tried.
-enum class Bound : std::uint8_t { found, open };
-constexpr auto names_of(base::Tag<Bound>) { return base::names("=", ">"); }
+/// Whether a limit was found, nothing failed as far as was tried, or half fail without anything.
+enum class Bound : std::uint8_t { found, open, none };
+constexpr auto names_of(base::Tag<Bound>) { return base::names("=", ">", "none"); }
 
 /// In limits.csv, where the limit of the worst of the tasks stands.
 inline constexpr std::string_view worst_task = "worst";

@@ -16,6 +16,7 @@
 #include "lab/experiment/fields.hpp"
 #include "lab/hands/manifest.hpp"
 #include "lab/metrics/criteria.hpp"
+#include "lab/results/requirements.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/fields.hpp"
 #include "proto/output/key_table.hpp"
@@ -160,6 +161,8 @@ std::vector<KeyTable> tables_of_outputs()
         {"hands", output::key_table<lab::hands::Manifest>()},
         {"hands-trial", output::key_table<lab::hands::ImportedTrial>()},
         {"hands-hand", output::key_table<lab::hands::ImportedHand>()},
+        {"requirements", output::key_table<lab::results::Requirement>()},
+        {"network-classes", output::key_table<lab::results::NetworkClass>()},
     };
 }
 
@@ -265,7 +268,7 @@ const std::set<std::string>& with_table()
         "RunStatistics", "DirectionReport", "ChangeReport", "StreamShape", "StretchReport",
         "ClientReport", "LinkReport", "InterfaceReport", "CheckReport", "PredictionReport",
         "DirectionForecast", "LearnReport", "WayLesson", "Likeness", "Verification", "TestResult",
-        "ProbeReport", "EmulatorFrame", "WayFrame"};
+        "ProbeReport", "EmulatorFrame", "WayFrame", "Requirement", "NetworkClass"};
     return names;
 }
 
