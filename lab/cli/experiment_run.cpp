@@ -288,8 +288,10 @@ private:
         }
         tables_.add(table);
         // What can be read at a glance stands on standard output, too.
-        constexpr std::array<std::string_view, 3> are_short{"table1", "limits", "limits_by_axis"};
+        constexpr std::array<std::string_view, 4> are_short{"table1", "limits", "limits_by_axis",
+                                                            "requirements"};
         if (std::ranges::find(are_short, table.name) == are_short.end()) return;
+        if (table.name == "requirements") short_.clear(); // the limits again, in fewer rows
         const auto known = std::ranges::find(short_, table.name, &results::Table::name);
         append(known == short_.end() ? short_.emplace_back(results::Table{table.name, {}}) : *known,
                table);

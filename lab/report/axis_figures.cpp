@@ -255,7 +255,8 @@ void add_limits(const results::Results& results, FigureGroups& groups)
 {
     const Table limits = with_numbers(results.table("limits_by_axis"));
     FigureGroup group;
-    const Rows worst = where(rows_of(limits), "task", results::worst_task);
+    Rows worst = where(rows_of(limits), "task", results::worst_task);
+    std::erase_if(worst, [](const TableRow& row) { return row.text("tier") == "good"; });
     for (const Rows& rows : split(worst, Keys{"parameter", "impairment"})) {
         group.figures.push_back(figure_of_limits(rows, unit_in(rows)));
         group.figures.back().sources = results.files_of("limits_by_axis");

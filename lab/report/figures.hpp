@@ -29,6 +29,8 @@ using FigureGroups = std::vector<FigureGroup>;
 /// Limits of random loss and burst loss.
 [[nodiscard]] FigureGroups fig6b_figures(const results::Results& results);
 [[nodiscard]] FigureGroups curves_figures(const results::Results& results);
+/// Limits of the interval between messages: the rest of what a network must offer is in a table.
+[[nodiscard]] FigureGroups requirements_figures(const results::Results& results);
 /// Limits by filter and hands.
 [[nodiscard]] FigureGroups trust_figures(const results::Results& results);
 /// What came out against the values of a parameter: limits, and each measure in each task.

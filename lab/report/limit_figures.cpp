@@ -161,6 +161,13 @@ std::optional<page::Figure> failing_figure(const Rows& limits, const Rows& curve
             spread.empty() ? "" : ", and the bar there is " + spread)};
 }
 
+/// The limits of the tier that figures show, and that the paper has.
+Rows usable_limits(Rows rows)
+{
+    std::erase_if(rows, [](const TableRow& row) { return row.text("tier") == "good"; });
+    return rows;
+}
+
 FigureGroups limits_figures(const results::Results& results, const Keys& impairments)
 {
     const Table limits = with_column(with_words(results.table("limits")), "missed",
@@ -170,7 +177,7 @@ FigureGroups limits_figures(const results::Results& results, const Keys& impairm
     const Rows sessions = where(results.rows("curves"), "counts", "true");
     FigureGroups groups;
     for (const std::string_view impairment : impairments) {
-        const Rows rows = where(rows_of(limits), "impairment", impairment);
+        const Rows rows = usable_limits(where(rows_of(limits), "impairment", impairment));
         if (rows.empty()) continue;
         auto& group = groups.emplace_back(FigureGroup{in_words("{impairment}", rows.front()), {}});
         if (auto failing = failing_figure(rows, sessions)) {
@@ -237,6 +244,11 @@ FigureGroups fig6a_figures(const results::Results& results)
 FigureGroups fig6b_figures(const results::Results& results)
 {
     return limits_figures(results, {"random-loss", "burst-loss"});
+}
+
+FigureGroups requirements_figures(const results::Results& results)
+{
+    return limits_figures(results, {"interval"});
 }
 
 FigureGroups curves_figures(const results::Results& results)

@@ -109,6 +109,7 @@ constexpr std::array section_kinds{
     SectionKind{
         .id = "axis", .title = "What came out", .figures = axis_figures, .is_there = has_axis},
     SectionKind{"table1", "", "table1", table1_figures, table1_title},
+    SectionKind{"requirements", "What a network must offer", "requirements", requirements_figures},
     SectionKind{"fig6a", "", "limits", fig6a_figures,
                 [](const Results& r) { return limits_title(r, "delay", "jitter"); }},
     SectionKind{"fig6b", "", "limits", fig6b_figures,
@@ -138,6 +139,7 @@ constexpr std::array section_kinds{
 std::string_view source_of(const SectionKind& kind)
 {
     if (kind.id == "points") return "";
+    if (kind.id == "requirements") return "limits";
     if (kind.id == "beyond") return "claims_numbers";
     return kind.id == "tasks" ? "sessions" : kind.table;
 }
@@ -248,11 +250,11 @@ Json runs_of(const Results& results)
 /// The tables that a page shows, and not only draws.
 Json tables_of(const Results& results)
 {
-    constexpr std::array<std::string_view, 14> are_shown{
+    constexpr std::array<std::string_view, 16> are_shown{
         "table1",           "tasks",          "limits",        "limits_by_convention",
         "paired",           "claims",         "precision",     "claims_numbers",
         "claims_quantiles", "claim_sessions", "tasks_by_axis", "limits_by_axis",
-        "real_time",        "rankings"};
+        "real_time",        "rankings",       "requirements",  "network_classes"};
     std::vector<results::Table> tables;
     for (const std::string_view name : are_shown)
         if (!results.table(name).is_empty()) tables.push_back(results.table(name));

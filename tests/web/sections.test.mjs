@@ -87,6 +87,42 @@ test("a limit that is a bound is written as one, and green is for predictions al
   assert.ok(holds(loss, '"> 95 of 100"'));
 });
 
+const requirements = tableOf(`
+  algorithm,task,tier,delay_ms,delay_bound,delay_variation_ms,delay_variation_bound,loss_percent,loss_bound,burst_of_100,burst_bound,interval_ms,interval_bound,messages_per_s,rate_kbit_s,classes,seeds,first_seed
+  base,T1,good,,none,,none,,none,,none,,none,,,none,8,1001
+  base,worst,usable,160.4,=,59.94,=,92.9,=,43.3,=,12,=,83.33,112.1,0 1,8,1001
+  lag,worst,usable,1000,>,199.8,>,99,>,95,>,50,>,20,26.9,0 1 2 3 4,8,1001`);
+const classes = tableOf(`
+  class,delay_ms,delay_variation_ms,loss_percent
+  0,100,50,0.1
+  4,1000,,0.1
+  0,100,50,0.1`);
+
+test("what a network must offer is a number, at least the most that was tried, or none", () => {
+  const tables = { requirements, network_classes: classes, limits };
+  const [measured, convention, ours, beside, folded] =
+    blocksOf([section("requirements")], tables);
+  assert.ok(holds(measured, "Seeds 1001 to 1008"));
+  assert.ok(holds(convention, "each of its bounds alone"));
+  const cells = (row) => row.slice(3).map((cell) => cell.text ?? cell);
+  assert.deepEqual(cells(ours.table.rows[0]),
+    ["160", "59.9", "92.9", "43", "112\n(83 a second)", "0, 1"]);
+  assert.deepEqual(cells(ours.table.rows[1]), ["at least 1000", "at least 199.8", "at least 99.0",
+    "at least 95", "at most 27\n(20 a second)", "0, 1, 2, 3, 4"]);
+  assert.deepEqual(cells(folded.blocks[0].table.rows[0]), Array(6).fill("none"));
+  assert.deepEqual(beside.table.rows, [["0", "100", "50", "0.1"], ["4", "1000", "–", "0.1"]],
+    "each class once, whatever the number of folders");
+});
+
+test("limits of the tier good stand in what a network must offer alone", () => {
+  const both = tableOf(`
+    algorithm,impairment,task,limit,bound,unit,paper_limit,status,class,p50,p10,ci_low,ci_high,seeds,tier,band
+    base,delay,worst,60,=,ms,,,,60,50,57,63,40,good,
+    base,delay,worst,160,=,ms,160,calibrated,calibrated,160,150,157,163,40,usable,152 to 168`);
+  const blocks = blocksOf([section("fig6a", [{ title: "delay", figures: [] }])], { limits: both });
+  assert.ok(holds(blocks, '"160 ms"') && !holds(blocks, '"60 ms"'));
+});
+
 test("what stands against the paper is sorted by how it came about", () => {
   const all = page([section("claims")], { table1, limits });
   const counts = all.sections[0].blocks[1].claims.map(({ title, list }) => [title, list.length]);

@@ -91,8 +91,12 @@ const limitsTable = (impairment, rows, data) => {
     ...(isBeside ? paperCells(row, look) : [])]));
 };
 
+/** The limits of the tier usable: an experiment may search those of good, too. */
+const usableLimits = (all) => rowsOf(all).filter(({ tier }) => tier !== "good");
+
 const limits = (text) => ({ groups }, data) => groups.flatMap((group, i) => {
-  const rows = rowsOf(data.tables.limits).filter((row) => inWords(row.impairment) === group.title);
+  const rows = usableLimits(data.tables.limits)
+    .filter((row) => inWords(row.impairment) === group.title);
   const isFirst = (id) => id.startsWith("failing-");
   return [...(groups.length > 1 ? [heading(group.title)] : []),
     ...figures(group.figures.filter(isFirst)), ...(i === 0 ? [tierMark, paragraph(text)] : []),
@@ -101,6 +105,59 @@ const limits = (text) => ({ groups }, data) => groups.flatMap((group, i) => {
     folded("Each task on its own",
       [limitsTable(group.title, rows.filter(({ task }) => task !== worst), data)])];
 });
+
+/** "95", "at least 320" where no level that was tried fails, or "none" where it fails at rest. */
+const borne = (row, value, bound, decimals) => {
+  if (row[bound] === "none") return "none";
+  return `${row[bound] === ">" ? "at least " : ""}${shown(row[value], decimals)}`;
+};
+/** The rate of the longest interval between messages that is borne. */
+const rateOf = (row) => {
+  if (row.interval_bound === "none") return "none";
+  const words = row.interval_bound === ">" ? "at most " : "";
+  return `${words}${shown(row.rate_kbit_s, 0)}\n(${shown(row.messages_per_s, 0)} a second)`;
+};
+
+const requirementsTable = (caption, rows) => table(caption,
+  ["algorithm", "task", "tier", "delay\nms", "delay variation\nms", "loss\n%",
+    "burst\nof 100", "rate\nkbit/s", "classes\nthat suffice"],
+  rows.map((row) => [name(row.algorithm), name(row.task), name(tierBadge(row.tier)),
+    borne(row, "delay_ms", "delay_bound", 0),
+    borne(row, "delay_variation_ms", "delay_variation_bound", 1),
+    borne(row, "loss_percent", "loss_bound", 1), borne(row, "burst_of_100", "burst_bound", 0),
+    rateOf(row), name(row.classes.replaceAll(" ", ", "))]));
+
+const requirements = ({ groups }, data) => {
+  const rows = rowsOf(data.tables.requirements);
+  const classes = rowsOf(data.tables.network_classes)
+    .filter((row, i, all) => all.findIndex((one) => one.class === row.class) === i);
+  const [{ seeds, first_seed: first }] = rows;
+  return [
+    paragraph([bold("Measured"), ": how much of each factor half of the sessions bear, by a search "
+      + "for each factor on its own, the same both ways, while the others are at rest: no delay, "
+      + "no jitter, no loss, a message in every tick. Delay is constant. Delay variation is how "
+      + "far the 99.9th percentile of the delay exceeds the least, where every message is delayed "
+      + "by an even draw and may overtake others. A burst is that many messages in a row of every "
+      + "100. The rate is that of the fewest messages, with IP and UDP headers, in each "
+      + `direction. Seeds ${first} to ${first + seeds - 1} of simulated hands.`]),
+    paragraph([bold("A convention"), ": what good and usable mean, that half of the sessions "
+      + "count, and the steps of the search. “At least” is the highest level that was tried, and "
+      + "no more is known; “none” is what fails without any impairment. Of the worst, each factor "
+      + "has the task that bears least of it. A class suffices where each of its bounds alone is "
+      + "borne. A network that reaches all of them at once may be worse than each. A class that "
+      + "leaves the delay variation open suffices only where no jitter that was tried fails."]),
+    tierMark,
+    requirementsTable("What each algorithm bears in the worst of the tasks",
+      rows.filter(({ task }) => task === worst)),
+    table("The classes 0 to 4 of ITU-T Recommendation Y.1541: the most that such a network does",
+      ["class", "mean delay\nms", "delay variation\nms", "loss\n%"],
+      classes.map((row) => [String(row.class), shown(row.delay_ms, 0),
+        shown(row.delay_variation_ms, 0), shown(row.loss_percent, 1)])),
+    folded("Each task on its own", [requirementsTable("What each algorithm bears in each task",
+      rows.filter(({ task }) => task !== worst))]),
+    ...groups.flatMap((group) => [heading(group.title), panels("", figures(group.figures))]),
+  ];
+};
 
 /** What a task has to have its hands do for a criterion to be measured. */
 const measuredWhere = {
@@ -242,7 +299,7 @@ const foldedIfLong = (block) => (block.table.rows.length <= rowsAtSight ? [block
 
 const axis = ({ groups }, data) => {
   const { tables } = data;
-  const [byTask, byLimit] = [tables.tasks_by_axis, tables.limits_by_axis].map(rowsOf);
+  const [byTask, byLimit] = [rowsOf(tables.tasks_by_axis), usableLimits(tables.limits_by_axis)];
   return [
     ...groups.flatMap((group) => [
       ...(group.title ? [heading(group.title)] : []),
@@ -407,7 +464,7 @@ const replay = () => [
 
 const layouts = {
   demo, replay, sessions, table1, curves, trust, precision, axis, points, paired, fig7, qos, tasks,
-  rankings,
+  rankings, requirements,
   "real-time": realTime, claims, beyond, runs, repeat,
   fig6a: limits("A limit is the level at which half of the sessions fail in the task that bears "
     + "least: all seeds are played at eight levels, and a psychometric curve is fitted to how many "
