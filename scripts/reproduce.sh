@@ -5,7 +5,7 @@
 # Everything that the paper shows - Table 1, Fig. 6a, Fig. 6b, Fig. 7 - into one folder with one
 # report. With --all also what was not chosen and what moves the limits: readings of dead reckoning
 # (velocity-rule, horizon, jitter-order), the delay of the path in the loss cells (path-delay),
-# filters and hands (limits_by_convention.csv), the plane of conditions (qos), and what a finer tick
+# filters and hands (limits_by_convention.csv), the plane of conditions (plane), and what a finer tick
 # and more seeds buy (work-precision, work-precision-limits).
 # Other options: scripts/experiment.sh --help.
 set -euo pipefail
@@ -13,7 +13,7 @@ names=table1,fig6a,fig6b,fig7
 options=()
 for option in "$@"; do
     if [[ $option == --all ]]; then
-        names+=,velocity-rule,horizon,jitter-order,path-delay,qos
+        names+=,velocity-rule,horizon,jitter-order,path-delay,plane
         names+=,work-precision,work-precision-limits
         options+=(--conventions 10)
     else

@@ -37,7 +37,7 @@ constexpr const char* footer =
     R"(Examples:
   hapnet-lab run table1 --out results/table1
   hapnet-lab run fig6a --quick --out results/fig6a
-  hapnet-lab plan qos --seeds 100 --out sweep
+  hapnet-lab plan plane --seeds 100 --out sweep
   hapnet-lab run sweep --shard 0/16
   hapnet-lab merge sweep
   hapnet-lab compare results/a results/b
@@ -447,7 +447,7 @@ void add_plan(cli::Command& command, PlanCommand& plan)
     command.describe("Writes down an experiment with all files that it needs, to be run in shards, "
                      "on as many machines as there are, and merged.");
     command.add_footer("Examples:\n"
-                       "  hapnet-lab plan qos --seeds 100 --out sweep\n"
+                       "  hapnet-lab plan plane --seeds 100 --out sweep\n"
                        "  hapnet-lab run sweep --shard 0/16\n"
                        "  hapnet-lab merge sweep");
     command.add_exit_codes(exit_codes_without_run);

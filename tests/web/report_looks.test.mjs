@@ -122,7 +122,7 @@ test("limits: the fitted curve, its points, and the interval where it crosses on
   });
 
 test("a map of networks says which of them each algorithm bears", { skip }, async () => {
-  const page = await pageOf("map", "qos", "--quick", ...set(short[1], "tasks=[\"T2\"]"));
+  const page = await pageOf("map", "plane", "--quick", ...set(short[1], "tasks=[\"T2\"]"));
   await looksWell(page, "map");
   const maps = (await figuresOf(page)).filter(({ kind }) => kind === "heat-map");
   assert.equal(maps.length, 4);

@@ -53,6 +53,7 @@ DELAY = "--set limit.delay.step=160ms --set limit.delay.resolution=80ms"
 JITTER = "--set limit.jitter.step=10ms --set limit.jitter.resolution=5ms"
 LOSS = "--set limit.random-loss.resolution=5% --set limit.random-loss.step=20%"
 BURST = "--set limit.burst-loss.step=40 --set limit.burst-loss.resolution=20"
+INTERVAL = "--set limit.interval.step=20 --set limit.interval.resolution=10"
 READINGS = f"{SMALL} --set tasks=T1 {DELAY} {JITTER} {LOSS} {BURST}"
 EXPERIMENTS = {
     "any-network": f"{TWO} --set latin_hypercube.points=6",
@@ -67,7 +68,8 @@ EXPERIMENTS = {
     "limits-pool": f"{TWO} {DELAY} {JITTER} {LOSS} {BURST}",
     "many": f"{SMALL} --set 'algorithms=[\"base\"]' --set 'peers=[2, 3]'",
     "path-delay": f"{TWO} {LOSS} {BURST} --set 'axis.values=[\"0ms\", \"5ms\"]'",
-    "qos": TWO,
+    "plane": TWO,
+    "qos": f"{TWO} {DELAY} {JITTER} {LOSS} {BURST} {INTERVAL}",
     "table1": f"--quick --seeds 2 --set duration=6s --set 'tasks=[\"T1\", \"T2\"]' "
               "--set record=true",
     "velocity-rule": f"{READINGS} --set 'axis.values=[\"nominal\", \"sender\"]'",
@@ -124,11 +126,11 @@ def groups(repository):
         "lab-run": [Step(f"{lab} run {name} {words} --out run/{name}", files=[f"run/{name}"])
                     for name, words in EXPERIMENTS.items()] + [Step(tables_agree)],
         "lab-plan": [
-            Step(f"{lab} plan qos {TWO} --out plan", files=["plan/plan.json"]),
+            Step(f"{lab} plan plane {TWO} --out plan", files=["plan/plan.json"]),
             *(Step(f"{lab} run plan --shard {n}/2", files=[f"plan/shards/{n}-of-2.jsonl"])
               for n in (0, 1)),
             Step(f"{lab} merge plan", files=["plan"]),
-            Step(f"{lab} run qos {TWO} --set both.jitter=1ms --out other"),
+            Step(f"{lab} run plane {TWO} --set both.jitter=1ms --out other"),
             *(Step(f"{lab} compare plan other {words}", schema=schema)
               for words, schema in (("", None), ("--csv", None), ("--json", "comparison")))],
         "lab-hands": [
