@@ -5,8 +5,8 @@
 # Everything that the paper shows - Table 1, Fig. 6a, Fig. 6b, Fig. 7 - into one folder with one
 # report. With --all also what was not chosen and what moves the limits: readings of dead reckoning
 # (velocity-rule, horizon, jitter-order), the delay of the path in the loss cells (path-delay),
-# filters and hands (limits_by_convention.csv), the plane of conditions (plane), and what a finer tick
-# and more seeds buy (work-precision, work-precision-limits).
+# filters and hands (limits_by_convention.csv), the plane of conditions (plane), and what a finer
+# tick and more seeds buy (work-precision, work-precision-limits).
 # Other options: scripts/experiment.sh --help.
 set -euo pipefail
 names=table1,fig6a,fig6b,fig7

@@ -20,8 +20,8 @@ namespace hapnet::lab::results {
 // What a network must offer: what each algorithm bears, in each task and for each tier, beside the
 // classes of networks of ITU-T Y.1541.
 
-/// What a class of ITU-T Recommendation Y.1541 (12/2011), Network performance objectives for
-/// IP-based services, table 1, promises of a network.
+/// The promises of a class of networks by ITU-T Recommendation Y.1541 (12/2011), Network
+/// performance objectives for IP-based services, table 1.
 struct NetworkClass {
     std::uint32_t number = 0;
     double delay_ms = 0.0;
@@ -47,8 +47,8 @@ inline constexpr std::array network_classes{
     NetworkClass{2, 100.0, {}, 0.1}, NetworkClass{3, 400.0, {}, 0.1},
     NetworkClass{4, 1000.0, {}, 0.1}};
 
-/// What half of the sessions of an algorithm bear in a task, each factor on its own while the
-/// others are at rest.
+/// The levels that half of the sessions of an algorithm bear in a task, each factor on its own
+/// while the others are at rest.
 struct Requirement {
     std::string algorithm{};
     std::string task{};
@@ -115,11 +115,11 @@ constexpr auto fields_of(base::Tag<Requirement> /*struct*/)
                     "Name of the scene, where the experiment names one."));
 }
 
-/// Whether all that a network of the class may do, one factor at a time, is borne. A class that
-/// leaves the delay variation open suffices only where no jitter that was tried fails.
+/// Returns true if all that a network of the class may do, one factor at a time, is borne. A class
+/// that leaves the delay variation open suffices only where no jitter that was tried fails.
 [[nodiscard]] bool suffices(const NetworkClass& network, const Requirement& requirement);
 
-/// Whether an experiment searches all that a requirement has.
+/// Returns true if an experiment searches all that a requirement has.
 [[nodiscard]] bool has_requirements(const experiment::Limits& limits);
 
 /// A row for each algorithm, party, tier and task, and for the worst of the tasks: from the limits

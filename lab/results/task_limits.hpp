@@ -27,8 +27,8 @@ struct TaskLimit {
     /// The metric that most of the sessions fail by at the first level that counts from p50 on;
     /// empty where less than half fails at the top of the range.
     std::string_view decided_by{};
-    /// What the busiest direction carries for each message, IP and UDP headers included, as the
-    /// sessions measured it, bit; nullopt: the interval was not searched.
+    /// The bits that the busiest direction carries for each message, IP and UDP headers included,
+    /// as the sessions measured it; nullopt: the interval was not searched.
     std::optional<double> message_bits{};
 };
 

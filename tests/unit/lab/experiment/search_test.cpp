@@ -143,7 +143,9 @@ TEST(Levels, OfTheIntervalThinTheMessagesAndLeaveThePath)
     ground.up.loss.push_back(emulator::RandomLoss{});
     EXPECT_EQ(impaired(ground, Impairment::interval, {20'000}), ground);
     const peer::SendPolicy deadband{.deadband = base::Probability::from_fraction(0.08).value()};
-    EXPECT_EQ(thinned(deadband, Impairment::interval, {20'000}), peer::SendPolicy{.every = 20});
+    peer::SendPolicy twentieth;
+    twentieth.every = 20;
+    EXPECT_EQ(thinned(deadband, Impairment::interval, {20'000}), twentieth);
     EXPECT_EQ(thinned(deadband, Impairment::interval, {}), deadband) << "at rest";
     EXPECT_EQ(thinned(deadband, Impairment::delay, {20'000}), deadband);
 }

@@ -94,8 +94,15 @@ std::map<std::string, Table> found(const std::vector<std::string>& settings = {}
     for (const experiment::Job& job : make_jobs(experiment))
         results.push_back(*run_job(job, experiment, criteria(), play));
     std::map<std::string, Table> tables;
-    for (const Table& table : find_results(experiment, criteria(), results)->tables)
-        tables[table.name] = filled(table);
+    const auto all = find_results(experiment, criteria(), results).value();
+    for (const Table& table : all.tables) tables[table.name] = filled(table);
+    return tables;
+}
+
+/// The tables of the experiment as it stands, made once.
+const std::map<std::string, Table>& of_all_factors()
+{
+    static const auto tables = found();
     return tables;
 }
 
@@ -110,7 +117,7 @@ Requirement bearing(const NetworkClass& network)
 
 TEST(Requirements, AreTheLimitsOfEachFactorByTierAndTask)
 {
-    const auto tables = found();
+    const auto& tables = of_all_factors();
     const Rows rows = rows_of(tables.at("requirements"));
     ASSERT_EQ(rows.size(), 8U) << "three tasks and their worst, for two tiers";
     const auto near = [&](std::size_t row, std::string_view key, double expected, double within) {
@@ -141,7 +148,7 @@ TEST(Requirements, AreTheLimitsOfEachFactorByTierAndTask)
 
 TEST(Requirements, ThatFailAtRestHaveNoValueAndNoClass)
 {
-    const auto tables = found();
+    const auto& tables = of_all_factors();
     const Rows rows = rows_of(tables.at("requirements"));
     for (const std::size_t row : {1U, 3U, 5U, 7U}) { // T2, and so the worst
         EXPECT_EQ(rows[row].text("task"), row % 4 == 1 ? "T2" : "worst");
@@ -156,7 +163,7 @@ TEST(Requirements, ThatFailAtRestHaveNoValueAndNoClass)
 
 TEST(Requirements, ThatNothingFailsAreAtLeastTheTopOfEachRange)
 {
-    const auto tables = found();
+    const auto& tables = of_all_factors();
     const Rows rows = rows_of(tables.at("requirements"));
     for (const std::size_t row : {2U, 6U}) {
         EXPECT_EQ(rows[row].text("task"), "T3");
@@ -176,7 +183,7 @@ TEST(Requirements, ThatNothingFailsAreAtLeastTheTopOfEachRange)
 
 TEST(Requirements, AreThereWhereAllFactorsAreSearchedAndTiersStandInTheLimits)
 {
-    const auto tables = found();
+    const auto& tables = of_all_factors();
     EXPECT_EQ(rows_of(tables.at("limits")).front().text("tier"), "good");
     EXPECT_EQ(tables.at("limits").rows.size(), 5U * 2U * 4U);
     EXPECT_EQ(csv_text(tables.at("network_classes")),
