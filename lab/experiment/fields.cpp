@@ -290,7 +290,7 @@ void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const
 std::string HandsFormat::print(const Hands& hands) const
 {
     if (hands.people) {
-        const auto folder = base::quoted(hands.people->folder);
+        auto folder = base::quoted(hands.people->folder);
         if (hands.left == hand_of_people()) return folder;
         auto entries = base::field_texts(hands.left);
         entries.insert(entries.begin(), "people = " + folder);

@@ -96,7 +96,7 @@ private:
     {
         const auto& column = layout_.columns[6];
         if (!column) return static_cast<double>(count()) / *format_.rate_hz;
-        const auto number = numbers_.read(cells[column->place], *column);
+        auto number = numbers_.read(cells[column->place], *column);
         if (!number) return number;
         const double time_s = *number * column->factor;
         if (std::abs(time_s) > column->most)

@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::string& path : emulator::paths_in(*profile)) {
         each.push_back({path, emulator::profile_of(*profile, path)});
     }
-    const auto joined = emulator::joined(each);
+    const auto joined = emulator::joined(each, profile->flows);
     for (const auto& [path, own] : each) {
         base::ensure(emulator::profile_of(joined, path).path == own.path);
     }

@@ -447,7 +447,9 @@ std::string to_text(const FatesOfPaths& fates)
 base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text)
 {
     const auto head = text.substr(0, text.find('\n'));
-    const auto has = [&](std::string_view column) { return head.find(column) != head.npos; };
+    const auto has = [&](std::string_view column) {
+        return head.find(column) != std::string_view::npos;
+    };
     const FateColumns columns{.has_paths = text.starts_with(path_column),
                               .has_flows = has(",flow,") || text.starts_with(flow_column),
                               .has_regimes = has(",regime,")};

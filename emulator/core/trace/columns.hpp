@@ -33,7 +33,7 @@ value_of(const base::TableLayout& layout)
     return layout.columns[0];
 }
 [[nodiscard]] inline const std::optional<base::NumberColumn>&
-time_of(const base::TableLayout& layout)
+time_column(const base::TableLayout& layout)
 {
     return layout.columns[1];
 }

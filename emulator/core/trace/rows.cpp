@@ -39,7 +39,8 @@ public:
         }
         rows_.values.push_back(last_);
         rows_.lost.push_back(is_lost);
-        return time_of(layout_) ? add_time(cells[time_of(layout_)->place]) : base::Result<void>{};
+        return time_column(layout_) ? add_time(cells[time_column(layout_)->place])
+                                    : base::Result<void>{};
     }
 
     /// A delay with its unit.
@@ -75,7 +76,7 @@ private:
     [[nodiscard]] base::Result<double> parse_cell(std::string_view cell,
                                                   const base::NumberColumn& column)
     {
-        const auto number = numbers_.read(cell, column);
+        auto number = numbers_.read(cell, column);
         if (!number) return number;
         const double count = *number;
         if (count < 0.0) return base::fail(fmt::format("{} {} is negative", column.name, count));
@@ -89,13 +90,13 @@ private:
 
     [[nodiscard]] base::Result<void> add_time(std::string_view cell)
     {
-        const auto count = parse_cell(cell, *time_of(layout_));
+        const auto count = parse_cell(cell, *time_column(layout_));
         if (!count) return tl::unexpected{count.error()};
         if (rows_.times.empty()) first_time_ = *count;
-        const double passed = (*count - first_time_) * time_of(layout_)->factor;
+        const double passed = (*count - first_time_) * time_column(layout_)->factor;
         if (std::abs(passed) > static_cast<double>(longest_delay.count())) {
             return base::fail(fmt::format("{} {} is more than 10^6 s from the first one",
-                                          time_of(layout_)->name, *count));
+                                          time_column(layout_)->name, *count));
         }
         const base::Duration time{std::llround(passed)};
         if (!rows_.times.empty() && time <= rows_.times.back()) {

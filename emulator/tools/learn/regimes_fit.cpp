@@ -22,7 +22,7 @@ constexpr std::size_t most_classes = 32;
 constexpr std::size_t rows_to_begin = 20'000; // of the tries
 constexpr std::size_t rows_to_choose = 200'000;
 constexpr std::size_t rows_min = 200;
-constexpr double stays_min = 10.0;
+constexpr double exits_min = 10.0;
 
 // Symbols: a class of delays, then these two.
 constexpr std::uint8_t lost_symbol = most_classes;
@@ -466,7 +466,7 @@ std::optional<RegimesFit> fit_chain(const Series& series, std::size_t rows)
             one.followers.push_back(j == k || out <= 0.0 ? 0.0 : (*rates)[k][j] / out);
             if (j != k) one.exits += chain.counts[k][j];
         }
-        if (K > 1 && (one.exits < stays_min || arrived[k] < stays_min)) return std::nullopt;
+        if (K > 1 && (one.exits < exits_min || arrived[k] < exits_min)) return std::nullopt;
         sorted.push_back(std::move(one));
     }
     found.regimes = std::move(sorted);

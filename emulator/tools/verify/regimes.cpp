@@ -112,9 +112,9 @@ LossRecord separated(std::span<const Fate> fates, std::size_t regime, std::size_
 {
     const Fate none;
     std::vector<Fate> own;
-    for (std::size_t i = 0; i < fates.size(); ++i) {
-        if (fates[i].regime == regime + 1) {
-            own.push_back(fates[i]);
+    for (const Fate& fate : fates) {
+        if (fate.regime == regime + 1) {
+            own.push_back(fate);
         } else if (!own.empty() && own.back() != none) {
             own.push_back(none);
         }

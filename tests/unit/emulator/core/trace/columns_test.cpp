@@ -29,7 +29,7 @@ TEST(TableLayout, FindsColumnsByNumberWhereThereIsNoHeader)
     EXPECT_EQ(rates.separator, ' ');
     EXPECT_EQ(value_of(rates)->place, 1U);
     EXPECT_EQ(value_of(rates)->factor, 1e6);
-    EXPECT_EQ(time_of(rates)->place, 0U);
+    EXPECT_EQ(time_column(rates)->place, 0U);
     EXPECT_EQ(layout_of("0,5 20,5\n", Measure::delay, "time=1:s,delay=2:ms").separator, ' ');
     EXPECT_TRUE(layout_of("when,how long\n", Measure::delay, "delay=2:ms").has_header);
 }
