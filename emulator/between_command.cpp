@@ -80,7 +80,7 @@ FrameSession::Setup session_of(const BetweenOptions& options, const std::vector<
     return setup;
 }
 
-/// Those of several paths; of two commands the only path has no name.
+/// Returns the names that settings can use: of two commands the only path has none.
 PathNames names_of(const ports::Frames::Setup& frames)
 {
     if (frames.ends.size() > 2) return {.links = frames.path_names()};

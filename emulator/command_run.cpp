@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Those that start before A.
+/// Returns the commands that start before A.
 std::vector<net::CommandStart::Before> before_a(const std::vector<CommandRun::Other>& others)
 {
     std::vector<net::CommandStart::Before> before;

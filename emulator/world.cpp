@@ -66,7 +66,7 @@ std::vector<std::string> words_of(WorldProgram program, const std::string& inter
     return words;
 }
 
-/// Whether this machine knows a way to the addresses of the internet. Nothing is sent.
+/// Returns true if this machine has a route to addresses of the internet by IPv6. Sends nothing.
 bool has_route_of_ipv6()
 {
     sockaddr_in6 anywhere{};

@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 /// the emulator's network ask for.
 class World {
 public:
-    /// That of the command's eth0.
+    /// The address of the command's eth0.
     static constexpr MacAddress machine_of_command{std::byte{2}, {}, {}, {}, {}, std::byte{1}};
     // Where it has its addresses on that interface. The routers stand for this machine, too.
     static constexpr const char* address_of_command = "10.0.2.100";

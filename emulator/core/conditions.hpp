@@ -293,8 +293,8 @@ constexpr void for_each_setting(const Visit& visit)
 /// The conditions with what `patch` sets.
 [[nodiscard]] Conditions patched(Conditions conditions, const Patch& patch);
 
-/// Those that hold in one of their regimes, which have no regimes themselves. `index` is of one of
-/// them.
+/// Returns the conditions that hold in the regime at `index`, which must be there. They have no
+/// regimes themselves.
 [[nodiscard]] Conditions in_regime(const Conditions& conditions, std::size_t index);
 
 /// Both ways of a path.

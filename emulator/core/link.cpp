@@ -281,7 +281,7 @@ void Link::switch_rates(base::TimePoint now)
     }
 }
 
-/// That of the regime that holds, if it sets one.
+/// Returns the rate of the regime that holds, or the link's own if the regime sets none.
 const Rate& Link::rate_now() const
 {
     if (!rates_) return conditions_->rate;

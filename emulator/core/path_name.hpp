@@ -90,7 +90,7 @@ struct PathNames {
     std::vector<std::string> flows{};        // on each of them
     std::vector<std::string> without_rate{}; // those that share that of the rest
     std::vector<std::string> untouched{};    // those that have no conditions
-    std::string without_links{};             // why there are none; "": nobody asked for one
+    std::string without_links{};             // why no links exist; "": without a reason
 
     [[nodiscard]] bool contains(std::string_view path) const;
     /// Why not: "there is no link 1-3: use one of 1-2, 2-3".

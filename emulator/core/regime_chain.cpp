@@ -90,7 +90,7 @@ RegimeChain::RegimeChain(const Regimes& regimes, const base::RandomStream& strea
     past_[now_].stays = 1;
 }
 
-/// Of the stay that has begun last: by inversion of the exponential law.
+/// Draws the length of the stay that began last, by inversion of the exponential law.
 base::Duration RegimeChain::drawn_stay() const
 {
     const double u = stream_.uniform(stays_ - 1, draw_of_stay);

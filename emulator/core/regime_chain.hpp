@@ -13,14 +13,14 @@
 
 namespace hapnet::emulator {
 
-/// How often each of the regimes in a row follows this one: shares that add up to 1, none of
-/// itself.
+/// Returns the shares in which the regimes follow the one at `index`. They add up to 1, and its own
+/// is 0.
 [[nodiscard]] std::vector<double> followers_of(std::span<const Regime> regimes, std::size_t index);
 
 /// The share of the time that each of them lasts in the long run.
 [[nodiscard]] std::vector<double> shares_of(std::span<const Regime> regimes);
 
-/// How long one regime has lasted in all, and how often it has begun.
+/// The time that one regime has lasted in all, and the number of its stays.
 struct RegimeCourse {
     base::Duration time{};
     std::uint64_t stays = 0;

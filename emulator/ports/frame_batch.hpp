@@ -21,8 +21,8 @@ struct FrameWay {
     std::uint32_t pair = 0; // of interfaces in the capture
 };
 
-/// What leaves from one interface, of all paths that end there: gathered and sent together. Flush
-/// it before the bytes go.
+/// The frames that leave from one interface, of all paths that end there: gathered and sent
+/// together. Flush them before their bytes go.
 class FrameBatch {
 public:
     /// `fixes_checksums`: of all that conditions held for. The socket and the recorder outlive it.

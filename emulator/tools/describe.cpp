@@ -192,7 +192,7 @@ std::string regime_in_words(std::span<const Regime> regimes, std::size_t index, 
                        are_together ? "; both ways at once" : "");
 }
 
-/// What holds in each regime.
+/// Returns a line for each regime and for each of its conditions.
 std::vector<std::string> describe_regimes(const Conditions& conditions, const Stream& stream)
 {
     const std::span<const Regime> regimes{conditions.regimes.all.get()};

@@ -51,7 +51,7 @@ std::string ticks_text(const std::shared_ptr<const std::vector<base::Duration>>&
     return text + '\n';
 }
 
-/// How a player sends; empty: in each tick.
+/// Returns the line of the key `send`; empty where each tick has a message.
 std::string send_text(const peer::SendPolicy& send)
 {
     return send.is_each_tick() ? "" : fmt::format("send = {}\n", text_of(send));

@@ -26,7 +26,7 @@ struct Gaps {
     double begin_of_longest_s = 0.0;    // on the clock of the recording
 };
 
-/// Those of samples between two times.
+/// Returns the gaps between the samples from one time to another.
 [[nodiscard]] Gaps gaps_in(const Track& track, double from_s, double to_s);
 
 /// The track at `count` times, a millisecond apart from `from_s` on, none of them outside it: cubic

@@ -23,7 +23,7 @@ Json seeds_of(const experiment::Experiment& experiment)
     return seeds;
 }
 
-/// Of a session; of people the mean over their trials.
+/// Returns the length of a session; with recorded people, the mean over their trials.
 double mean_length_s(const experiment::Experiment& experiment, const hands::Population* people)
 {
     if (people == nullptr || !experiment.is_as_long_as_scripts)

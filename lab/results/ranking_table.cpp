@@ -67,7 +67,8 @@ std::optional<double> tau_of(const std::vector<double>& a, const std::vector<dou
     return sum / std::sqrt(told_by_a * told_by_b);
 }
 
-/// Of resampling what the means are of; nullopt: too few, or not as many for each algorithm.
+/// Returns the interval of tau by resampling seeds or subjects; nullopt: too few, or not as many
+/// for each algorithm.
 std::optional<metrics::Interval> interval_of_tau(const Order& order, const Order& reference)
 {
     const std::size_t count = order.values.front().size();

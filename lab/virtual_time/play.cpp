@@ -43,7 +43,7 @@ bool has_overflowed(const VirtualWorld& world)
     return false;
 }
 
-/// What each direction between two sides has carried so far, with the headers of UDP over IPv4.
+/// The bits that each direction has carried so far, with the headers of UDP over IPv4.
 struct Traffic {
     base::TimePoint at;
     std::vector<double> bits;
@@ -65,7 +65,7 @@ Traffic traffic_of(const VirtualWorld& world)
     return traffic;
 }
 
-/// Of the busiest direction between the two moments, bit/s.
+/// Returns the rate of the busiest direction between the two moments, bit/s.
 double rate_between(const Traffic& begin, const Traffic& end)
 {
     double most = 0.0;

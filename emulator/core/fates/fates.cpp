@@ -133,7 +133,7 @@ base::Result<FateCells> columns_of(std::string_view line, std::string_view* regi
     return columns;
 }
 
-/// What a fate counts for the regime in a cell.
+/// Returns the number of the regime that a cell names: 1 for the first known one, 0 for no name.
 base::Result<std::uint8_t> regime_of(std::string_view cell, RegimeNames& known)
 {
     if (cell.empty()) return 0;

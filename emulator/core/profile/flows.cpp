@@ -32,7 +32,7 @@ std::vector<Setting> read_flow_settings(TableReader& table, const std::string& p
     return settings;
 }
 
-/// Whether it, or a regime in it, sets a rate or a queue.
+/// Returns true if the patch, or a regime in it, sets a rate or a queue.
 bool has_rate(const Patch& patch)
 {
     const auto sets_rate = [](const Regime& regime) { return regime.own.rate.has_value(); };

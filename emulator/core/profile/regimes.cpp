@@ -17,7 +17,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// What the keys of a regime say of its conditions.
+/// Reads the conditions that the keys of a regime set.
 Patch read_conditions_of(TableReader& table)
 {
     DirectionSettings settings;

@@ -17,7 +17,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// How the regimes of both directions may change.
+/// The values of the key `regimes`: both directions change at once, or each by itself.
 constexpr std::string_view together = "together";
 constexpr std::string_view apart = "apart";
 
@@ -291,7 +291,7 @@ base::Result<Target> target_of(std::string_view key, const PathNames& names)
     return Target{*way, std::string{regime}, name};
 }
 
-/// Whether what it says of regimes depends on those that are there, or are said beside it.
+/// Returns true if the settings define regimes, tie both directions, or change a regime by name.
 bool changes_regimes(const DirectionSettings& settings)
 {
     return settings.patch.regimes || settings.are_together || !settings.of_regimes.empty();
@@ -314,7 +314,8 @@ void in_turn(std::span<const Setting> settings, std::string_view path, const Use
     }
 }
 
-/// What the settings say of regimes, over those that `path` has. `are_together`: whether they were.
+/// Puts the regimes of the settings into `path`. `are_together`: both directions changed at once
+/// before.
 base::Result<void> set_regimes(Path& path, std::span<const Setting> settings, std::string_view name,
                                bool are_together)
 {

@@ -83,7 +83,7 @@ public:
         const double start = std::max(least - (values_.mean - least) / n, 0.0);
         try_out("exponential", start, ExponentialLaw{in_microseconds(values_.mean - start)});
         try_before(least);
-        // Of a regime: a few of its delays may be those of another one.
+        // A few delays that do not belong to the law, as those of another regime, lie far below it.
         const double few = values_.sorted[values_.sorted.size() / 500];
         if (few - least > values_.sd) try_before(few);
         std::stable_sort(models_.begin(), models_.end(),

@@ -220,7 +220,7 @@ bool has_changed(const RunRecord& run)
     return !run.profile.timeline.empty() || run.statistics.value("generation", 1) != 1;
 }
 
-/// Whether no single law gives what came out.
+/// Returns true if the path has regimes, so that no single law gives its delays.
 bool has_regimes(const RunRecord& run)
 {
     const Path path = profile_of(run.profile, run.link).path;

@@ -44,7 +44,7 @@ constexpr std::uint64_t stays_min = 10; // to tell anything
 
 std::string regime_words(const Regime& regime) { return fmt::format("regime {}", regime.name); }
 
-/// How often each regime was met at the next datagram after this one.
+/// Tests how often the next datagram after one in the regime `from` met each other regime.
 Results verify_passages(std::span<const Regime> regimes, std::size_t from,
                         std::span<const Fate> fates, const std::vector<double>& expected,
                         double alpha)
@@ -106,8 +106,8 @@ TestResult verify_stays(const Regime& regime, std::size_t index, std::span<const
     return result;
 }
 
-/// What is known of the losses of one regime: between stretches that do not follow each other
-/// stands a datagram without a state.
+/// Returns the losses of one regime. A datagram without a state stands between stretches that do
+/// not follow each other.
 LossRecord separated(std::span<const Fate> fates, std::size_t regime, std::size_t laws)
 {
     const Fate none;
@@ -122,7 +122,7 @@ LossRecord separated(std::span<const Fate> fates, std::size_t regime, std::size_
     return loss_record(own, laws);
 }
 
-/// Of the datagrams of a regime, no two of which are nearer than `stride`.
+/// Returns datagrams of a regime, no two of which are nearer than `stride`.
 std::vector<Fate> thinned(std::span<const Fate> fates, std::size_t regime, std::size_t stride)
 {
     std::vector<Fate> own;
