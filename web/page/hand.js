@@ -80,11 +80,14 @@ export class Hand {
     if (this.isHeld) this.#tell();
   }
 
-  /** The server's word: whether this page holds the hand. */
+  /**
+   * The server's word: whether this page holds the hand. A refusal gives its reason. The answer to
+   * letting go gives none, and may come when the page has taken the hand again.
+   */
   told({ holds, says }) {
-    if (holds || !this.isHeld) return;
+    if (holds || !says || !this.isHeld) return;
     this.letGo(says);
-    if (says) announce(says);
+    announce(says);
   }
 
   #show(says) {
