@@ -171,6 +171,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.scene = options.scene;
     settings.algorithm = options.algorithm;
     settings.send = options.send;
+    settings.playout = options.playout;
     // The scene's springs are as much stiffer at the hand as its dampers: by the scale squared.
     settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m / (mount.scale * mount.scale);
     // A simulated hand cannot be hurt, and the experiments that it plays are told without that.

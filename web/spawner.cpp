@@ -12,6 +12,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -90,7 +91,14 @@ Child start_now(const Command& command, int lifeline)
     errno = error;
     if (pid < 0) refuse("fork");
     const int ended = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
-    if (ended < 0) refuse("pidfd_open");
+    if (ended < 0) {
+        const int why = errno;
+        kill(pid, SIGKILL);
+        waitpid(pid, nullptr, 0);
+        if (pipe_ends[0] >= 0) close(pipe_ends[0]);
+        errno = why;
+        refuse("pidfd_open");
+    }
     return {pid, ended, pipe_ends[0]};
 }
 

@@ -60,11 +60,13 @@ std::string text_of(const std::string& file)
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-/// How a process ended that can be waited for: 128 + n for signal n.
-int exit_of(pid_t pid)
+/// The exit code of a process, 128 + n after signal n; nothing while it runs.
+std::optional<int> exit_of(pid_t pid)
 {
     int status = 0;
-    if (waitpid(pid, &status, WNOHANG) != pid) return 1;
+    const pid_t ended = waitpid(pid, &status, WNOHANG);
+    if (ended == 0) return std::nullopt;
+    if (ended < 0) return 1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -208,7 +210,8 @@ void Stage::await_output(const std::shared_ptr<Running>& running)
 {
     running->output->async_read_some(boost::asio::buffer(running->buffer),
                                      [this, running](const error_code& error, std::size_t bytes) {
-                                         if (error) return;
+                                         // What a process of the session before says is late.
+                                         if (error || !is_child(running)) return;
                                          if (running->said.size() < said_bytes_max) {
                                              running->said.append(running->buffer.data(), bytes);
                                              on_output(*running);
@@ -232,16 +235,24 @@ void Stage::on_output(Running& running)
 
 void Stage::on_end(const std::shared_ptr<Running>& running)
 {
-    const int code = exit_of(running->child.pid);
+    const auto code = exit_of(running->child.pid);
+    // A child that is between fork() and exec() holds what this process closes, so that an event of
+    // a closed descriptor may arrive as that of a new one.
+    if (!code) return await_end(running);
     std::erase(children_, running);
     const bool is_asked_for = state_ == State::stopping || state_ == State::failed;
-    if (!is_asked_for && (code != 0 || running->is_emulator)) {
+    if (!is_asked_for && (*code != 0 || running->is_emulator)) {
         const std::string why = last_line(running->log);
-        fail(fmt::format("{} ended with exit code {}{}{}", running->name, code,
+        fail(fmt::format("{} ended with exit code {}{}{}", running->name, *code,
                          why.empty() ? "" : ": ", why));
     }
     if (children_.empty()) return on_empty();
     if (!has_peers() && state_ == State::running) on_all_peers_ended();
+}
+
+bool Stage::is_child(const std::shared_ptr<Running>& running) const
+{
+    return std::ranges::find(children_, running) != children_.end();
 }
 
 bool Stage::has_peers() const

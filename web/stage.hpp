@@ -90,6 +90,7 @@ private:
     void end_children(bool with_emulator);
     void fail(const std::string& why);
     void change(State state, std::string says);
+    [[nodiscard]] bool is_child(const std::shared_ptr<Running>& running) const;
     [[nodiscard]] bool has_peers() const;
     [[nodiscard]] StageFolders folders() const;
 

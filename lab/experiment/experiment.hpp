@@ -229,6 +229,7 @@ struct Experiment {
     std::vector<NamedTrace> replay{}; // none, or of those that act as A and as B
     std::vector<NamedTrace> script{}; // likewise: where their simulated hands mean to be
     peer::SendPolicy send{};
+    peer::Playout playout = peer::Playout::none;
     /// A session is as long as its own script, and `duration` is that of the longest.
     bool is_as_long_as_scripts = false;
     bool energy_limit = false;

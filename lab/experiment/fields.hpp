@@ -305,6 +305,8 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "where simulated hands mean to be instead of the task's: such files, too"),
         base::field("send", &Experiment::send, peer::SendPolicyFormat{},
                     "when a player sends a message, as `hapnet-peer --send`"),
+        base::field("playout", &Experiment::playout,
+                    "when a message that has arrived counts, as `hapnet-peer --playout`"),
         base::field("energy_limit", &Experiment::energy_limit,
                     "limits the energy into each hand as hapnet-peer does"),
         base::field("keyed", &Experiment::keyed,

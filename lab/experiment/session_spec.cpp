@@ -57,13 +57,20 @@ std::string send_text(const peer::SendPolicy& send)
     return send.is_each_tick() ? "" : fmt::format("send = {}\n", text_of(send));
 }
 
+/// Returns the line of the key `playout`; empty where messages count as they arrive.
+std::string playout_text(peer::Playout playout)
+{
+    return playout == peer::Playout::none ? ""
+                                          : fmt::format("playout = {}\n", base::name_of(playout));
+}
+
 std::string player_text(const virtual_time::PlayerSetting& player)
 {
     return fmt::format(
-        "{}{}clock_ahead = {}\nphase = {}\n{}{}{}{}", peer::print_algorithm(player.algorithm),
+        "{}{}clock_ahead = {}\nphase = {}\n{}{}{}{}{}", peer::print_algorithm(player.algorithm),
         device::print_operator(player.person), player.clock_ahead.count(), player.phase.count(),
         way_text("replay", player.replay), way_text("script", player.way), ticks_text(player.ticks),
-        send_text(player.send));
+        send_text(player.send), playout_text(player.playout));
 }
 
 /// What the files contain that a setting's text names: a trace of delays stands there by its name.
@@ -104,6 +111,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     for (std::size_t seat = 0; seat < setting.players.size(); ++seat) {
         setting.players[seat].algorithm = one.algorithm.algorithm;
         setting.players[seat].send = experiment.send;
+        setting.players[seat].playout = experiment.playout;
         setting.players[seat].person = seat % 2 == 0 ? one.hands.left : one.hands.right;
         if (!experiment.replay.empty())
             setting.players[seat].replay = experiment.replay[seat % 2].trace;

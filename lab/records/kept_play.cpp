@@ -58,6 +58,7 @@ nlohmann::json kept_config(const virtual_time::Setting& setting, std::size_t sea
             {"algorithm", peer::name_of(player.algorithm)},
             {"algorithm_toml", peer::print_algorithm(player.algorithm)},
             {"send", text_of(player.send)},
+            {"playout", base::name_of(player.playout)},
             {"governor_toml", device::print_limits(limits)},
             {"mount", {{"scale", 1.0}, {"offset_m", {0.0, 0.0, 0.0}}}},
             {"seed", player.seed.value_or(setting.seed).value()},

@@ -53,7 +53,8 @@ struct WrittenConfig {
     std::optional<std::uint16_t> wait_for{};
     std::string scene_toml;
     std::string algorithm_toml;
-    std::optional<std::string> send{}; // older records do not have it
+    std::optional<std::string> send{};      // older records do not have it
+    std::optional<peer::Playout> playout{}; // likewise
     std::string governor_toml;
     WrittenMount mount{};
 };
@@ -70,7 +71,8 @@ constexpr auto fields_of(base::Tag<WrittenConfig>)
         base::member("boot_id", &Own::boot_id), base::member("peers", &Own::peers),
         base::member("wait_for", &Own::wait_for), base::member("scene_toml", &Own::scene_toml),
         base::member("algorithm_toml", &Own::algorithm_toml), base::member("send", &Own::send),
-        base::member("governor_toml", &Own::governor_toml), base::member("mount", &Own::mount));
+        base::member("playout", &Own::playout), base::member("governor_toml", &Own::governor_toml),
+        base::member("mount", &Own::mount));
 }
 
 bool can_play(std::span<const std::uint16_t> others, std::uint16_t self)
@@ -118,6 +120,7 @@ base::Result<void> read_play(const WrittenConfig& written, std::span<const peer:
     const auto send = peer::parse_send_policy(written.send.value_or("every:1"));
     if (!send) return base::fail("its config: 'send': " + send.error().message);
     settings.send = *send;
+    settings.playout = written.playout.value_or(peer::Playout::none);
     return {};
 }
 

@@ -44,6 +44,7 @@ peer::Settings settings_of(const Setting& setting, const PlayerId& id,
     settings.scene = setting.scene;
     settings.algorithm = player.algorithm;
     settings.send = player.send;
+    settings.playout = player.playout;
     settings.tick = setting.tick;
     settings.length = setting.length;
     settings.roster = roster_of(setting, id);

@@ -28,6 +28,7 @@ namespace hapnet::lab::virtual_time {
 struct PlayerSetting {
     peer::Algorithm algorithm{};
     peer::SendPolicy send{};
+    peer::Playout playout = peer::Playout::none;
     device::Operator person{};
     std::shared_ptr<const device::HandTrace> replay{}; // plays instead of the person; at least one
                                                        // moment, in the order of time

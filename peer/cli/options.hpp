@@ -39,6 +39,7 @@ struct Options {
     device::Task task = device::Task::p1;
     Algorithm algorithm;
     SendPolicy send{};
+    Playout playout = Playout::none;
     base::Seed seed{1};
     base::Duration duration{std::chrono::seconds{30}};
     bool insecure = false;

@@ -59,6 +59,10 @@ constexpr auto fields_of(base::Tag<Counters>)
         base::member("outdated", &C::outdated,
                      "Older than one already used, or duplicates: not used by default.")
             .counter("hapnet_peer_states_outdated"),
+        base::member("played_late", &C::played_late,
+                     "State messages that came after their "
+                     "[playout time](../use/peer.md#playout); 0 without a playout.")
+            .counter("hapnet_peer_states_played_late"),
         base::member("other_session", &C::other_session,
                      "State messages of another session, or after the other peer's goodbye; hellos "
                      "of another peer than the one of that address."),

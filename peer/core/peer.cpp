@@ -28,7 +28,8 @@ Remote::Config config_of(const Settings& settings)
                           .staleness = settings.staleness,
                           .stale = stale_of(settings.algorithm),
                           .tick = settings.tick,
-                          .measures_path = settings.measures_paths};
+                          .measures_path = settings.measures_paths,
+                          .playout = settings.playout};
     config.introduction.length = settings.length;
     return config;
 }
@@ -129,13 +130,34 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
         ++counters_.other_session;
         return;
     }
-    const Remote::Heard heard = other.on_state(state, arrived);
+    if (other.on_arrival(state, arrived)) tell(Event::clock_jumped, &other);
+    if (PlayoutBuffer* const playout = other.playout()) {
+        if (!playout->put(state, arrived)) ++counters_.played_late;
+    } else {
+        hear(state, arrived, from);
+    }
+}
+
+/// Gives the algorithm the states that were due by now.
+void Peer::play_out(base::TimePoint now)
+{
+    for (std::size_t from = 0; from < others_.size(); ++from) {
+        PlayoutBuffer* const playout = others_[from].playout();
+        if (playout == nullptr) return; // all have one, or none has
+        if (!others_[from].session()) continue;
+        while (const auto played = playout->next(now)) hear(played->state, played->at, from);
+    }
+}
+
+void Peer::hear(const wire::State& state, base::TimePoint at, std::size_t from)
+{
+    Remote& other = others_[from];
+    const Remote::Heard heard = other.on_state(state, at);
     ++(heard.taken ? counters_.states : counters_.outdated);
     if (heard.body_missed) tell(Event::no_body, &other);
-    if (heard.clock_jumped) tell(Event::clock_jumped, &other);
     const TickCount::Counted counted = other.tick_of(state);
     const ReceivedState received{.state = state,
-                                 .arrived = arrived,
+                                 .arrived = at,
                                  .tick_number = counted.number,
                                  .span = counted.span,
                                  .taken = heard.taken,
@@ -201,6 +223,7 @@ const Tick& Peer::tick(base::TimePoint now, const Hand& hand)
     const bool in_session = phase == Phase::running || phase == Phase::hands_off;
     Tick& tick = *std::construct_at(&tick_); // anew, in its place
     tick.phase = in_session && is_alone() ? Phase::alone : phase;
+    play_out(now);
     tick.freshness = others_.look(now);
     enter(phase);
     if (phase == Phase::ended) {

@@ -47,6 +47,7 @@ struct Counters {
     std::uint64_t other_version = 0;
     std::uint64_t implausible = 0;   // out of any scene's reach, or numbered ahead of time
     std::uint64_t unusable_hand = 0; // ticks in which the device's sample was not usable
+    std::uint64_t played_late = 0;   // of those that wait for their playout, after their time
     std::uint64_t sent = 0;
     base::ByName<SendCause, std::uint64_t> sending{}; // ticks of all sessions
 };
@@ -142,6 +143,8 @@ private:
     void on_message(const wire::Hello& hello, base::TimePoint arrived, std::size_t from);
     void on_message(const wire::State& state, base::TimePoint arrived, std::size_t from);
     void on_message(const wire::Bye& bye, base::TimePoint arrived, std::size_t from);
+    void play_out(base::TimePoint now);
+    void hear(const wire::State& state, base::TimePoint at, std::size_t from);
     void forget(std::size_t other);
     void refuse(const Farewell::Refusal& refusal, base::TimePoint arrived);
     void tell(Event event, const Remote* about = nullptr);

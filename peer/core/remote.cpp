@@ -15,6 +15,7 @@ Remote::Remote(const Config& config)
       handshake_{config.introduction, config.start_set_by},
       sequences_{config.tick},
       meter_{config.measures_path ? std::make_unique<PathMeter>() : nullptr},
+      playout_{config.playout == Playout::adaptive ? std::make_unique<PlayoutBuffer>() : nullptr},
       tick_{config.tick}
 {}
 
@@ -45,6 +46,7 @@ void Remote::begin_session(base::TimePoint now)
     sequences_.forget();
     tick_count_.forget();
     if (meter_) *meter_ = PathMeter{};
+    if (playout_) playout_->forget();
     last_body_ = now;
     states_without_body_ = 0;
     gone_ = false;
@@ -78,18 +80,22 @@ bool Remote::takes_back_goodbye(const wire::State& state, base::TimePoint arrive
     return true;
 }
 
-Remote::Heard Remote::on_state(const wire::State& state, base::TimePoint arrived)
+bool Remote::on_arrival(const wire::State& state, base::TimePoint arrived)
 {
     handshake_.on_state();
     handshake_.on_echo(state.echo, state.sent, arrived);
     last_heard_ = arrived;
     if (meter_) meter_->on_state(state, arrived, handshake_.clock());
-    Heard heard{.taken = update(state, arrived)};
     const std::uint32_t jumps = handshake_.clock_sync().jumps();
-    heard.clock_jumped = std::exchange(jumps_told_, jumps) < jumps;
+    return std::exchange(jumps_told_, jumps) < jumps;
+}
+
+Remote::Heard Remote::on_state(const wire::State& state, base::TimePoint at)
+{
+    Heard heard{.taken = update(state, at)};
     if (heard.taken) {
-        sequences_.on_taken(state, arrived);
-        heard.body_missed = misses_body(state, arrived);
+        sequences_.on_taken(state, at);
+        heard.body_missed = misses_body(state, at);
     }
     return heard;
 }

@@ -5,6 +5,7 @@
 #include "peer/core/handshake.hpp"
 #include "peer/core/outbox.hpp"
 #include "peer/core/path_meter.hpp"
+#include "peer/core/playout.hpp"
 #include "peer/core/sequence_guard.hpp"
 #include "peer/core/tick_count.hpp"
 #include "proto/base/names.hpp"
@@ -57,6 +58,7 @@ public:
         Stale stale = Stale::drop;
         base::Duration tick{std::chrono::milliseconds{1}};
         bool measures_path = false;
+        Playout playout = Playout::none;
     };
     explicit Remote(const Config& config);
 
@@ -76,11 +78,15 @@ public:
     /// Whether it goes on although it has said goodbye; then the goodbye is forgotten.
     [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
     struct Heard {
-        bool taken = false;        // newer than what was known
-        bool body_missed = false;  // from now on: the first time in this run
-        bool clock_jumped = false; // its clock, against this one
+        bool taken = false;       // newer than what was known
+        bool body_missed = false; // from now on: the first time in this run
     };
-    [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint arrived);
+    /// Learns about path and clock from a state that has arrived. True if its clock has jumped.
+    bool on_arrival(const wire::State& state, base::TimePoint arrived);
+    /// Takes a state that counts from `at`: its arrival, or its playout.
+    [[nodiscard]] Heard on_state(const wire::State& state, base::TimePoint at);
+    /// The buffer in which its states wait; nullptr: they count as they arrive.
+    [[nodiscard]] PlayoutBuffer* playout() const { return playout_.get(); }
     /// The part of it that algorithms see: the newest state. False when it is stale and dropped.
     bool update(const wire::State& state, base::TimePoint arrived);
     /// The tick of the remote that a state tells of, from 1 in the session.
@@ -192,7 +198,8 @@ private:
     Handshake handshake_;
     SequenceGuard sequences_;
     TickCount tick_count_;
-    std::unique_ptr<PathMeter> meter_; // large, and only where asked for
+    std::unique_ptr<PathMeter> meter_;       // large, and only where asked for
+    std::unique_ptr<PlayoutBuffer> playout_; // likewise
     base::Duration tick_;
     Outbox<wire::Datagram, 8> outbox_;
     Numbering current_;

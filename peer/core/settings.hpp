@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/others.hpp"
+#include "peer/core/playout.hpp"
 #include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "scene/description.hpp"
@@ -24,7 +25,8 @@ struct Settings {
     double stiffness_max_n_per_m = 0.0;
     /// Metres in the scene for each metre that the hand moves.
     double mount_scale = 1.0;
-    SendPolicy send; // when the others are told
+    SendPolicy send;                 // when the others are told
+    Playout playout = Playout::none; // when what they say counts
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration length{std::chrono::seconds{30}}; // of the session, from its start

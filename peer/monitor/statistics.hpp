@@ -99,6 +99,8 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
         base::computed<C>(
             "send", [](const C& one) { return text_of(one.options->send); }, "The `--send`."),
         base::computed<C>(
+            "playout", [](const C& one) { return one.options->playout; }, "The `--playout`."),
+        base::computed<C>(
             "seed", [](const C& one) { return one.options->seed.value(); }, "The `--seed`."),
         base::member("device", &C::device, "The device in words."),
         base::computed<C>(

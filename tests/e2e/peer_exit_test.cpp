@@ -186,9 +186,10 @@ TEST(PeerExit, EndsTheForceInTheNextTurnAlthoughNothingThatItWritesIsTaken)
         EXPECT_EQ(push.recorded.wait_end(), 3);
         EXPECT_LT(std::chrono::nanoseconds{now_ns() - signalled_ns}, 1s);
         const auto& told = push.recorded.told();
-        const auto turns = std::count_if(told.begin(), told.end(), [&](const Told& t) {
-            return t.newtons > 0.0 && t.at_ns > signalled_ns;
-        });
+        const auto turns =
+            std::count_if(told.begin(), told.end(), [since = signalled_ns](const Told& t) {
+                return t.newtons > 0.0 && t.at_ns > since;
+            });
         EXPECT_LE(turns, 2) << static_cast<int>(way);
         EXPECT_TRUE(std::all_of(told.end() - 3, told.end(), is_zero));
         const auto last_push =

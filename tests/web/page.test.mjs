@@ -181,7 +181,8 @@ test("after the end the page says whether the run counts, and keeps what it show
     assert.match(await page.textContent("#stage-state"), /^run \d+ has ended$/);
     assert.equal(await page.locator(".pane").count(), 2, "the worlds stay");
     assert.notEqual(await page.textContent("#apart"), "–");
-    assert.deepEqual(await page.locator(".pane .state").allTextContents(), ["ended", "ended"]);
+    await page.waitForFunction(() => [...document.querySelectorAll(".pane .state")]
+      .map((state) => state.textContent).join() === "ended,ended", undefined, patience);
     assert.equal(await page.isChecked("#loop"), false);
     assert.equal(await page.textContent("#network-error"), "");
     assert.equal(await page.locator(".chart:visible").count(), 6, "and so do the charts");

@@ -139,7 +139,7 @@ TEST_F(Shown, HasTheSessionAndTheKeyWithEachOfACircle)
         other.session = static_cast<std::uint32_t>(i + 70);
         other.is_heard = i == 1;
         other.line.strangers = 1 - i;
-        other.line.key.emplace();
+        other.line.key = decltype(other.line.key)::value_type{};
         other.line.key->is_agreed = i == 0;
         other.line.key->counts.handshakes = 1;
         other.line.key->counts.last_handshake = (i + 1) * 1ms;

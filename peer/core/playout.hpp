@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/names.hpp"
+#include "proto/base/time.hpp"
+#include "proto/wire/message.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::peer {
+
+/// When a state that has arrived is given to the algorithm: at once, or by a buffer that takes the
+/// jitter out of the path.
+enum class Playout : std::uint8_t { none, adaptive };
+constexpr auto names_of(base::Tag<Playout> /*enum*/) { return base::names("none", "adaptive"); }
+
+/// Buffer that plays states as evenly as they were sent: each at its stamp plus a transit that all
+/// but 1 % of the last states have kept. The transit grows at once and shrinks by 1 % of the time,
+/// as in adaptive playout of speech (R. Ramjee et al., Adaptive playout mechanisms for packetized
+/// audio applications in wide-area networks, INFOCOM 1994), with a quantile in place of their
+/// estimate, as in S. B. Moon et al., Packet audio playout delay adjustment, Multimedia Systems 6
+/// (1998). It takes no memory after its construction.
+class PlayoutBuffer {
+public:
+    static constexpr double late_share = 0.01; // of the states that come after their time
+    static constexpr std::size_t window = 2000;
+    static constexpr base::Duration window_age{std::chrono::seconds{10}};
+    static constexpr base::Duration step{std::chrono::microseconds{100}}; // of the transit
+    static constexpr std::size_t steps = 4096;
+    /// A path that becomes faster by more, or slower than all steps in most of so many states,
+    /// counts as a new one.
+    static constexpr base::Duration faster_max{std::chrono::milliseconds{100}};
+    static constexpr std::size_t moved_after = 100;
+    static constexpr double shrinks_by = 0.01; // of the time between two stamps
+    /// No state waits longer than this, and no more states than this wait.
+    static constexpr base::Duration wait_max{std::chrono::milliseconds{200}};
+    static constexpr std::size_t waiting_max = 256;
+
+    PlayoutBuffer();
+
+    /// Takes a state that arrived then. True if it came in time, to one step; the first one does.
+    bool put(const wire::State& state, base::TimePoint arrived);
+
+    struct Played {
+        wire::State state;
+        base::TimePoint at; // when it was due, or arrived if that was later
+    };
+    /// The next state that is due by now, in the order of the stamps; nullopt: none.
+    [[nodiscard]] std::optional<Played> next(base::TimePoint now);
+
+    /// The time from a state's stamp, on the sender's clock, to its playout on this one's; nullopt
+    /// before the first state.
+    [[nodiscard]] std::optional<base::Duration> transit() const;
+
+    /// Drops what waits and forgets the path.
+    void forget();
+
+private:
+    struct Held {
+        wire::State state;
+        base::TimePoint arrived;
+    };
+    struct Seen {
+        base::TimePoint sent;
+        std::uint16_t bin = 0;
+    };
+    void observe(base::TimePoint sent, base::Duration transit);
+    void count_in(const Seen& seen);
+    void drop_oldest();
+    void settle_quantile();
+    [[nodiscard]] base::Duration quantile() const;
+    [[nodiscard]] base::TimePoint due(const Held& held) const;
+
+    std::vector<Held> held_;           // waiting_max places
+    std::vector<std::uint16_t> free_;  // places of held_ that are free
+    std::vector<std::uint16_t> order_; // the others, by stamp
+    std::vector<Seen> seen_;           // a ring of the last transits
+    std::size_t oldest_ = 0;
+    std::size_t count_ = 0;
+    std::vector<std::uint16_t> bins_; // how many of these have a transit, in steps from origin_
+    std::size_t quantile_ = 0;        // bin
+    std::size_t above_ = 0;           // transits in later bins
+    base::Duration origin_{};
+    base::Duration transit_{};
+    std::optional<base::TimePoint> last_sent_;
+};
+
+} // namespace hapnet::peer
