@@ -64,18 +64,20 @@ struct PeerConfiguration {
         return tell(options->device.person);
     }
 };
+/// Returns an option as it was given.
+template <auto Option>
+inline constexpr auto option = [](const PeerConfiguration& one) -> const auto&
+{
+    return one.options->*Option;
+};
 constexpr auto fields_of(base::Tag<PeerConfiguration>)
 {
     using C = PeerConfiguration;
     return base::fields(
         "configuration", base::part(&C::build),
-        base::computed<C>(
-            "peer_id", [](const C& one) { return one.options->id; }, "The `--id`."),
-        base::computed<C>(
-            "task", [](const C& one) { return one.options->task; }, "The `--task`."),
-        base::computed<C>(
-            "scene", [](const C& one) -> const auto& { return one.options->scene_name; },
-            "The name of the scene."),
+        base::computed<C>("peer_id", option<&Options::id>, "The `--id`."),
+        base::computed<C>("task", option<&Options::task>, "The `--task`."),
+        base::computed<C>("scene", option<&Options::scene_name>, "The name of the scene."),
         base::computed<C>(
             "scene_toml", [](const C& one) { return scene::to_text(one.options->scene); },
             "Its full text."),
@@ -83,13 +85,10 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "scene_hash",
             [](const C& one) { return fmt::format("{:016x}", scene::hash(one.options->scene)); },
             "Its hash as both peers compare it."),
-        base::computed<C>(
-            "grip_damping_ns_per_m",
-            [](const C& one) { return one.options->grip_damping_ns_per_m; },
-            "As given by the option."),
-        base::computed<C>(
-            "force_limit_n", [](const C& one) { return one.options->force_max_n; },
-            "As given by the option."),
+        base::computed<C>("grip_damping_ns_per_m", option<&Options::grip_damping_ns_per_m>,
+                          "As given by the option."),
+        base::computed<C>("force_limit_n", option<&Options::force_max_n>,
+                          "As given by the option."),
         base::computed<C>(
             "algorithm", [](const C& one) { return name_of(one.options->algorithm); },
             "The name of the algorithm."),
@@ -98,8 +97,7 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "All its parameters."),
         base::computed<C>(
             "send", [](const C& one) { return text_of(one.options->send); }, "The `--send`."),
-        base::computed<C>(
-            "playout", [](const C& one) { return one.options->playout; }, "The `--playout`."),
+        base::computed<C>("playout", option<&Options::playout>, "The `--playout`."),
         base::computed<C>(
             "seed", [](const C& one) { return one.options->seed.value(); }, "The `--seed`."),
         base::member("device", &C::device, "The device in words."),
@@ -110,14 +108,12 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
         base::computed<C>(
             "operator_toml", [](const C& one) { return one.of_hand(device::print_operator); },
             "Its parameters; likewise."),
-        base::computed<C>(
-            "duration_s", [](const C& one) { return one.options->duration; }, "The `--duration`."),
+        base::computed<C>("duration_s", option<&Options::duration>, "The `--duration`."),
         base::computed<C>(
             "peers", [](const C& one) { return one.options->roster().others; },
             "The ids of the others as `--peer` names them, 0 in a pair."),
-        base::computed<C>(
-            "wait_for", [](const C& one) { return one.options->wait_for; },
-            "How many must be there to start, 0: all."),
+        base::computed<C>("wait_for", option<&Options::wait_for>,
+                          "How many must be there to start, 0: all."),
         base::computed<C>(
             "tick_ns", [](const C&) { return 1'000'000ULL; }, "The length of a tick."),
         base::computed<C>(

@@ -75,7 +75,7 @@ Json banner(const RunRecord& run)
     const bool has_failed = run.verification && run.verification->failed();
     if (has_failed) against.emplace_back("the fates do not follow the profile: see the tests");
     std::string text = is_valid ? "Valid: the emulator kept its own timing budget." : "Not valid.";
-    if (run.verification && !has_failed) text += " No test speaks against its laws.";
+    if (run.verification && !has_failed) text += " All tests of its laws passed.";
     const bool is_met = against.empty() && is_valid;
     return page::banner(is_met ? "met" : "missed", page::bold(text), std::move(against));
 }
