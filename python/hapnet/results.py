@@ -46,3 +46,13 @@ def read_manifest(folder: str) -> Dict[str, Any]:
     with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
         manifest: Dict[str, Any] = json.load(file)
     return manifest
+
+
+def write_whole(path: str, text: str) -> None:
+    """Replaces a file by one with this text: whoever reads it finds the old one or the new one."""
+    beside = f"{path}.new"
+    with open(beside, "w", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(beside, path)

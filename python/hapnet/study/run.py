@@ -11,6 +11,7 @@ import time
 from typing import Any, Optional, Union
 
 import hapnet
+from hapnet.results import write_whole
 from hapnet.study import quantity
 from hapnet.study.answers import Answers
 from hapnet.study.design import Design
@@ -117,13 +118,3 @@ def write_manifest(folder: str, design: Design, command: str, started: float,
         "complete": answers.plan.next() is None,
     }
     write_whole(os.path.join(folder, "manifest.json"), json.dumps(manifest, indent=2) + "\n")
-
-
-def write_whole(path: str, text: str) -> None:
-    """Replaces a file by one with this text: whoever reads it finds the old one or the new one."""
-    beside = f"{path}.new"
-    with open(beside, "w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(beside, path)
