@@ -22,7 +22,7 @@ fail() {
 }
 
 # The page's own commands, with its warnings as errors. What runs beside keeps real time.
-export HAPNET_PAGE_FOLDER=$work/page HAPNET_PAGE_SECONDS=400
+export HAPNET_PAGE_FOLDER=$work/page HAPNET_PAGE_SECONDS=400 PYTHONDONTWRITEBYTECODE=1
 CXX=$cxx CXXFLAGS="-Wall -Wextra -Werror" chrt --idle 0 "$repository/tests/e2e/readme_test.sh" \
     "$repository/docs/use/libraries.md" "$build/bin" 5
 mv "$work/page/build/prefix" "$work/prefix" # an installed tree may be moved
