@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Peers that send fewer messages keep the energy bound of remote-proxy, over random networks,
-// hands, numbers of peers and liars.
+// Peers that send fewer messages, with and without a playout buffer, keep the energy bound of
+// remote-proxy, over random networks, hands, numbers of peers and liars.
 #include "peer/core/send_policy.hpp"
 #include "proto/base/random.hpp"
 #include "tests/support/seeds.hpp"
@@ -64,11 +64,17 @@ Case drawn_case(std::uint64_t seed)
 {
     Case one{drawn_energy_case(first_seed + seed, peer::RemoteProxy{}, length)};
     const peer::SendPolicy policy = drawn_policy(seed);
-    for (auto& player : one.energy.setting.players) player.send = policy;
+    const bool plays_out = base::Seed{seed}.stream("playout").bits(0) % 2 == 1;
+    for (auto& player : one.energy.setting.players) {
+        player.send = policy;
+        if (plays_out) player.playout = peer::Playout::adaptive;
+    }
+    // A buffer makes no state older than the slowest one, but for a tick.
+    if (plays_out) one.energy.age_max += 1ms;
     const double gap = gap_of(one.energy.setting.profile.path.up);
     const double longer_s = base::to_seconds(silence_of(policy)) - 1e-3; // than a tick
     one.energy.age_max += base::from_seconds((gap + 1.0) * longer_s);
-    one.energy.words += ", " + text_of(policy);
+    one.energy.words += ", " + text_of(policy) + (plays_out ? ", adaptive playout" : "");
     one.is_heard = (gap + 1.0) * base::to_seconds(silence_of(policy)) < 0.2;
     return one;
 }
