@@ -28,10 +28,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view program = "hapnet-ctl";
 
-/// How long an answer may take; it takes milliseconds.
+/// The longest time to wait for an answer; it usually takes milliseconds.
 constexpr base::Duration answer_max = 10s;
 
-/// What an answer means for the exit code.
+/// Returns the exit code of an answer.
 int exit_code(const Json& reply)
 {
     if (reply.value("ok", false)) return reply.value("met", true) ? 0 : net::exit_failed;
@@ -65,7 +65,7 @@ int print(const std::string& line, const Options& options, WatchPrinter& watch)
     return code;
 }
 
-/// Until when an answer must be there; nullopt for those that may take any time.
+/// Returns the deadline of an answer; nullopt for those that may take any time.
 std::optional<base::TimePoint> answer_deadline(const Options& options)
 {
     if (options.command == "watch") return std::nullopt;

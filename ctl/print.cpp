@@ -136,7 +136,7 @@ std::string diff_text(const Json& reply)
 /// Paths of which a person is told the numbers of their datagrams.
 constexpr std::size_t paths_told_max = 4;
 
-/// From which datagrams on the conditions hold.
+/// Says from which datagrams on the conditions hold.
 std::string effect_text(const Json& reply)
 {
     std::string from;

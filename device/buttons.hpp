@@ -13,8 +13,8 @@
 namespace hapnet::device {
 
 /// The switches of a device, debounced: a switch counts as pressed or released once it has said so
-/// for 5 ms without a break. At first all are up, so that one that is held from the start on is a
-/// press. Switches that bounce so long are worn out; what is shorter, no finger does.
+/// for 5 ms without a break. At first all are up, so that a switch that is held from the start on
+/// is a press. Switches that bounce longer are worn out, and no finger presses for a shorter time.
 class Buttons {
 public:
     static constexpr base::Duration settling{std::chrono::milliseconds{5}};
@@ -38,12 +38,12 @@ public:
         }
     }
 
-    /// One bit each; bit 0 is the primary one.
+    /// The buttons that are held, one bit each; bit 0 is the primary one.
     [[nodiscard]] std::uint8_t held() const { return held_; }
     /// Number of presses of the primary one; wraps around after 65535.
     [[nodiscard]] std::uint16_t presses() const { return presses_; }
 
-    /// Says all that in a sample.
+    /// Writes the buttons, the grip and the presses into a sample.
     void tell(Sample& sample) const
     {
         sample.buttons = held_;

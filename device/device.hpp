@@ -103,10 +103,10 @@ public:
     /// simulated hand does it.
     virtual void on_fault(bool /*is_latched*/) {}
 
-    /// Only when capabilities().pacing is Pacing::device: calls `beat` once for each cycle of the
-    /// device, on the calling thread; read() and apply() belong inside. Returns when `beat` says
-    /// false, or when no cycle came for 100 ms; then the host may go on at its own pace. Lets
-    /// through what `beat` throws.
+    /// Call it only when capabilities().pacing is Pacing::device. It calls `beat` once for each
+    /// cycle of the device, on the calling thread; call read() and apply() inside `beat`. Returns
+    /// when `beat` says false, or when no cycle came for 100 ms; then the host may go on at its own
+    /// pace. Lets through what `beat` throws.
     virtual void pace(const std::function<bool()>& /*beat*/) {}
 };
 

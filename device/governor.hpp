@@ -107,8 +107,8 @@ enum class GovernorState : std::uint8_t {
     ramping,     // at part of its strength: on its way in or out
     active,
     fault, // latched: zero force until an operator has acted
-    /// Never of a governor itself: a person has stopped the force, and the loop keeps it from the
-    /// device.
+    /// A governor itself never has this state: a person has stopped the force, and the loop keeps
+    /// it from the device.
     withheld,
 };
 
@@ -123,7 +123,7 @@ constexpr auto names_of(base::Tag<GovernorState> /*enum*/)
 /// is no number, for a stylus that is docked, uncalibrated, silent, too fast or at fault, and after
 /// a stall of the loop; without permission the force fades; after any zero it ramps in again; the
 /// norm is clamped with the direction kept, to the peak, to what warm motors bear and to what the
-/// joints' motors have; the change per tick is limited. What is wrong with the device is latched.
+/// joints' motors have; the change per tick is limited. Faults of the device are latched.
 class Governor {
 public:
     /// The limits must be valid: see validate().

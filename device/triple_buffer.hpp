@@ -20,7 +20,8 @@ public:
         const auto offered = static_cast<std::uint8_t>(given_ | is_new);
         given_ = between_.exchange(offered, std::memory_order_acq_rel) & place;
     }
-    /// The reading thread: whether a new value has come since the last call.
+    /// Takes the newest value. Returns true if one has come since the last call. For the reading
+    /// thread.
     bool take()
     {
         if ((between_.load(std::memory_order_relaxed) & is_new) == 0) return false;

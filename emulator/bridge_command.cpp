@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// An interface that hands over what arrives as it came, and is as it was when this ends.
+/// Makes an interface hand over frames as they arrived, and restores its settings when this ends.
 class PlainReception {
 public:
     explicit PlainReception(const std::string& interface)

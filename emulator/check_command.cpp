@@ -62,7 +62,7 @@ base::Result<int> run(const CheckOptions& options)
     const auto profile = path.empty() ? profile_for(options.conditions, netem_warnings)
                                       : profile_for_path(options.conditions, path, netem_warnings);
     if (!profile) return tl::unexpected{profile.error()};
-    // What holds at the beginning; changes are not in it.
+    // The profile at the beginning, without its changes.
     const Profile beginning{profile->name, profile->seed, profile->path, {}};
     const tools::Stream& stream = options.stream;
     const auto prediction = predict(beginning, stream, seed_of(options.conditions, *profile));

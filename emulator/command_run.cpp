@@ -45,7 +45,7 @@ int CommandRun::run()
     return a_.exit_code().value_or(128 + SIGKILL);
 }
 
-/// Whether somebody wants it to end.
+/// True if a signal or a client of the control socket has asked the run to end.
 bool CommandRun::is_told() const { return stop_.requested() || session_.is_stopped(); }
 
 bool CommandRun::is_over()
@@ -54,7 +54,8 @@ bool CommandRun::is_over()
            std::ranges::all_of(others_, [](Watched& one) { return one.end.is_over(); });
 }
 
-/// Those whose end would be news.
+/// Returns the descriptors to watch: those of a stop, of the start, and of the ends of processes
+/// that have not ended yet.
 std::vector<int> CommandRun::descriptors()
 {
     std::vector<int> all;
@@ -99,7 +100,7 @@ bool CommandRun::has_a_started()
 /// A first: it may still have something to say to the others.
 void CommandRun::end_all(base::TimePoint now)
 {
-    // What the terminal sends, it sends to A, too.
+    // A signal that the terminal sends reaches A, too.
     const bool knows = stop_.requested() && stop_.came_to_group();
     if (!a_.exit_code()) {
         end_of_a_.pursue(knows ? 0 : stop_.number(), now);

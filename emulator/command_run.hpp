@@ -22,7 +22,8 @@ public:
     struct Other {
         net::ChildCommand& process;
         std::string name; // "command B"
-        /// False: it has to be started, and A waits until it listens on a port, 1 s at most.
+        /// False for a process that has to be started. A then waits until it listens on a port, 1 s
+        /// at most.
         bool runs_already = false;
     };
 
@@ -48,7 +49,7 @@ private:
         bool is_told_again_ = false;
     };
 
-    /// One of the others.
+    /// One of the other processes.
     struct Watched {
         Other other;
         Ending end;

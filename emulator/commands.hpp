@@ -7,13 +7,13 @@
 
 namespace hapnet::emulator {
 
-// What the program does. Each gives its exit code; the error is one of bad input.
+// The commands of the program. Each returns its exit code; the error is one of bad input.
 
-/// Relays until it is told to stop.
+/// Relays for one pair until it is told to stop.
 [[nodiscard]] base::Result<int> run(const Options& options);
-/// The same for many pairs.
+/// Relays for many pairs.
 [[nodiscard]] base::Result<int> run(const LinkOptions& options);
-/// The same for any client of a server.
+/// Relays for any client of a server.
 [[nodiscard]] base::Result<int> run(const UpstreamOptions& options);
 /// Runs two commands with the emulator between them; gives the exit code of the first.
 [[nodiscard]] base::Result<int> run(const BetweenOptions& options);

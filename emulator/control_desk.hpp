@@ -19,38 +19,38 @@
 
 namespace hapnet::emulator {
 
-/// All of a run that takes time and is no hurry, on a thread of its own beside the one that relays:
-/// it answers the clients of the control socket, reads the profile again, and tells a terminal how
-/// the run goes. What it needs of the paths, it orders of the thread that relays, in Turns.
+/// Does the work of a run that takes time and is not urgent, on a thread of its own beside the
+/// relaying one. It answers the clients of the control socket, reads the profile again, and tells a
+/// terminal how the run goes. It orders work on the paths from the relaying thread, in Turns.
 class ControlDesk {
 public:
     struct Setup {
         std::optional<std::string> socket{}; // its path
         std::optional<std::string> files{};  // the folder whose files clients may name
-        /// Without its work and its folder, which the desk adds.
+        /// The emulation without its work and its folder, which the desk adds.
         Emulation emulation;
         /// Reads the profile again; null: there is none.
         std::function<void(Emulation&)> reload{};
-        /// Something that is done from time to time; gives when the next time is.
+        /// Work that is done from time to time. Returns when the next time is.
         std::function<std::optional<base::TimePoint>(base::TimePoint now,
                                                      const control::DoWork& work)>
             look{};
     };
 
-    /// Makes the socket and the thread, which waits for begin(). What `setup` refers to outlives
-    /// it. Throws std::system_error when the socket cannot be made or the folder not be opened. The
-    /// signals that are to reach the calling thread alone are blocked already. Without anything to
-    /// do there is no thread.
+    /// Makes the socket and the thread, which waits for begin(). Everything that `setup` refers to
+    /// outlives it. Throws std::system_error when the socket cannot be made or the folder not be
+    /// opened. The signals that are to reach the calling thread alone are blocked already. Without
+    /// anything to do there is no thread.
     explicit ControlDesk(Setup setup);
-    /// Ends the thread. What clients have asked is given up.
+    /// Ends the thread. Open requests of clients are given up.
     ~ControlDesk();
     ControlDesk(const ControlDesk&) = delete;
     ControlDesk& operator=(const ControlDesk&) = delete;
 
-    // By the thread that relays.
+    // Call these on the relaying thread.
 
-    /// From now on it does the work of turns(), and leaves to the desk what the desk uses. May be
-    /// called again.
+    /// Lets the desk begin. From now on the calling thread does the work of turns(), and does not
+    /// touch the parts that the desk uses. It may be called again.
     void begin();
     /// The work that it is to do.
     [[nodiscard]] control::Turns& turns() { return turns_; }

@@ -20,7 +20,7 @@ std::string delay_in_words(const base::Moments& moments)
                        in_ms(moments.sd.value_or(base::Duration{0})));
 }
 
-/// Whether the emulator did what it was asked to, and nothing else.
+/// Says in words if the emulator did what it was asked to, and nothing else.
 std::string verdict_in_words(const DirectionReport& report)
 {
     const auto reasons = report.reasons();

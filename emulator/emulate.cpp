@@ -86,7 +86,7 @@ public:
         const Options& options = run_.options;
         if (options.duration) end_ = start_ + *options.duration;
         desk_.emplace(duties());
-        // After the other threads were made. Most of the slab is never used.
+        // This comes after the other threads were made. Most of the slab is never used.
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
@@ -178,7 +178,7 @@ private:
         return base::earlier(deadline, port_->parts()[number]->next_deadline());
     }
 
-    /// That of the first part, and of the run.
+    /// The deadline of the first part, and of the run.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
     {
         auto deadline = next_deadline(0);
@@ -198,14 +198,14 @@ private:
         return parts;
     }
 
-    /// As they are now; by whoever the state belongs to at the time.
+    /// Returns the present statistics, made by the thread that owns the state at the time.
     [[nodiscard]] nlohmann::ordered_json statistics(const control::DoWork& work)
     {
         look_at(run_, *port_, work, state_);
         return statistics_of(run_, state_);
     }
 
-    /// What is done on the desk's thread.
+    /// Returns the work that is done on the desk's thread.
     [[nodiscard]] ControlDesk::Setup duties()
     {
         const Options& options = run_.options;

@@ -22,7 +22,7 @@ struct TypedSide {
     std::string end_name;    // "--a"
 };
 
-/// The same, looked up.
+/// A side with its names looked up.
 struct Side {
     net::Endpoint listen;
     std::optional<net::Endpoint> peer;

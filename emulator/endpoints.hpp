@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-/// Who stands on each side, looked up.
+/// The endpoints of both sides, looked up.
 struct Endpoints {
     net::Endpoint listen_a;
     net::Endpoint listen_b;
@@ -23,7 +23,7 @@ struct Endpoints {
     std::optional<net::AddressSet> allowed_b{};
 };
 
-/// Those of one of several links; the only one has no name.
+/// The endpoints of one of several links. The only link of a run has no name.
 struct NamedEndpoints {
     std::string name;
     Endpoints endpoints;

@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator {
 
-/// What is said of frames besides the conditions.
+/// Options for frames besides the conditions.
 struct FrameOptions {
     bool all_frames = false;
     bool fix_checksums = false;
@@ -29,7 +29,7 @@ using TypedCommands = std::vector<std::vector<std::string>>;
 inline constexpr std::size_t commands_max = 8;
 
 /// Takes these words from the command line of `between` and `exec`: they are commands of other
-/// programs, with options of their own. What is left is returned.
+/// programs, with options of their own. Returns the other words.
 [[nodiscard]] std::span<char*> take_commands(std::span<char*> words, TypedCommands& commands);
 
 /// Adds what the commands for frames have in common, besides the options of every run.
@@ -45,10 +45,10 @@ cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& throu
 cli::Command& add_bridge(cli::Command& program, std::string& a, std::string& b,
                          FrameOptions& options);
 
-/// What is wrong with the commands that were typed.
+/// Refuses a wrong number of commands, and a command without a word.
 [[nodiscard]] base::Result<void> require_several_commands(const TypedCommands& commands);
 [[nodiscard]] base::Result<void> require_one_command(const TypedCommands& commands);
-/// What is wrong with the two interfaces together.
+/// Refuses one interface that is named twice.
 [[nodiscard]] base::Result<void> require_two_interfaces(const std::string& a, const std::string& b);
 
 } // namespace hapnet::emulator

@@ -74,7 +74,7 @@ FrameSession::FrameSession(const Plan& plan, Setup setup)
 {
     if (plan.options.duration) end_ = start_ + *plan.options.duration;
     desk_.emplace(duties());
-    // After the other threads were made. Most of the slab is never used.
+    // This comes after the other threads were made. Most of the slab is never used.
     run_.real_time = net::request_real_time(40, net::Locking::as_used);
 }
 

@@ -41,20 +41,20 @@ public:
     /// The error names a check that no statistics can meet.
     [[nodiscard]] base::Result<void> ensure_checks();
 
-    /// What holds for this run, and warnings, on stderr.
+    /// Prints the conditions of this run, and warnings, on stderr.
     void announce() const;
 
-    /// One round: sleeps until a frame, one of `descriptors` or the deadline calls, and does what
-    /// is due. Gives the time.
+    /// Runs one round: sleeps until a frame, one of `descriptors` or the deadline calls, and does
+    /// the work that is due. Returns the time.
     base::TimePoint turn(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
 
-    /// When --duration is over; nullopt: it ends otherwise.
+    /// The time when --duration is over; nullopt: the session ends otherwise.
     [[nodiscard]] std::optional<base::TimePoint> end() const { return end_; }
-    /// Whether a client of the control socket has ended it.
+    /// True if a client of the control socket has ended it.
     [[nodiscard]] bool is_stopped() const { return is_stopped_; }
     /// Why the run cannot go on; nullopt: it can.
     [[nodiscard]] const std::optional<std::string>& failure() const { return frames_.failure(); }
-    /// From now on an interface may go, as its command has ended or is about to.
+    /// Lets an interface disappear from now on, as its command has ended or is about to.
     void expect_end() { frames_.expect_end(); }
 
     /// Writes the files and says how it went. False: it has failed, the files are not complete, or

@@ -27,7 +27,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// Whether a text is one of keys and values, as profiles are. No measurement reads as such.
+/// True if a text is one of keys and values, as profiles are. No measurement reads as such.
 bool is_toml(std::string_view text)
 {
     const auto document = base::parse_document(text);

@@ -168,7 +168,7 @@ cli::Take by_key(ConditionOptions& into)
     };
 }
 
-/// What differs among the commands that take conditions.
+/// The differences among the commands that take conditions.
 struct ConditionsFor {
     bool has_own_rate = false; // the command has a --rate of its own, which takes the condition too
     /// Conditions of one of several paths, as examples; "": there is only one.
@@ -250,7 +250,7 @@ void add_relay_ends(cli::Command& program, Options& options)
         .repeated();
 }
 
-/// What every run takes, wherever its datagrams come from.
+/// Adds the options of every run, wherever its datagrams come from.
 void add_run_options(cli::Command& program, Options& options, const ConditionsFor& conditions = {})
 {
     program.option("--profile", "FILE|NAME",
@@ -494,7 +494,7 @@ net::CommandLine<AnyOptions> checked(BridgeOptions options)
     return AnyOptions{std::move(options)};
 }
 
-/// What the commands for frames have in common. `of_one_path`: see ConditionsFor.
+/// Adds the options that the commands for frames have in common. `of_one_path`: see ConditionsFor.
 void add_frames(cli::Command& command, auto& options, std::string_view of_one_path = "")
 {
     add_run_options(command, options.run, {.of_one_path = of_one_path});
@@ -518,7 +518,8 @@ public:
     FrameCommands& operator=(const FrameCommands&) = delete;
     ~FrameCommands() = default;
 
-    /// What was asked for, once; nullopt: none of them.
+    /// Returns the command that was asked for; nullopt: none of them. Call it once: it moves the
+    /// options out.
     std::optional<net::CommandLine<AnyOptions>> chosen(TypedCommands typed)
     {
         if (between_command_.is_chosen()) return checked(std::move(between_), std::move(typed));

@@ -29,7 +29,7 @@
 
 namespace hapnet::emulator {
 
-/// How much processor time may be spent on leaving on time.
+/// The processor time that may be spent to send on time.
 enum class Timing : std::uint8_t { eco, precise, spin };
 constexpr auto names_of(base::Tag<Timing>) { return base::names("eco", "precise", "spin"); }
 
@@ -40,7 +40,7 @@ struct TypedSetting {
     std::string_view before_key = "--"; // what was typed before it
 };
 
-/// Where conditions come from. Names are not looked up and files not opened yet.
+/// The sources of the conditions. Names are not looked up and files not opened yet.
 struct ConditionOptions {
     std::optional<std::string> profile;            // a file, or the name of a preset
     std::string_view profile_option = "--profile"; // "": it was typed without one
@@ -121,7 +121,8 @@ struct CheckOptions {
 struct PredictOptions {
     ConditionOptions conditions;
     tools::Stream stream{}; // its path: which one of several
-    /// So many at most, until mean and deviation have settled; nullopt: as many as stream says.
+    /// The most packets to send until mean and deviation have settled; nullopt: as many as stream
+    /// says.
     std::optional<std::uint64_t> packets_max = 6'400'000;
     bool as_json = false;
 };

@@ -24,7 +24,7 @@ SleepPolicy::Margin margin_of(Timing timing)
     return {};
 }
 
-/// Whoever asks for spin is warned, and gets it.
+/// A user who asks for spin is warned, and gets it.
 SleepPolicy::Watching watching_of(Timing timing)
 {
     return timing == Timing::spin ? SleepPolicy::Watching::without_limit

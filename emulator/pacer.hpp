@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-/// What `spin` risks.
+/// A warning of the risks of `spin`.
 inline constexpr std::string_view spin_warning =
     "--timing spin may take a whole core. When another program needs that core, the kernel stops "
     "the emulator for about 50 ms in each second: give it a core of its own, or use precise";

@@ -17,7 +17,7 @@ namespace hapnet::emulator {
 
 void add_upstream_options(cli::Command& program, UpstreamOptions& options);
 void add_link_options(cli::Command& program, LinkOptions& options);
-/// Of both kinds.
+/// Adds the option --threads, which runs of both kinds have.
 void add_threads(cli::Command& program, std::size_t& threads);
 
 [[nodiscard]] base::Result<void> require_upstream(const cli::Command& program);

@@ -24,7 +24,7 @@ std::span<const PathState> present(const RunState& state)
     return std::span{state.paths}.first(state.count);
 }
 
-/// Of all paths together, those too that have been forgotten.
+/// The sums of all paths together, including paths that have been forgotten.
 struct Sums {
     Statistics up;
     Statistics down;
@@ -106,7 +106,7 @@ LinkReport link_report_of(const PathState& link, const AnyRun& run, const RunSta
             .flows = flows_of(link, run, state)};
 }
 
-/// Of each flow on all paths together, last of the rest.
+/// The statistics of each flow over all paths together. The rest comes last.
 struct FlowSums {
     std::vector<Statistics> up;
     std::vector<Statistics> down;
@@ -133,7 +133,7 @@ FlowSums flow_sums_of(const RunState& state, std::size_t flows)
     return sums;
 }
 
-/// The sums outlive the statistics.
+/// Reports the flows of all paths. `sums` outlive the statistics.
 void tell_of_flows(RunStatistics& statistics, const AnyRun& run, const FlowSums& sums)
 {
     const auto& flows = run.scenario.profile.flows;
@@ -154,7 +154,8 @@ void tell_of_flows(RunStatistics& statistics, const AnyRun& run, const FlowSums&
     }
 }
 
-/// `reasons`: what is against the run apart from the sums, which it refers to.
+/// Reports the sums of both directions, and judges the run. `sums` outlive the statistics.
+/// `reasons`: the objections to the run apart from those of the sums.
 void tell_of_sums(RunStatistics& statistics, const AnyRun& run, const Sums& sums,
                   std::vector<std::string> reasons)
 {
@@ -250,7 +251,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& sta
     statistics.ends.clients_forgotten = state.server.departed.count;
     statistics.ends.refused = state.server.refused;
     statistics.course.at_start = configuration_of(run.scenario.profile.path);
-    // Of whoever comes now.
+    // The conditions of a client that comes now.
     statistics.course.at_end = configuration_of(*state.server.newcomers);
     const FlowSums flows = flow_sums_of(state, run.scenario.profile.flows.size());
     tell_of_flows(statistics, run, flows);

@@ -22,12 +22,13 @@ using UpstreamRun = RunOf<ports::Upstream, true>;
 /// "ready listen=127.0.0.1:7001 upstream=10.0.0.5:53 seed=42 ..."
 [[nodiscard]] std::string ready_line(const UpstreamRun& run);
 
-/// What --stats writes: one JSON object, with the sums of all paths and each that is there.
+/// The statistics that --stats writes: one JSON object, with the sums of all paths and an entry for
+/// each path that is there.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state);
 [[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state);
 
-/// Adds several links and their sums to `statistics`, whatever they stand between, and returns all
-/// as JSON. `ends` has the ends of each link; empty: the links have none to tell of.
+/// Adds several links of any kind and their sums to `statistics`, and returns all as JSON. `ends`
+/// has the ends of each link; empty: the links have no ends to report.
 [[nodiscard]] nlohmann::ordered_json json_of_links(RunStatistics statistics, const AnyRun& run,
                                                    const RunState& state,
                                                    std::span<const LinkEnds> ends = {});

@@ -14,8 +14,8 @@
 
 namespace hapnet::emulator {
 
-/// The files that a run records and the setup of its paths, whatever moves its datagrams. The
-/// options and the scenario outlive it.
+/// The files that a run records and the setup of its paths, for any kind of port. The options and
+/// the scenario outlive it.
 struct Plan {
     const Options& options;
     const Scenario& scenario;

@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// By which a sealed message is longer than the plain one.
+/// The bytes by which a sealed message is longer than the plain one.
 constexpr std::size_t seal_bytes = 16;
 constexpr std::size_t payload_bytes_max = 65'507; // of UDP over IPv4
 

@@ -187,8 +187,8 @@ int answer_until_stopped(const net::HostPort& where, const net::StopSignal& stop
             const auto question = tools::decode_probe(datagram.bytes);
             auto answer = question ? answerer.answer(*question, datagram.at) : std::nullopt;
             if (!answer) continue;
-            // As long as the question, never longer: of no use against whoever is named as its
-            // sender.
+            // An answer is as long as the question and never longer: nobody gains by naming a
+            // victim as the sender.
             const auto room = std::span{bytes}.first(std::min(datagram.bytes.size(), bytes.size()));
             answer->answered = net::monotonic_now();
             encode(*answer, room);

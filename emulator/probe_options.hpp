@@ -32,7 +32,7 @@ struct ProbeOptions {
 /// Adds the command to the program; after parse() the options hold what was typed.
 cli::Command& add_probe(cli::Command& program, ProbeOptions& options);
 
-/// What is wrong with the options together.
+/// Refuses options that contradict each other, and a command without HOST:PORT or --answer.
 [[nodiscard]] base::Result<void> require_probe(const ProbeOptions& options,
                                                const cli::Command& command);
 

@@ -25,7 +25,7 @@ std::string meant_name(const std::string& typed)
     return std::ranges::find(presets(), name, &Preset::name) == presets().end() ? typed : name;
 }
 
-/// What stands before an error that an option has caused.
+/// Returns the beginning of an error that an option has caused.
 std::string before(std::string_view option)
 {
     return option.empty() ? "" : fmt::format("{}: ", option);

@@ -30,7 +30,7 @@ constexpr std::size_t buffer_bytes = 1 << 18;
 constexpr std::size_t batch_max = 4096;
 /// Rows that are kept in memory, of all ways together.
 constexpr std::size_t waiting_bytes_max = 4 << 20;
-/// Of the packets held in memory: 20 s of two peers take 24 MB.
+/// The limit of the packets held in memory: 20 s of two peers take 24 MB.
 constexpr std::size_t held_bytes_max = std::size_t{64} << 20;
 
 [[noreturn]] void refuse(const std::string& what)
@@ -87,7 +87,8 @@ Recorder::Fates::Way& Recorder::Fates::way_of(const FateEntry& entry)
     return ways[way];
 }
 
-/// What waits in a queue, for a while at most. Where the file is full it is only counted.
+/// Writes the fates that wait in a queue, at most `batch_max` of them. Once the file could not be
+/// written, they are only counted.
 void Recorder::Fates::write(Queue<FateEntry>& queue)
 {
     FateEntry entry;
@@ -141,7 +142,7 @@ void Recorder::Fates::append_first()
     loss.kept += std::exchange(waiting_first, 0);
 }
 
-/// Writes what waits of a way to the file without a name.
+/// Writes the waiting fates of a direction to the file without a name.
 void Recorder::Fates::set_aside(Way& way)
 {
     if (way.rows.empty()) return;
@@ -179,7 +180,7 @@ void Recorder::Fates::join()
     file.commit({});
 }
 
-/// Of a full disk the file has the rows of the first way.
+/// On a full disk the file has the rows of the first direction.
 void Recorder::Fates::finish()
 {
     try {
@@ -395,7 +396,7 @@ void Recorder::note_failures()
     if (failed) failed_.store(true, std::memory_order_release);
 }
 
-/// Of the queue in which most waits.
+/// Returns the fill of the queue in which most waits.
 std::size_t Recorder::waiting() const
 {
     std::size_t most = 0;

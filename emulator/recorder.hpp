@@ -34,8 +34,8 @@ namespace hapnet::emulator {
 /// An endpoint as a capture writes it.
 [[nodiscard]] UdpAddress udp_address_of(const net::Endpoint& endpoint);
 
-/// Writes the fates and the capture of a run, on a thread of normal priority. What the relay hands
-/// over goes through bounded queues, which never make it wait; what does not fit is counted.
+/// Writes the fates and the capture of a run, on a thread of normal priority. The relay's entries
+/// go through bounded queues, which never make it wait. Entries that do not fit are counted.
 class Recorder {
 public:
     struct Files {
@@ -55,12 +55,12 @@ public:
     /// Throws std::system_error when a file cannot be written. No thread when there is none. The
     /// signals that are to reach the calling thread alone are blocked already.
     explicit Recorder(const Files& files);
-    /// What was not finished disappears.
+    /// Discards files that were not finished.
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// Where one of the threads hands over, by its number from 0.
+    /// The lane in which one of the threads hands over, by its number from 0.
     [[nodiscard]] Lane& lane(std::size_t number = 0) { return *lanes_.at(number); }
 
     /// A path whose fates will come, and the number by which they do: from 0, in the order of the
@@ -68,12 +68,12 @@ public:
     /// allocate and lock; from any thread.
     [[nodiscard]] std::uint32_t add_path(const std::string& name);
 
-    /// How many fates and how many packets are missing in their files: they found no room in a
-    /// queue, or the file could not be written. If any, the file is not complete.
+    /// The number of fates, and that of packets, that are missing in their files: they found no
+    /// room in a queue, or the file could not be written. If any, the file is not complete.
     [[nodiscard]] std::uint64_t fates_lost() const;
     [[nodiscard]] std::uint64_t capture_lost() const;
 
-    /// How much of the last packets is held; nullopt: nothing.
+    /// The time span for which it holds the last packets in memory; nullopt: it holds none.
     [[nodiscard]] std::optional<base::Duration> held() const;
     /// Orders a capture of the packets since that time; gives its path. Never waits: the file
     /// appears, whole, soon after. The error says why there will be none. From one thread.
@@ -81,12 +81,12 @@ public:
     /// Why an ordered capture could not be written; once.
     [[nodiscard]] std::optional<std::string> keep_trouble();
 
-    /// Whether a file could not be written (a full disk): from then on everything of it is lost.
+    /// True if a file could not be written (a full disk): from then on everything of it is lost.
     [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
 
-    /// Writes all that was handed over and puts the files into their places. Throws what the first
-    /// of them failed of; what it had until then is in its place, and the other is complete.
-    /// Nothing may be handed over any more.
+    /// Writes all that was handed over and puts the files into their places. Throws the error of
+    /// the first file that failed. Its part until then is in its place, and the other file is
+    /// complete. Hand over nothing after this call.
     void finish();
 
 private:
@@ -112,12 +112,12 @@ private:
     };
     using Part = std::variant<CaptureHeader, CaptureChunk>;
 
-    // Of the two queues of their package the one that ThreadSanitizer can follow. As long as
-    // nobody waits for them, and nobody here does, they make no system call.
+    // The one of their package's two queues that ThreadSanitizer can follow. It makes no system
+    // call unless a thread waits for it, and no thread does here.
     template <typename T>
     using Queue = moodycamel::BlockingReaderWriterCircularBuffer<T>;
 
-    /// What is missing in a file that could not be written to its end.
+    /// The amount that is missing in a file which could not be written to its end.
     struct Loss {
         std::uint64_t taken = 0;            // out of the queues
         std::uint64_t kept = 0;             // in the file
@@ -177,7 +177,7 @@ private:
         std::vector<Cells> coming; // of paths that the writer has not seen yet
         Loss loss;                 // of rows
     };
-    /// What has come of a packet through a lane.
+    /// The chunks of a packet that have come through a lane so far.
     struct Incomplete {
         std::optional<CaptureHeader> head; // of the packet whose chunks come
         std::vector<std::byte> payload;
@@ -223,7 +223,7 @@ private:
 /// locks nor calls the system; nothing happens where no file is asked for.
 class Recorder::Lane {
 public:
-    /// For whom it may be: see Recorder::lane().
+    /// Makes a lane with queues for the files that exist. Recorder::lane() says who may use it.
     Lane(bool has_fates, bool has_capture);
 
     [[nodiscard]] bool captures() const { return packets_.has_value(); }

@@ -47,7 +47,7 @@ std::vector<ChangeReport> changes_of(const std::vector<ConditionChange>& changes
     return list;
 }
 
-/// What is missing in the files that were asked for.
+/// Returns sentences on missing parts of the files that were asked for.
 std::vector<std::string> lacks_of(const Recorder& recorder)
 {
     std::vector<std::string> lacks;
@@ -114,7 +114,7 @@ DirectionReport report_of(const WayState& way, const AnyRun& run, const RunState
 
 namespace {
 
-/// With flows, of the rest alone.
+/// Reports a direction of a path or of a flow; of a path with flows, the rest alone.
 DirectionReport report_of_own(const PathState& path, Direction direction, const AnyRun& run,
                               const RunState& state)
 {
@@ -151,7 +151,7 @@ std::optional<FlowReports> flows_of(const PathState& path, const AnyRun& run, co
                                       .up = report_of_own(flow, Direction::up, run, state),
                                       .down = report_of_own(flow, Direction::down, run, state)});
     }
-    // Of strangers and what the socket lost it is not known where they would have belonged.
+    // The flow to which strangers, and datagrams that the socket lost, would belong is not known.
     const auto rest_of = [&](Direction direction) {
         auto report = report_of_own(path, direction, run, state);
         report.strangers = report.overflowed = report.unreachable = 0;

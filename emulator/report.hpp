@@ -24,8 +24,8 @@ struct PathState;
 struct RunState;
 struct WayState;
 
-/// A run, whatever moves its datagrams. Reports are made from it and from a RunState: what changes
-/// while it goes on is read from that alone.
+/// A run with any kind of port. Reports are made from it and from a RunState. Values that change
+/// during the run are read only from the RunState.
 struct AnyRun {
     const Options& options;
     const Scenario& scenario;
@@ -33,12 +33,12 @@ struct AnyRun {
     const Recorder& recorder;
     net::RealTime real_time{};
     base::Duration elapsed{}; // since the sockets were bound
-    /// What a run cannot do without and has lost, such as an interface: a sentence each. With one
-    /// of them the run is not valid.
+    /// Failures of things that a run cannot do without, such as a lost interface: a sentence each.
+    /// A run with a failure is not valid.
     std::vector<std::string> failures{};
 };
 
-/// With what moves them. `has_names`: its paths have them.
+/// A run with the ports that move its datagrams. `has_names`: its paths have names.
 template <typename PortType, bool has_names>
 struct RunOf : AnyRun {
     using Port = PortType;
@@ -46,7 +46,7 @@ struct RunOf : AnyRun {
     const Port& port;
 };
 
-/// Of one pair.
+/// A run of one pair.
 using Run = RunOf<ports::Links, false>;
 
 /// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
@@ -54,14 +54,14 @@ using Run = RunOf<ports::Links, false>;
 
 // The parts of statistics that runs of all kinds have.
 
-/// What they begin with: the program, how it ran, the profile and the files of the run.
+/// The beginning of all statistics: the program, how it ran, the profile and the files of the run.
 [[nodiscard]] RunStatistics statistics_of_any(const AnyRun& run, const RunState& state);
 
-/// What of each direction differs from the default, as a profile says it.
+/// Returns the settings of each direction that differ from the default, as a profile writes them.
 [[nodiscard]] Configuration configuration_of(const Path& path);
 
-/// What held on the path at the start and in the end, and how it changed. While the run goes on,
-/// only the last changes.
+/// Returns the conditions of the path at the start and in the end, and its changes. While the run
+/// goes on, it has only the last changes.
 [[nodiscard]] CourseReport course_of(const AnyRun& run, const PathState& path);
 
 /// A direction of one path, which it refers to. A run that keeps each fate keeps whole
@@ -84,25 +84,25 @@ void add_reasons(std::vector<std::string>& reasons, const std::optional<FlowRepo
 void add_reasons(std::vector<std::string>& reasons, std::string_view way,
                  const DirectionReport& report);
 
-/// Whether the run counts: it does when nothing is against it (`reasons`), and its files lack
-/// nothing.
+/// Sets the verdict of a run. It is valid when nothing is against it (`reasons`) and its files are
+/// complete.
 void judge(RunStatistics& statistics, const AnyRun& run, std::vector<std::string> reasons);
 
-/// All that is told of the path of a run that has one.
+/// Writes the report on the path of a run that has only one.
 void tell_of_path(RunStatistics& statistics, const AnyRun& run, const RunState& state);
 
-/// With what has become of the checks, if there are any.
+/// Returns the statistics as JSON, with the outcomes of the checks, if there are any.
 [[nodiscard]] nlohmann::ordered_json json_of(RunStatistics& statistics, const AnyRun& run);
 
 // The parts of a summary that runs of all kinds have.
 
 /// A line for each direction of a run that has one path.
 [[nodiscard]] std::string words_of_path(const AnyRun& run, const RunState& state);
-/// What is missing in the files that were asked for, and what the run has lost for good or for a
-/// time, a line each.
+/// Names missing parts of the files that were asked for, and things that the run has lost for good
+/// or for a time, a line each.
 [[nodiscard]] std::string closing_words(const AnyRun& run, const RunState& state);
 
-/// What --stats writes: one JSON object.
+/// The statistics that --stats writes: one JSON object.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run, const RunState& state);
 
 /// A few lines for a person.

@@ -12,13 +12,13 @@
 
 namespace hapnet::emulator {
 
-/// How every run ends: with its files, and with what it says on stderr.
+/// The end of every run: its files, and its words on stderr.
 class Results {
 public:
     /// Throws std::system_error when the statistics cannot be written there.
     explicit Results(const Options& options);
 
-    /// What a run of this kind has to say; asked for when its files are complete.
+    /// The reports of a run. They are asked for when its files are complete.
     struct Reports {
         std::function<nlohmann::ordered_json()> statistics;
         std::function<std::string()> summary;

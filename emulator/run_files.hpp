@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-// What a run has written, for the commands that read it again. Errors name the file.
+// The files of a run, for the commands that read them again. Errors name the file.
 
 /// Statistics as --stats writes them: an object.
 [[nodiscard]] base::Result<nlohmann::ordered_json> statistics_in(const std::string& text,
@@ -28,7 +28,8 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<std::string> fates_path_of(const nlohmann::ordered_json& statistics,
                                                       const std::string& path);
 
-// Of a run with several paths, those of one, which `link` names; nullopt: it has only one.
+// The next two functions return the data of one path. `link` names it in a run with several paths;
+// nullopt: the run has only one.
 
 /// The fates of the path in a table. The error names the paths that are in it.
 [[nodiscard]] base::Result<Fates> fates_of_path(const std::string& fates_path,
@@ -39,8 +40,8 @@ namespace hapnet::emulator {
 [[nodiscard]] nlohmann::ordered_json of_path(const nlohmann::ordered_json& statistics,
                                              const std::optional<std::string>& link);
 
-/// Whether the fates are those of all datagrams that the statistics count. Rows that are missing at
-/// the end of the table leave no gap in it.
+/// Refuses fates that are not those of all datagrams in the statistics. Rows missing at the end of
+/// the table leave no gap in it.
 [[nodiscard]] base::Result<void> ensure_whole(const Fates& fates,
                                               const nlohmann::ordered_json& statistics);
 
@@ -49,8 +50,8 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<void> ensure_testable(const nlohmann::ordered_json& statistics,
                                                  const Profile& profile, const std::string& path);
 
-/// What `use` gives, which reads the statistics in that file. An error that names the file when a
-/// value has another type than hapnet-emulator writes.
+/// Returns the result of `use`, which reads the statistics in that file. Returns an error that
+/// names the file when a value has another type than hapnet-emulator writes.
 template <typename Use>
 [[nodiscard]] auto with_statistics(const std::string& path, const Use& use) -> decltype(use())
 {

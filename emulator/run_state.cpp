@@ -12,7 +12,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// What a step copies until it leaves the rest to the next one.
+/// The bytes that a step copies before it leaves the rest to the next one.
 constexpr std::size_t step_bytes = 64 << 10;
 
 /// Gives how many bytes that took, about.
@@ -28,7 +28,8 @@ std::size_t look_at(const Link& link, base::Duration elapsed, WayState& state)
            (stream.over_time ? stream.over_time->stretches().size() * sizeof(Stretch) : 0);
 }
 
-/// With the last `changes_max` changes, and its flows, for which there is room.
+/// Copies a path's state with the last `changes_max` changes, and its flows, for which there is
+/// room.
 std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState& state)
 {
     std::size_t bytes = 0;
@@ -49,7 +50,7 @@ std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState
            last.size() * sizeof(ConditionChange);
 }
 
-/// How many changes of a path are told: all, once the run is over.
+/// Returns the number of a path's changes to report: all, once the run is over.
 std::size_t told_changes(const RunState& state, std::size_t paths)
 {
     // Clients may ask for them many times a second.
@@ -58,7 +59,7 @@ std::size_t told_changes(const RunState& state, std::size_t paths)
     return std::max(while_it_runs / std::max(paths, std::size_t{1}), std::size_t{1});
 }
 
-/// Room for so many paths and their flows.
+/// Makes room for this number of paths and their flows.
 void make_room(const AnyRun& run, std::size_t paths, RunState& state)
 {
     if (state.paths.size() < paths) state.paths.resize(paths);
@@ -128,7 +129,7 @@ void look_at(const ports::Frames::End& end, std::optional<std::uint64_t> overflo
     report.overflowed = overflowed;
 }
 
-/// Names the interfaces, as no memory is to be taken while somebody waits.
+/// Names the interfaces now, because no memory is taken while a thread waits.
 void make_room(const ports::Frames& port, InterfaceReports& reports)
 {
     if (reports.size() == port.ends().size()) return;
@@ -217,13 +218,13 @@ void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWo
         wanted = 0;
         return true;
     };
-    // Room is made here: whoever relays must not wait for memory.
+    // Makes room here: the relaying thread must not wait for memory.
     while (wanted > 0) {
         make_room(run, wanted, state);
         present.reserve(state.paths.size());
         work(step);
     }
-    // Whoever has gone since is among those that have departed.
+    // A client that has gone since is among those that have departed.
     keep_present(present, state);
     sum_up_flows(run, state);
 }

@@ -25,7 +25,7 @@
 
 namespace hapnet::emulator {
 
-/// One way of a path as it was at a moment.
+/// One direction of a path as it was at a moment.
 struct WayState {
     Statistics statistics{};
     StreamTotals stream{};
@@ -63,7 +63,7 @@ struct RunState {
     std::size_t count = 0;             // of the paths that there are
     std::vector<PathState> paths;      // as many at least: they are large, and used again
 
-    /// Of a server and its clients.
+    /// The state of a server and its clients.
     struct Server {
         std::uint64_t clients_seen = 0;
         std::uint64_t refused = 0;

@@ -24,7 +24,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// What --profile or --netem says, before the settings of the command line.
+/// Returns the profile of --profile or --netem, before the settings of the command line.
 base::Result<Profile> profile_named(const ConditionOptions& options,
                                     std::vector<std::string>& warnings, const PathNames& names)
 {
@@ -70,8 +70,8 @@ base::Result<void> take_typed(Profile& profile, const std::vector<TypedSetting>&
     return {};
 }
 
-/// What the conditions do at 1000 datagrams a second that a user may not have meant, with the
-/// numbers that a prediction finds.
+/// Warns of effects of the conditions at 1000 datagrams a second that a user may not have meant,
+/// with the numbers that a prediction finds.
 void warn_of_conditions(Scenario& scenario, const std::string& path)
 {
     const tools::Stream stream{.packets = 20'000};
@@ -135,7 +135,7 @@ void make_absolute(Regimes& regimes, const std::string& beside)
     regimes.all = std::move(all);
 }
 
-/// Of a change, or of a path.
+/// Makes the paths of files absolute in a change, or in a path.
 void make_absolute(auto& patches, const std::string& beside) requires requires
 {
     patches.up.delay.has_value();
@@ -160,7 +160,7 @@ void make_absolute(Profile& profile, const std::string& beside)
     }
 }
 
-/// Whether the fates are those of paths that the run has.
+/// Refuses fates of paths that the run does not have.
 base::Result<void> replayable(const FatesOfPaths& fates, const PathNames& names)
 {
     const bool is_single = names.links.empty() && !names.clients;

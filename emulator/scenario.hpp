@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator {
 
-/// What a run is to do to its datagrams: the options, with the files that they name.
+/// The conditions of a run: the options, with the files that they name.
 struct Scenario {
     Profile profile; // with the seed and the settings of the command line
     base::Seed seed{1};
@@ -31,13 +31,14 @@ struct Scenario {
                                                 std::vector<std::string>& warnings,
                                                 const PathNames& names = {.any = true});
 
-/// The same of one path, with what holds on all of them; of the one without a name when `path` is
-/// empty. Says on stderr when the profile has more paths than that, or nothing of its own for it.
+/// The profile of one path, with the conditions of all paths; the path without a name when `path`
+/// is empty. Warns on stderr when the profile has more paths than that, or nothing of its own for
+/// it.
 [[nodiscard]] base::Result<Profile> profile_for_path(const ConditionOptions& options,
                                                      const std::string& path,
                                                      std::vector<std::string>& warnings);
 
-/// What a sentence of tc-netem asks for, both ways.
+/// Translates a sentence of tc-netem into a profile with the same conditions in both directions.
 [[nodiscard]] base::Result<TranslatedProfile> netem_profile(const std::string& sentence);
 
 /// The seed that draws: that of the command line, of the profile, or 1.

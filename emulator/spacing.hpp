@@ -14,8 +14,8 @@
 
 namespace hapnet::emulator {
 
-/// How far apart things are that come "1000" or "1000/s", at most 10^`most` a second. `what` they
-/// are, for the error.
+/// Parses a rate such as "1000" or "1000/s", at most 10^`most` a second, and returns the time
+/// between two things. `what` names the things in the error.
 [[nodiscard]] inline base::Result<base::Duration> parse_spacing(const std::string& text,
                                                                 std::string_view what, int most)
 {

@@ -15,8 +15,8 @@
 
 namespace hapnet::emulator {
 
-/// What a run says on stderr while it lasts: messages, and on a terminal a status line below them.
-/// A thread of its own writes them: a terminal that stands still does not hold up the relay.
+/// The output of a run on stderr while it lasts: messages, and on a terminal a status line below
+/// them. A thread of its own writes them: a terminal that stands still does not hold up the relay.
 class Status {
 public:
     explicit Status(base::TimePoint now)

@@ -24,7 +24,7 @@ struct TypedLink {
 };
 [[nodiscard]] base::Result<TypedLink> parse_link(std::string_view text);
 
-/// How many there may be: one for each pair of eight peers.
+/// The greatest number of links: one for each pair of eight peers.
 inline constexpr std::size_t links_max = 28;
 
 /// Refuses too many, and two of one name or address.

@@ -49,7 +49,7 @@ base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<P
     return Evidence{*std::move(counted), std::move(own)};
 }
 
-/// What --stats has written: it holds the profile and names the fates.
+/// Returns the evidence from the file of --stats: it holds the profile and names the fates.
 base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, const std::string& text)
 {
     const std::string& path = request.run;

@@ -22,7 +22,7 @@ struct WireEnd {
 
     std::string wire; // the emulator's interface to it
     std::vector<Address> addresses;
-    // Where all other networks are; "": there is none.
+    // The address of the router to all other networks; "": there is none.
     std::string router{};
     std::string router_v6{};
     std::optional<MacAddress> machine{}; // of eth0; nullopt: the kernel makes one up
@@ -31,7 +31,7 @@ struct WireEnd {
 /// Makes eth0 as the command is to find it: for net::ChildCommand::Setup::prepare.
 void prepare(const WireEnd& end);
 
-/// In the emulator's network: makes the wire to the command, and has it prepare its end.
+/// Makes the wire to the command, and has it prepare its end. Call it in the emulator's network.
 void connect(net::ChildCommand& command, const WireEnd& end);
 
 /// A session between two interfaces of the emulator's own network. Throws std::system_error that

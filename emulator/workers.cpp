@@ -16,7 +16,7 @@
 
 namespace hapnet::emulator {
 
-/// Of a worker that has failed.
+/// The alarm that a failed worker raises. All workers share it.
 struct Workers::Alarm {
     net::WakeEvent event;
     std::atomic<bool> has_rung{false};
@@ -28,7 +28,7 @@ public:
         : part_{std::move(part)}, alarm_{alarm}, thread_{[this, timing] { run(timing); }}
     {}
 
-    // From here on for the main thread.
+    // The functions from here on are for the main thread.
 
     void ask_to_rest() { is_asked_.store(true); }
     void wait_for_rest() { round_.lock(); }

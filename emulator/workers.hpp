@@ -15,7 +15,7 @@ namespace hapnet::emulator {
 
 /// Threads that relay beside the main one, each its own part of a run. The main thread stops them
 /// between two rounds to look at what they work with, or to change it: they share nothing else, and
-/// a round costs them no more than a lock that nobody else has.
+/// a round costs them no more than a free lock.
 class Workers {
 public:
     /// The part of one thread.
@@ -35,7 +35,8 @@ public:
 
     [[nodiscard]] bool empty() const { return workers_.empty(); }
 
-    /// As long as one lives, no worker is in a round. Afterwards each looks at its deadline again.
+    /// Keeps all workers out of their rounds as long as one of these lives. Afterwards each looks
+    /// at its deadline again.
     class Rest {
     public:
         explicit Rest(Workers& workers);
@@ -51,7 +52,7 @@ public:
     [[nodiscard]] int descriptor() const;
     [[nodiscard]] bool has_failed() const;
 
-    /// Ends the threads. Throws what one of them has failed of.
+    /// Ends the threads. Throws the error with which one of them has failed.
     void stop();
 
 private:

@@ -108,7 +108,7 @@ struct Cure {
     int error = 0; // what it cures
 };
 
-/// What a person can do, as far as the reason can be seen from here.
+/// Returns the cure for a person, as far as the reason is visible from here.
 Cure cure_of_both()
 {
     constexpr const char* tun = "/dev/net/tun";
@@ -174,7 +174,8 @@ public:
     [[nodiscard]] net::ChildCommand& process() { return process_; }
     [[nodiscard]] bool is_installed() const { return is_installed_; }
 
-    /// nullopt: the interface is there. Else what went wrong.
+    /// Starts the program, which makes the interface. Returns nullopt when the interface is there,
+    /// otherwise what went wrong.
     std::optional<std::string> open(const std::string& interface)
     {
         constexpr base::Duration patience = 10s;
@@ -210,7 +211,7 @@ public:
     }
 
 private:
-    /// What it says, in a file in memory.
+    /// The output of the program, in a file in memory.
     class Output {
     public:
         Output() : descriptor_{memfd_create("output", MFD_CLOEXEC)}

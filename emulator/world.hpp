@@ -14,30 +14,30 @@
 
 namespace hapnet::emulator {
 
-/// All networks but the emulator's own one, reached through pasta or slirp4netns: a process in the
-/// network that the emulator came from, which does in sockets there what frames on an interface of
-/// the emulator's network ask for.
+/// The connection of the emulator's own network to all others, through pasta or slirp4netns. That
+/// is a process in the network from which the emulator was started. It does in sockets there what
+/// the frames on an interface of the emulator's network ask for.
 class World {
 public:
     /// The address of the command's eth0.
     static constexpr MacAddress machine_of_command{std::byte{2}, {}, {}, {}, {}, std::byte{1}};
-    // Where it has its addresses on that interface. The routers stand for this machine, too.
+    // The addresses of the command on that interface, and those of its routers and of its name
+    // server. The routers stand for this machine, too.
     static constexpr const char* address_of_command = "10.0.2.100";
     static constexpr const char* router = "10.0.2.2";
     static constexpr const char* name_server = "10.0.2.3";
     static constexpr const char* address_of_command_v6 = "fd00::100";
     static constexpr const char* router_v6 = "fd00::2";
 
-    /// Before the emulator enters its own network, in which the interface will be. nullopt: the
-    /// first of the two that works. Throws std::system_error.
+    /// Construct it before the emulator enters its own network, in which the interface will be.
+    /// nullopt: the first of the two programs that works. Throws std::system_error.
     World(std::optional<WorldProgram> only, std::string interface);
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    /// In the emulator's own network: makes the interface, and returns when the program answers
-    /// there. Throws std::system_error that says what kept each program from it, and what a person
-    /// can do.
+    /// Makes the interface in the emulator's own network, and returns when the program answers
+    /// there. Throws std::system_error that says why each program failed, and what a person can do.
     void open();
 
     /// True if it carries IPv6, too: this machine has a route for it.
@@ -56,7 +56,8 @@ private:
     Helper* used_ = nullptr;
 };
 
-/// What a command reads as /etc/resolv.conf there: that of this machine with another name server.
+/// The text that a command reads as /etc/resolv.conf there: that of this machine with another name
+/// server.
 [[nodiscard]] std::string name_servers_of_world();
 
 } // namespace hapnet::emulator

@@ -13,7 +13,7 @@ struct Preset {
     std::string_view text;
 };
 
-/// All of them, by name.
+/// All presets of the lab, by name.
 [[nodiscard]] std::span<const Preset> presets_of_lab();
 
 } // namespace hapnet::lab

@@ -41,7 +41,8 @@ namespace {
 
 constexpr std::string_view program = "hapnet-peer";
 
-/// After a stop the process is gone by then, whatever blocks it; an orderly end takes a tenth.
+/// The time after a stop by which the process is gone, whatever blocks it. An orderly end takes a
+/// tenth of it.
 constexpr base::Duration gone_after{std::chrono::milliseconds{800}};
 
 /// stdout and stderr, which need not be read.
@@ -84,13 +85,13 @@ net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& l
     }
 }
 
-/// How the command line may have said where another peer is.
+/// Returns the option with which the command line may have said where another peer is.
 std::string option_of(const Options& options, const NamedPeer& other)
 {
     return options.is_pair() ? "--remote" : fmt::format("--peer {}:", other.id);
 }
 
-/// Whether `listen` and another peer's place can hear each other.
+/// Refuses places that cannot hear each other: `listen` and another peer's.
 base::Result<void> check_remote(const net::Endpoint& listen, const net::Endpoint& remote,
                                 const std::string& option)
 {
@@ -220,8 +221,8 @@ device::GovernorLimits limits_of(const Options& options, const device::Capabilit
     return limits;
 }
 
-/// Of the records of sessions in this scene: its longest message is a state with all its shared
-/// bodies, or a hello.
+/// Returns the layout of the records of sessions in this scene: the longest message is a state with
+/// all its shared bodies, or a hello.
 record::Layout layout_for(const scene::Description& scene)
 {
     wire::State state;
@@ -266,7 +267,7 @@ monitor::Recorder::Setup recording_for(const Options& options, std::string_view 
             .keep_in = options.keep.folder};
 }
 
-/// What a person is told of by name.
+/// Returns the names for texts to a person.
 monitor::Named named_in(const Settings& settings)
 {
     monitor::Named named{.peer_id = settings.introduction.id, .others = settings.roster.others};
@@ -292,7 +293,7 @@ void introduce(const Options& options, const device::Rig& rig, Screen& screen)
     if (!lower.empty()) screen.say(lower);
 }
 
-/// Why a device may not be used in a session; "" when it may.
+/// Returns the reason why a device may not be used in a session; "" when it may.
 std::string refusal_of_untested(const Options& options,
                                 const std::optional<device_state::KeptDevice>& kept)
 {
@@ -358,8 +359,8 @@ int conclude(const monitor::Run& run, const device::Governor& governor, Screen& 
     return run.options.record && !run.is_record_whole ? net::exit_environment : 0;
 }
 
-/// Waits for whoever reads what the program has said, but not for ever; what was to be printed and
-/// could not be is an error.
+/// Waits for the reader of the program's output, but not for ever. Output that could not be printed
+/// is an error.
 int finish(int code, const Screen& screen, const net::StopSignal& stop)
 {
     loop::wait_for_readers(screen.out, stop);
@@ -371,7 +372,7 @@ int finish(int code, const Screen& screen, const net::StopSignal& stop)
                                                                          : code;
 }
 
-/// Likewise for the events, unless they are part of what it says.
+/// Finishes the events, unless they are part of the program's own output.
 int finish_events(int code, const std::optional<monitor::EventLog>& events, Screen& screen,
                   const net::StopSignal& stop)
 {
@@ -385,14 +386,14 @@ int finish_events(int code, const std::optional<monitor::EventLog>& events, Scre
     return code == 0 ? net::exit_environment : code;
 }
 
-/// In the file that the options name, which is emptied, or on stdout.
+/// Returns the log in the file that the options name, which is emptied, or on stdout.
 std::optional<monitor::EventLog> events_for(const Options& options, Screen& screen)
 {
     if (!options.events) return std::nullopt;
     return std::optional<monitor::EventLog>{std::in_place, *options.events, screen.out};
 }
 
-/// To the plotter, where there is one.
+/// Returns the stream to the plotter, where there is one.
 std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& plotter,
                                             std::uint16_t id, monitor::Monitor& monitor)
 {

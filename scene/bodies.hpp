@@ -23,14 +23,14 @@ struct BodyState {
     glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
 };
 
-/// Of a body with one part its id; a body with several has its id for the first and further ones
-/// after the ids of all bodies.
+/// The id of a body's part. The first part has the id of its body. Further parts have ids after
+/// those of all bodies.
 using PartId = std::uint32_t;
 
 /// Where a body lies in the lanes. It changes when the body falls asleep or wakes; its id does not.
 using Slot = std::uint32_t;
 
-/// What does not change of a body: the cold half.
+/// The properties of a body that never change: the cold half.
 struct BodyProperties {
     BodyId id = 0;
     glm::dvec3 half{0.02};    // half the edges of the box, or of that around it, m
@@ -61,7 +61,7 @@ struct BodyProperties {
             properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
-/// Whether what stops its slip sets it rolling.
+/// True if what stops its slip sets it rolling.
 [[nodiscard]] inline bool rolls(const BodyProperties& body)
 {
     return body.rounding > 0.0 && body.turning != Turning::locked;
@@ -113,7 +113,7 @@ struct Bodies {
 
     [[nodiscard]] Slot size() const { return static_cast<Slot>(properties.size()); }
     [[nodiscard]] PartId parts_count() const { return static_cast<PartId>(slot_of.size()); }
-    /// Of the bodies that can be pushed.
+    /// The number of parts of the bodies that can be pushed.
     [[nodiscard]] PartId movable_parts() const
     {
         const auto further = std::count_if(slot_of.begin() + size(), slot_of.end(),
@@ -148,7 +148,8 @@ struct Bodies {
         return responds_alike(body) ? body.inverse_inertia * momentum
                                     : turned_inverse_inertia(body, orientation.at(slot), momentum);
     }
-    /// The same, were it oriented so.
+    /// Returns the angular velocity that belongs to an angular momentum of a body with this
+    /// orientation.
     [[nodiscard]] static glm::dvec3 apply_inverse_inertia(const BodyProperties& body,
                                                           const glm::dquat& orientation,
                                                           const glm::dvec3& momentum)
@@ -160,13 +161,14 @@ struct Bodies {
     {
         return apply_inverse_inertia(slot, angular_momentum.at(slot));
     }
-    /// Of moving and turning, J.
+    /// Returns the energy of moving and turning, J.
     [[nodiscard]] double kinetic_energy(Slot slot) const;
-    /// The angular momentum that belongs to an angular velocity, were it oriented so.
+    /// Returns the angular momentum that belongs to an angular velocity of a body with this
+    /// orientation.
     [[nodiscard]] static glm::dvec3 apply_inertia(const BodyProperties& body,
                                                   const glm::dquat& orientation,
                                                   const glm::dvec3& angular_velocity);
-    /// Sets it.
+    /// Sets the angular momentum of a body to the one that belongs to this angular velocity, rad/s.
     void set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity);
 
     [[nodiscard]] BodyState state(Slot slot) const;

@@ -32,7 +32,7 @@ public:
     Bounded& operator=(Bounded&&) noexcept = default;
     ~Bounded() = default;
 
-    /// Whether there was room.
+    /// Adds an element. Returns true if there was room for it.
     bool add(T element)
     {
         if (is_full()) return false;
@@ -100,7 +100,7 @@ public:
     ~Scratch() = default;
 
     [[nodiscard]] bool is_full() const { return size_ == elements_.capacity(); }
-    /// Another element, with whatever it held before.
+    /// Adds another element, with whatever value its memory held before.
     T& add()
     {
         if (elements_.data() + size_ == made()) elements_.emplace_back();
@@ -108,7 +108,7 @@ public:
     }
     void drop_last() { --size_; }
     void clear() { size_ = 0; }
-    /// At most what was reserved.
+    /// Sets the size, which is at most the reserved one.
     void resize(std::size_t size)
     {
         if (elements_.data() + size > made()) elements_.resize(size);

@@ -18,7 +18,7 @@
 
 namespace hapnet::scene {
 
-/// How bodies behave where they touch; for two that touch see combined().
+/// The behaviour of a surface where it touches another. For two that touch see combined().
 struct Material {
     double friction = 0.0;    // Coulomb's coefficient, 0..friction_max
     double restitution = 0.0; // 0: no bounce, 1: elastic
@@ -26,13 +26,14 @@ struct Material {
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// Of two that touch: friction is the geometric mean and restitution the greater of the two.
+/// Returns the material of a contact: the geometric mean of both frictions, and the greater
+/// restitution.
 [[nodiscard]] inline Material combined(const Material& a, const Material& b)
 {
     return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution)};
 }
 
-/// How a body may rotate: freely, not at all, or about one axis of the world alone.
+/// The freedom of a body to rotate: freely, not at all, or about one axis of the world alone.
 enum class Turning : std::uint8_t { free, locked, about_x, about_y, about_z };
 
 constexpr auto names_of(base::Tag<Turning>)
@@ -40,8 +41,8 @@ constexpr auto names_of(base::Tag<Turning>)
     return base::names("free", "locked", "about-x", "about-y", "about-z");
 }
 
-/// What a body looks like, within a box: a sphere has three edges that are equal, a capsule two,
-/// and one that is longer, along which it lies.
+/// The shape of a body within a box: a sphere has three edges that are equal, a capsule two, and
+/// one that is longer, along which it lies.
 enum class Shape : std::uint8_t { box, sphere, capsule };
 
 constexpr auto names_of(base::Tag<Shape>) { return base::names("box", "sphere", "capsule"); }
@@ -55,8 +56,8 @@ struct LockedAxes {
     friend bool operator==(const LockedAxes&, const LockedAxes&) = default;
 };
 
-/// How a kinematic body goes to and fro: from where it is to `by` from there, and back, starting
-/// and turning round at rest. It is by * (1 - cos(2 pi t / period)) / 2 from its position.
+/// The motion of a kinematic body to and fro: from its place to `by` from there, and back. It
+/// starts and turns round at rest. It is by * (1 - cos(2 pi t / period)) / 2 from its position.
 struct Sway {
     glm::dvec3 by{0.0};      // m
     base::Duration period{}; // 0: it does not sway
@@ -74,14 +75,14 @@ struct HandFriction {
     friend bool operator==(const HandFriction&, const HandFriction&) = default;
 };
 
-/// Of a hand on a surface: the geometric means, as with two bodies.
+/// Returns the friction of a hand on a surface: the geometric means, as with two bodies.
 [[nodiscard]] inline HandFriction combined(const HandFriction& a, const HandFriction& b)
 {
     return {std::sqrt(a.sticking * b.sticking), std::sqrt(a.sliding * b.sliding)};
 }
 
-/// A stiffness and a damping of a hand's spring that replace those of all hands, where they are
-/// set; and coefficients of friction, likewise.
+/// A stiffness, a damping and coefficients of friction of a hand's spring. Where they are set, they
+/// replace those of all hands; on a body, friction replaces that of its material.
 struct Feel {
     std::optional<double> stiffness_n_per_m{};
     std::optional<double> damping_ns_per_m{};
@@ -108,8 +109,9 @@ struct PartDescription {
 struct BodyDescription {
     std::string name;
     bool movable = true;
-    /// Not movable, but it moves: with its velocity and angular velocity for ever, or as it sways,
-    /// until World::drive() or World::move() says otherwise. It pushes and is not pushed.
+    /// A kinematic body is not movable, but it moves: with its velocity and angular velocity for
+    /// ever, or as it sways, until World::drive() or World::move() says otherwise. It pushes and is
+    /// not pushed.
     bool kinematic = false;
     Sway sway{};
     Shape shape = Shape::box;
@@ -159,7 +161,7 @@ struct FieldDescription {
     friend bool operator==(const FieldDescription&, const FieldDescription&) = default;
 };
 
-/// The hands' spheres (haptic interface points), all alike: a spring and a damper between the
+/// The spheres of the hands (haptic interface points), all alike: a spring and a damper between the
 /// sphere and what it touches.
 struct HandDescription {
     double radius_m = 0.005;
@@ -178,7 +180,8 @@ struct HandDescription {
     friend bool operator==(const HandDescription&, const HandDescription&) = default;
 };
 
-/// What a scene is, before it is frozen: a value that anything may build, print or compare.
+/// The description of a scene before it is frozen: a value that any code may build, print or
+/// compare.
 struct Description {
     std::string name;
     std::vector<BodyDescription> bodies{}; // a body's id is its index
@@ -218,15 +221,15 @@ inline constexpr double gravity_max_m_per_s2 = 1e3;
 inline constexpr base::Duration period_min{std::chrono::milliseconds{10}};
 inline constexpr base::Duration period_max{std::chrono::hours{24}};
 
-/// How far the surface of a round body is from its core, m: of a sphere from its centre, of a
-/// capsule from a line. 0 for a box.
+/// The distance of a round body's surface from its core, m. The core of a sphere is its centre,
+/// that of a capsule a line. 0 for a box.
 [[nodiscard]] double rounding_of(const BodyDescription& body);
 [[nodiscard]] double rounding_of(const PartDescription& part);
-/// Of a body with so many kg/m^3.
+/// Returns the mass of a body with a density in kg/m^3.
 [[nodiscard]] double mass_of(const BodyDescription& body, double density);
 
-/// What a hand's spring on a body is made of: the body's own feel, then the hand's, then that of
-/// all hands, as CHAI3D has it.
+/// Returns the properties of a hand's spring on a body. They come from three places in this order:
+/// the body's own feel, then the hand's, then that of all hands, as CHAI3D has it.
 [[nodiscard]] HandDescription hand_on(const HandDescription& hands, const Feel& own_hand,
                                       const Feel& body);
 

@@ -13,7 +13,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// Whether a place is in the field's region.
+/// True if a place is in the field's region.
 bool is_in_region(const FieldDescription& field, const glm::dvec3& place)
 {
     if (!field.half) return true;
@@ -32,7 +32,7 @@ glm::dvec3 limited(const FieldDescription& field, const glm::dvec3& force)
     return base::limited(base::Force{force}, std::min(field.force_limit_n, force_max_n)).value;
 }
 
-/// At one moment.
+/// Returns the force at one moment.
 glm::dvec3 force_at(const FieldDescription& field, const glm::dvec3& place,
                     const glm::dvec3& velocity)
 {
@@ -51,10 +51,12 @@ glm::dvec3 force_on_body(const FieldDescription& field, const WorldConfig& confi
     const double tick = config.tick;
     const double half = 0.5 * tick;
     const BodyProperties& body = bodies.properties[slot];
-    // As much as makes the velocity's share over the tick that of the exponential.
+    // With this damping of the velocity halfway, the share of the velocity that the tick leaves is
+    // that of the exponential law.
     const double keeps = base::exp(-field.damping_ns_per_m * tick / body.mass);
     const double damping = (1.0 - keeps) / (1.0 + keeps) * body.mass / half;
-    // Halfway, without the field's force; which moves it there by so much per newton.
+    // Velocity and offset halfway, without the field's force. Each newton of the force moves the
+    // body so that the force becomes smaller by `ease` newtons.
     const glm::dvec3 fall = half * gravity_on(body, config.gravity);
     const glm::dvec3 velocity = bodies.velocity.at(slot) + fall;
     const glm::dvec3 offset = place - field.position.value + half * velocity;

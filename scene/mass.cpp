@@ -19,7 +19,7 @@ glm::dvec3 solid_inertia(double mass_kg, const glm::dvec3& half, double r)
     if (r == 0.0) return box_inertia(mass_kg, half);
     const glm::dvec3 core = half - r;
     const double straight = core.x + core.y + core.z; // half the length between the ends
-    // As masses are volumes: pi r^2 times these lengths.
+    // The masses are in proportion to the volumes: pi r^2 times these lengths.
     const double share = straight / (straight + 2.0 / 3.0 * r);
     const double cylinder = share * mass_kg;
     const double ends = mass_kg - cylinder;
@@ -103,7 +103,7 @@ private:
     glm::dmat3 axes_{1.0};
 };
 
-/// Of several parts, in the frame of the first.
+/// The mass of several parts, in the frame of the first.
 struct Whole {
     glm::dvec3 centre{0.0};
     glm::dmat3 axes{1.0};

@@ -8,8 +8,8 @@
 
 namespace hapnet::scene {
 
-/// Where a body's mass is: its centre, and axes about which it has no products of inertia. Of one
-/// part that part's own frame, as described.
+/// The frame of a body's mass: its centre, and axes about which it has no products of inertia. A
+/// body of one part has that part's own frame, as described.
 struct MassFrame {
     base::Position centre{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
@@ -32,7 +32,7 @@ struct BodyPart {
     double rounding = 0.0;
     double radius = 0.0; // m: how far it reaches from the body's centre
 };
-/// All parts of a body, the first one first.
+/// Returns all parts of a body, the first one first.
 [[nodiscard]] std::vector<BodyPart> parts_of(const BodyDescription& body);
 /// Half the edges of a box around its centre of mass that has all parts in it.
 [[nodiscard]] glm::dvec3 half_around(const std::vector<BodyPart>& parts);

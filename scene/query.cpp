@@ -48,7 +48,7 @@ Separation least_separation(ForParts for_parts, Separate separate)
     return *least;
 }
 
-/// Whether a body is certainly farther from a point than `within`.
+/// True if a body is certainly farther from a point than `within`.
 bool is_beyond(const World& world, BodyId body, const glm::dvec3& point, double within)
 {
     const glm::dvec3 way = world.position(body).value - point;
@@ -88,7 +88,7 @@ class ContactFinder {
 public:
     ContactFinder(const World& world, ContactList& list) : world_{world}, list_{list} {}
 
-    /// Of a body (`first`) and another one: of a part of each.
+    /// Adds the contact of a part of a body (`first`) and a part of another one, if there is one.
     void add_bodies(PartId first, PartId other, double impulse, BoxBoxMemory memory = {})
     {
         const Bodies& bodies = world_.state().bodies;
@@ -132,7 +132,8 @@ public:
     }
 
 private:
-    /// By the points that are at most so far apart; false when there are none.
+    /// Sets the place from the points that are at most `touch` apart. Returns false when there are
+    /// none.
     static bool set_place(Contact& contact, const Manifold& manifold, double touch)
     {
         glm::dvec3 sum{0.0};
@@ -154,12 +155,13 @@ private:
     ContactList& list_;
 };
 
-/// What a stepper knows of the contacts of one body.
+/// The contacts of one body, as a stepper knows them.
 class StepperContacts {
 public:
     StepperContacts(const World& world, ContactFinder& finder) : world_{world}, finder_{finder} {}
 
-    /// Those with bodies of higher ids, and with planes; also those of lower ids when `all`.
+    /// Adds contacts with bodies of higher ids, and with planes; also those with lower ids when
+    /// `all`.
     void add(BodyId body, bool all) const
     {
         std::visit([&](const auto& stepper) { add(stepper, body, all); }, world_.stepper());
@@ -259,7 +261,7 @@ private:
     ContactFinder& finder_;
 };
 
-/// Where a ray enters a half-space.
+/// Returns where a ray enters a half-space.
 std::optional<RayEntry> enter(const PlaneDescription& plane, const glm::dvec3& origin,
                               const glm::dvec3& direction, double length)
 {

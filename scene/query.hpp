@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-// What may be asked of a world between two ticks. Nothing here changes it or takes memory. All but
+// Queries about a world between two ticks. They do not change the world or allocate memory. All but
 // contacts_of() looks at every body: 100 000 bodies take milliseconds.
 
 /// A body, by its id, or a plane, by its place in the description.
@@ -23,8 +23,8 @@ struct Thing {
     friend bool operator==(const Thing&, const Thing&) = default;
 };
 
-/// Two that touch now, or pushed each other in the last tick: of a body of several parts, each part
-/// by itself.
+/// A contact of two that touch now, or pushed each other in the last tick. Each part of a body
+/// counts by itself.
 struct Contact {
     BodyId body = 0;
     Thing other;
@@ -38,10 +38,10 @@ struct Contact {
 /// bodies' ids, those with planes last. Returns how many there are; the first that have room are
 /// written. A box that cannot turn may push several obstacles on one side: they share evenly.
 std::size_t contacts(const World& world, std::span<Contact> room);
-/// Those of one body.
+/// As contacts(), for one body.
 std::size_t contacts_of(const World& world, BodyId body, std::span<Contact> room);
 
-/// From `origin` along `direction`, which is not zero and of any length.
+/// A ray from `origin` along `direction`, which may have any length but zero.
 struct Ray {
     base::Position origin{};
     glm::dvec3 direction{1.0, 0.0, 0.0};
@@ -58,9 +58,9 @@ struct RayHit {
 /// that is not finite.
 [[nodiscard]] std::optional<RayHit> cast_ray(const World& world, const Ray& ray);
 
-/// How far a point is outside of a body; < 0: inside.
+/// Returns how far a point is outside of a body; < 0: inside.
 [[nodiscard]] Separation separation(const World& world, const base::Position& point, BodyId body);
-/// How far two bodies are apart; < 0: the shortest way that moves them apart.
+/// Returns how far two bodies are apart; < 0: minus the shortest way that moves them apart.
 [[nodiscard]] Separation separation(const World& world, BodyId first, BodyId second);
 
 struct NearestBody {

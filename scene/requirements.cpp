@@ -18,7 +18,7 @@ namespace {
 // measured with packed boxes.
 constexpr std::size_t scan_max = 64;
 
-/// What the reasons are about.
+/// The counts that the reasons name.
 struct Census {
     std::size_t movable = 0;
     std::size_t fixed = 0;
@@ -44,7 +44,7 @@ bool is_parallel(const glm::dvec3& normal)
     return int{is_zero(normal.x)} + int{is_zero(normal.y)} + int{is_zero(normal.z)} == 2;
 }
 
-/// Whether hands may feel seams between fixed boxes.
+/// True if hands may feel seams between fixed boxes.
 bool has_flush(const Description& description, const Census& census)
 {
     if (census.fixed < 2 || description.hands.count == 0) return false;

@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-/// What a scene may require of its stepper.
+/// A feature that a scene may require of its stepper.
 enum class Feature : std::uint8_t {
     contact,       // anything can touch anything at all
     hands,         // hands
@@ -44,7 +44,7 @@ public:
     {}
     [[nodiscard]] constexpr bool has(Feature feature) const { return (bits_ & bit(feature)) != 0; }
     constexpr void add(Feature feature) { bits_ |= bit(feature); }
-    /// Whether this set has everything that `needed` has.
+    /// True if this set has everything that `needed` has.
     [[nodiscard]] constexpr bool covers(FeatureSet needed) const
     {
         return (needed.bits_ & ~bits_) == 0;
@@ -72,17 +72,17 @@ enum class StepperKind : std::uint8_t {
 inline constexpr std::size_t stepper_kinds = 6;
 
 [[nodiscard]] std::string_view name_of(StepperKind kind);
-/// What a stepper can do.
+/// The features that a stepper supports.
 [[nodiscard]] FeatureSet abilities_of(StepperKind kind);
 
-/// Whether a scene requires a feature, and why or why not.
+/// Says if a scene requires a feature, and why or why not.
 struct Requirement {
     Feature feature = Feature::contact;
     bool is_required = false;
     std::string because;
 };
 
-/// What a scene requires, feature by feature.
+/// The requirements of a scene, feature by feature.
 using Requirements = std::array<Requirement, features>;
 [[nodiscard]] Requirements requirements_of(const Description& description, bool sleeping);
 [[nodiscard]] FeatureSet required_features(const Requirements& needs);

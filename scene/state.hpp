@@ -15,8 +15,8 @@
 
 namespace hapnet::scene {
 
-/// Where a hand is at the start of a tick. During the tick it moves on at its velocity (first-order
-/// hold), so that a steady push has no lag of one tick.
+/// The place of a hand at the start of a tick. During the tick the hand moves on at its velocity
+/// (first-order hold), so that a steady push has no lag of one tick.
 struct HandInput {
     base::Position position{};
     base::Velocity velocity{};
@@ -24,7 +24,7 @@ struct HandInput {
     bool gripping = false;
 };
 
-/// What a hand did and felt in the last tick.
+/// The action of a hand and the force on it in the last tick.
 struct HandTouch {
     bool touching = false; // pushed or held a movable body
     bool holding = false;
@@ -35,7 +35,7 @@ struct HandTouch {
     base::Force on_hand_at_start{}; // the spring and damper at the start of the tick
 };
 
-/// The springs of each hand on each body, where they are not all alike; else nothing.
+/// The springs of each hand on each body, where they are not all equal; otherwise empty.
 class HandFeels {
 public:
     HandFeels() = default;
@@ -47,15 +47,15 @@ public:
         return kind_of_.empty() ? alike : kinds_[kind_of_[body] + hand];
     }
 
-    /// On what has no feel of its own.
+    /// The hand's properties on things without a feel of their own, such as planes.
     [[nodiscard]] const HandDescription& of(std::uint32_t hand, const HandDescription& alike) const
     {
         return kinds_.empty() ? alike : kinds_[hand];
     }
 
-    /// Whether any hand can stick to anything.
+    /// True if any hand can stick to anything.
     [[nodiscard]] bool any_friction() const { return !friction_of_hands_.empty(); }
-    /// Only where there is any: of a hand on a body, or on a plane.
+    /// Call it only if any_friction(). The friction of a hand on a body, or on a plane.
     [[nodiscard]] HandFriction friction_on_body(std::uint32_t hand, BodyId body) const
     {
         return combined(friction_of_hands_[hand], friction_of_bodies_[body]);
@@ -75,10 +75,10 @@ private:
     std::vector<HandFriction> friction_of_planes_{};
 };
 
-/// Whether a hand of the scene can stick to a body or a plane of it.
+/// True if a hand of the scene can stick to a body or a plane of it.
 [[nodiscard]] bool has_hand_friction(const Description& description);
 
-/// How a hand rubbed in the last tick, where hands have friction.
+/// A hand's rubbing in the last tick, where hands have friction.
 struct HandSlip {
     bool sticks = false;    // to something, at the end of the tick
     bool slides = false;    // over something, likewise
@@ -86,7 +86,7 @@ struct HandSlip {
     double stored_j = 0.0;  // at the start, in the springs along the surfaces
 };
 
-/// What holds from a world's first tick to its last.
+/// Values that hold from a world's first tick to its last.
 struct WorldConfig {
     std::vector<PlaneDescription> planes{};
     HandDescription hands{};
@@ -98,7 +98,7 @@ struct WorldConfig {
     InternalFaces internal_faces{};
 };
 
-/// How a kinematic body goes on.
+/// The further motion of a kinematic body.
 struct KinematicScript {
     enum class Kind : std::uint8_t {
         steady, // as it moves
@@ -110,7 +110,7 @@ struct KinematicScript {
     BodyState target{};
 };
 
-/// How often the ticks since freeze() stepped in where the plain algorithm would have broken a law.
+/// Counts of interventions since freeze(), where the plain algorithm would have broken a law.
 struct Interventions {
     // Guards: motion was thrown away.
     std::uint64_t islands_limited = 0; // an island lost a tenth of its impulses or more
@@ -143,9 +143,9 @@ struct Interventions {
     }
 };
 
-/// What every stepper works on: the bodies, what the hands do, and what they feel. Everything that
-/// changes and that the next tick depends on lies here or in the stepper's own memory: a copy of
-/// both is a snapshot.
+/// The state that every stepper works on: the bodies, what the hands do, and what they feel.
+/// Everything that changes and that the next tick depends on lies here or in the stepper's own
+/// memory: a copy of both is a snapshot.
 struct WorldState {
     Bodies bodies;
     std::array<HandInput, hands_max> hands{};
@@ -162,7 +162,8 @@ struct WorldState {
     Interventions interventions{};
 };
 
-/// What is small in this scene: every tolerance is a share of one of these.
+/// The scales of this scene, by which a value counts as small. Every tolerance is a share of one of
+/// them.
 struct Scales {
     double tick = 1e-3;  // s
     double size = 0.02;  // m: the smallest half edge of a movable body

@@ -6,9 +6,9 @@
 
 namespace hapnet::scene {
 
-/// What a tick does, in units that each cost at most so much. freeze() derives how many of each a
-/// tick of the scene may take; a tick counts how many it took. The rest of a tick is a few loops
-/// over the awake bodies and the hands.
+/// The work of a tick, in units of bounded cost. freeze() derives how many of each a tick of the
+/// scene may take; a tick counts how many it took. The rest of a tick is a few loops over the awake
+/// bodies and the hands.
 struct TickCost {
     std::uint64_t pairs = 0;    // of two bodies, or of a body and a plane: looked at closely
     std::uint64_t contacts = 0; // prepared for the solver
@@ -18,7 +18,7 @@ struct TickCost {
     std::uint64_t events = 0; // of the one box within the tick
     std::uint64_t looks = 0;  // at two bodies one of which goes far within the tick
 
-    /// Whether nothing is more than that.
+    /// True if no count is above that of `bound`.
     [[nodiscard]] bool is_within(const TickCost& bound) const
     {
         return pairs <= bound.pairs && contacts <= bound.contacts && visits <= bound.visits &&

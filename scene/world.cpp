@@ -17,11 +17,11 @@ namespace hapnet::scene {
 
 namespace {
 
-// Of WorldState::is_pushed.
+// The marks in WorldState::is_pushed.
 constexpr std::uint8_t is_pushed_mark = 1;
 constexpr std::uint8_t is_twisted_mark = 2;
 
-/// Why a vector cannot be taken.
+/// Returns the reason why a vector is refused.
 inline std::optional<Refusal> objection(const glm::dvec3& v, double most)
 {
     if (is_within(v, most)) return std::nullopt;
@@ -37,7 +37,7 @@ std::optional<Refusal> objection(const glm::dquat& q)
     return std::nullopt;
 }
 
-/// Whether a body may be turned from one orientation to the other.
+/// True if a body may be turned from one orientation to the other.
 bool can_turn(Turning turning, const glm::dquat& from, const glm::dquat& to)
 {
     if (turning == Turning::free) return true;
@@ -230,7 +230,7 @@ std::optional<Refusal> World::apply_impulse(BodyId body, const glm::dvec3& impul
     return std::nullopt;
 }
 
-/// So that it takes part in the next tick; nothing else about it changes.
+/// Makes the body take part in the next tick; nothing else about it changes.
 void World::wake(BodyId body)
 {
     std::visit(

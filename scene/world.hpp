@@ -20,7 +20,7 @@ namespace hapnet::scene {
 inline constexpr base::Duration tick_min{std::chrono::microseconds{10}};
 inline constexpr base::Duration tick_max{std::chrono::milliseconds{100}};
 
-/// How a scene is frozen.
+/// Options for freezing a scene.
 struct FreezeOptions {
     base::Duration tick{std::chrono::milliseconds{1}}; // tick_min..tick_max
     bool sleeping = true;                              // bodies at rest fall asleep
@@ -32,13 +32,13 @@ struct FreezeOptions {
 enum class Refusal : std::uint8_t { not_finite, out_of_range, no_such_body, no_such_hand };
 inline constexpr std::size_t refusals = 4;
 
-/// How many inputs were refused, by cause.
+/// The number of refused inputs, by cause.
 using RefusalCounts = std::array<std::uint64_t, refusals>;
 
-/// What moves a world on, chosen when the scene is frozen. Each is a value with two verbs:
-/// step(config, state), and on_body_placed(state, body) after a body was put somewhere from
-/// outside, on_body_shifted(state, body) after it was moved by a little. Those whose bodies sleep
-/// have wake(state, body), too. The order is that of StepperKind.
+/// The stepper that moves a world by ticks. It is chosen when the scene is frozen. Each is a value
+/// with two verbs: step(config, state), and on_body_placed(state, body) after a body was put
+/// somewhere from outside, on_body_shifted(state, body) after it was moved by a little. Steppers
+/// whose bodies sleep have wake(state, body), too. The order is that of StepperKind.
 using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
                              RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
                              RigidStepper<BroadPhase::grid>>;
@@ -63,10 +63,12 @@ public:
 
     /// Says where a hand is, from the next tick on.
     std::optional<Refusal> set_hand(std::uint32_t index, const HandInput& input);
-    /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.
+    /// Applies a force to a movable body's centre, held for the next tick; pushes of one tick add
+    /// up.
     std::optional<Refusal> push(BodyId body, base::Force force);
-    /// The same at a point in the world's frame: it turns the body, too, as far as that can turn.
-    /// The torque is that about the centre where it is now.
+    /// Applies a force to a movable body at a point in the world's frame, held for the next tick;
+    /// pushes of one tick add up. It also turns the body, as far as that can turn. Its torque is
+    /// that about the present centre.
     std::optional<Refusal> push(BodyId body, base::Force force, base::Position at);
     /// A torque in N m, in the world's frame, held for the next tick; those of one tick add up. A
     /// body that cannot turn about its axis does not.
@@ -77,14 +79,15 @@ public:
     /// Puts a movable body somewhere and wakes it. Locked coordinates stay as they are; an
     /// orientation that the body cannot have is refused.
     std::optional<Refusal> place(BodyId body, const BodyState& state);
-    /// The same; orientation and angular velocity stay.
+    /// Puts a movable body at a place with a velocity, as above; orientation and angular velocity
+    /// stay.
     std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
 
     /// Moves a movable body by a little; hands that hold it, or press on one of its faces, go on
     /// doing so. Locked coordinates stay as they are.
     std::optional<Refusal> shift(BodyId body, base::Displacement way);
-    /// The same, and turns it about its centre by so many radians (world's frame), as far as it can
-    /// turn; its angular momentum stays.
+    /// Moves a body like shift(), and turns it about its centre by `turn` radians (world's frame),
+    /// as far as it can turn. Its angular momentum stays.
     std::optional<Refusal> shift(BodyId body, base::Displacement way, const glm::dvec3& turn);
 
     /// A kinematic body moves on like that from where it is, until it is told otherwise.
@@ -110,7 +113,7 @@ public:
     [[nodiscard]] const HandTouch& touch(std::uint32_t hand) const { return state_.touches[hand]; }
     [[nodiscard]] const WorldState& state() const { return state_; }
     [[nodiscard]] const WorldConfig& frozen() const { return config_; }
-    /// What the last tick took, and the most that a tick of this scene can take.
+    /// The cost of the last tick, and the most that a tick of this scene can cost.
     [[nodiscard]] const TickCost& tick_cost() const { return state_.tick_cost; }
     [[nodiscard]] TickCost tick_cost_bound() const;
     [[nodiscard]] StepperKind stepper_kind() const { return kind_; }
@@ -127,7 +130,8 @@ public:
     /// The snapshot must be of a world frozen from the same description and options. Takes no
     /// memory.
     void restore(const Snapshot& snapshot);
-    /// The same, to where another world is.
+    /// Takes over the state of another world, which must be frozen from the same description and
+    /// options.
     void restore(const World& other);
 
     /// Equal states, equal hashes: over every bit of every body's state, by id.

@@ -57,7 +57,7 @@ void Daemon::on_reply(std::string_view line)
 
 void Daemon::tick(base::TimePoint now)
 {
-    // What comes late would be taken for the next answer: begin anew.
+    // A late answer would be taken for that of the next question, so the connection begins anew.
     if (!asked_.empty() && asked_.front().deadline <= now) asking_.lose("it does not answer");
 }
 

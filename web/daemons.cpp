@@ -127,7 +127,7 @@ void Daemons::add_peer(const std::string& path)
     peers_.push_back(std::move(peer));
 }
 
-/// By their ids, as far as they are known.
+/// Orders the peers by their ids, as far as these are known.
 void Daemons::order_peers()
 {
     std::ranges::stable_sort(peers_, {}, [](const auto& peer) { return peer->state.id(); });

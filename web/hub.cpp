@@ -135,7 +135,7 @@ void Hub::tick(base::TimePoint now)
     tell_state(now);
 }
 
-/// Live figures begin anew.
+/// Tells all viewers that the live figures begin again.
 void Hub::tell_reset()
 {
     tell_all(shared(fmt::format("{{\"type\":\"reset\",\"at_s\":{:.4f}}}", at_s())));
@@ -352,7 +352,7 @@ std::string Hub::free_name(const std::string& stem)
     return name;
 }
 
-/// By all daemons; tells everybody.
+/// Makes all daemons save, and tells all viewers of the files.
 void Hub::save(const std::string& name, base::Duration last, Saving::OnSaved on_saved)
 {
     std::vector<Daemon*> daemons = daemons_.peers();

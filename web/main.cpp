@@ -106,7 +106,8 @@ tcp::acceptor listening_on_loopback(asio::io_context& io, const Options& options
                             fmt::format("listen at 127.0.0.1:{}", options.port)};
 }
 
-/// Also at ::1 and at --listen, as far as that is asked for and there.
+/// Listens also at ::1, if this machine has it, and at --listen, if that was given. Throws
+/// std::system_error when --listen is not possible.
 void listen_besides(asio::io_context& io, const Options& options, std::uint16_t port,
                     Server& server)
 {
@@ -135,7 +136,7 @@ void listen_besides(asio::io_context& io, const Options& options, std::uint16_t 
                                        options.listen, port));
 }
 
-/// Where this program is, and the others beside it.
+/// Returns the folder of this program and of the others beside it.
 std::string own_folder()
 {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path().string();

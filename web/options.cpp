@@ -76,7 +76,7 @@ void add_options(cli::Command& program, Options& options)
                    cli::into(options.url_file));
 }
 
-/// Whether they go together.
+/// Refuses options that do not go together.
 base::Result<void> check(const Options& options)
 {
     const bool attaches = !options.emulator.empty() || !options.peers.empty();

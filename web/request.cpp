@@ -9,7 +9,7 @@ namespace hapnet::web {
 
 namespace {
 
-/// nullopt when it is not there, or twice.
+/// Returns nullopt when the header is missing, or occurs twice.
 std::optional<std::string_view> header_of(const Request& request, std::string_view name)
 {
     const auto [first, last] = request.equal_range(boost::string_view{name.data(), name.size()});

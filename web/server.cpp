@@ -28,7 +28,7 @@ constexpr auto idle_max = 60s; // until the next request begins
 constexpr auto sending_max = 5s;
 constexpr auto answering_max = 30s; // a record has megabytes
 
-/// What every answer says.
+/// Sets the headers of every answer.
 template <typename Message>
 void secure(Message& message)
 {
@@ -148,7 +148,7 @@ void Connection::read()
                      });
 }
 
-/// What is no request of ours; then the connection ends.
+/// Refuses bytes that are no valid request, and ends the connection.
 void Connection::refuse_bytes(const beast::error_code& error)
 {
     if (error == http::error::end_of_stream || error == beast::error::timeout ||

@@ -54,7 +54,7 @@ struct Image {
     int output; // -1: to the log
 };
 
-/// Only what is permitted between fork() and exec() of a program with threads.
+/// Calls only what is permitted between fork() and exec() of a program with threads.
 [[noreturn]] void become(const Image& image)
 {
     setpgid(0, 0);

@@ -11,7 +11,7 @@
 
 namespace hapnet::web {
 
-/// Outlive all that is live, but for the visitors.
+/// The parts that a live view uses. All of them except the visitors outlive every live view.
 struct LiveParts {
     Hub& hub;
     const Gate& gate;

@@ -72,7 +72,7 @@ const Backend* backend_named(std::string_view name)
     return found == backends().end() ? nullptr : &*found;
 }
 
-/// For names that people know a device by; "" for others.
+/// Returns a hint for names by which people know a device; "" for others.
 std::string_view hint_for(std::string_view name)
 {
     if (name == "touch") {

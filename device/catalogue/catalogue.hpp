@@ -40,7 +40,7 @@ struct Backend {
 /// The backends of real devices that this build has.
 [[nodiscard]] const std::vector<Backend>& backends();
 
-/// Such as {"falcon", "12345"}: what --device says of a real device.
+/// The name of a real device as --device takes it, such as {"falcon", "12345"}.
 struct DeviceName {
     std::string backend;
     std::string serial; // "": any

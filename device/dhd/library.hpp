@@ -7,10 +7,10 @@
 
 namespace hapnet::device::dhd {
 
-// What of the binary interface of libdhd, the haptic library of Force Dimension's SDK, is needed
-// here. The numbers are facts of that interface, as public bindings list them (forcedimension_core
-// for Python, sawForceDimensionSDK); the names are ours. Metres and newtons; x points toward the
-// user, y to the right, z up.
+// The part of the binary interface of libdhd, the haptic library of Force Dimension's SDK, that is
+// used here. The numbers are facts of that interface, as public bindings list them
+// (forcedimension_core for Python, sawForceDimensionSDK); the names are ours. Metres and newtons; x
+// points toward the user, y to the right, z up.
 
 /// Numbers a device that is open; -1: the default one, which this program never means.
 using Id = char;

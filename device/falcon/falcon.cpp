@@ -23,7 +23,8 @@ Capabilities capabilities_of_falcon()
             .workspace_max = corner,
             // CHAI3D's table of devices, for the first, the third and the fourth.
             .force_max_n = 8.0,
-            // Not published. The share of the peak that an Omni's motors bear for ever.
+            // An estimate, as nothing is published: the share of the peak that an Omni's motors
+            // bear without a time limit.
             .force_continuous_n = 2.1,
             .stiffness_max_n_per_m = 3000.0,
             .damping_max_ns_per_m = 20.0,
@@ -183,7 +184,7 @@ void Falcon::apply(const GovernedForce& force)
 
 void Falcon::halt() noexcept
 {
-    // Not from the sample, which belongs to the other thread: the light goes out, too.
+    // The last sample belongs to the other thread and is not used here: the light goes out, too.
     link_->interrupt(encode(Command{}));
 }
 

@@ -45,8 +45,8 @@ public:
     void apply(const GovernedForce& force) override;
     void halt() noexcept override;
 
-    /// Silence, or nonsense, for longer than this is a fault, if it was asked so often meanwhile: a
-    /// host that was away cannot tell.
+    /// Silence, or nonsense, for longer than silence_max is a fault, if the device was read at
+    /// least silent_reads_min times meanwhile. A host that was away cannot tell.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
     static constexpr int silent_reads_min = 5;
     /// A packet without an answer after this time counts as lost.

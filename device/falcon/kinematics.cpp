@@ -32,7 +32,7 @@ constexpr double converged_m = 1e-11; // the last step
 constexpr double angle_error_max = 1e-9;
 constexpr double determinant_min = 1e-9; // of unit normals: below, the arm is stretched out
 
-/// Of the legs around z: 90, -30 and -150 degrees, the whole turned by 15.
+/// The angles of the legs around z: 90, -30 and -150 degrees, the whole turned by 15.
 constexpr std::array<double, 3> azimuths{105.0, -15.0, -135.0};
 
 struct Leg {

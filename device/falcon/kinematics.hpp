@@ -34,7 +34,7 @@ inline constexpr double reach_m = 0.040;
 /// The nearest counts; the angles are at most 20 rad.
 [[nodiscard]] Counts encoders_at(const Angles& angles);
 
-/// nullopt: the grip cannot get there.
+/// Returns the angles of the arms at a place of the grip; nullopt where it cannot get there.
 [[nodiscard]] std::optional<Angles> inverse(const base::Position& grip);
 
 /// The place with these angles, by Newton's method from `near`; nullopt: there is none, or none

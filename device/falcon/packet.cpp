@@ -112,7 +112,7 @@ std::optional<Command> decode_command(std::span<const std::byte, packet_bytes> b
 
 std::optional<Packet> PacketFinder::feed(std::byte byte)
 {
-    // '<' is in no packet but in front: whatever came before it was none.
+    // '<' is only at the beginning of a packet: the bytes before it were no packet.
     if (byte == opening) {
         skipped_ += size_;
         size_ = 0;

@@ -10,8 +10,8 @@
 
 namespace hapnet::device::falcon {
 
-// What a Falcon and its host say to each other once its firmware runs: one packet of 16 bytes each
-// way, the host's first. '<', three numbers of 16 bits in four nibbles each, the least significant
+// The packets between a Falcon and its host once its firmware runs: one of 16 bytes each way, the
+// host's first. '<', three numbers of 16 bits in four nibbles each, the least significant
 // first, two bytes of flags, '>'; to each nibble and flag 'A' is added. Known from libnifalcon
 // (src/firmware/FalconFirmwareNovintSDK.cpp), not from the device's maker.
 
@@ -47,7 +47,7 @@ inline constexpr std::uint8_t all_legs = 0x7;
 
 [[nodiscard]] Packet encode(const Command& command);
 [[nodiscard]] Packet encode(const Report& report); // for doubles of the device
-/// nullopt: not a packet. Accepted bytes encode to the same bytes again.
+/// Returns nullopt for bytes that are no packet. Accepted bytes encode to the same bytes again.
 [[nodiscard]] std::optional<Report> decode_report(std::span<const std::byte, packet_bytes> bytes);
 [[nodiscard]] std::optional<Command> decode_command(std::span<const std::byte, packet_bytes> bytes);
 

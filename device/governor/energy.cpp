@@ -48,7 +48,7 @@ void EnergyGuard::add(const Step& step)
     Step& oldest = steps_[next_step_];
     oldest = step;
     next_step_ = next_step_ + 1 < steps_used_ ? next_step_ + 1 : 0;
-    // Summed anew: what is added and taken away leaves roundings behind.
+    // Everything is summed up again, because adding and subtracting leave roundings behind.
     lately_ = {};
     for (std::size_t i = 0; i < steps_used_; ++i) {
         lately_.moved += steps_[i].moved;
@@ -61,7 +61,7 @@ void EnergyGuard::add(const Step& step)
 
 void EnergyGuard::close_piece()
 {
-    // After a longer gap what was before is that much older, at most all of it.
+    // A longer gap ends several pieces at once, at most as many as are kept.
     into_piece_ = std::min(into_piece_, static_cast<int>(pieces) * piece);
     for (; into_piece_ >= piece; into_piece_ -= piece) {
         lowest_[next_piece_] = lowest_now_j_;
@@ -71,8 +71,8 @@ void EnergyGuard::close_piece()
     lowest_before_j_ = *std::min_element(lowest_.begin(), lowest_.end());
 }
 
-/// What the next tick may have for the mean of 5 ms to stay within the limit. What the hand got in
-/// the ticks before counts as it was measured, not as it was estimated.
+/// Returns the power that the next tick may have so that the mean of 5 ms stays within the limit.
+/// The power of earlier ticks counts as measured, not as estimated.
 double EnergyGuard::power_left_w() const
 {
     const Step& leaves = steps_[next_step_];

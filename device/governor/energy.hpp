@@ -73,8 +73,9 @@ public:
 
     [[nodiscard]] const EnergyFigures& figures() const { return figures_; }
 
-    /// The lightest hand that the power is kept for, and the time by which a velocity that was
-    /// measured over 5 ms is behind the next tick: a force moves the hand on by as much.
+    /// The mass of the lightest hand for which the limit of the power is kept, and the time by
+    /// which a velocity that was measured over 5 ms lags behind the next tick: a force makes the
+    /// hand faster during that time.
     static constexpr double hand_kg = 0.2;
     static constexpr double behind_s = 0.003;
     /// Work that is left is given out evenly over this time, so that the last of it is no step.

@@ -19,12 +19,12 @@ public:
     [[nodiscard]] bool is_closed() const { return latched_.fault != Fault::none; }
     [[nodiscard]] const Latched& cause() const { return latched_; }
 
-    /// The first cause stays; whether this is it.
+    /// Latches a cause. The first cause stays. Returns true if this is the first.
     bool close(const Latched& cause);
     void open() { latched_ = {}; }
 
-    /// A sample without fault, `passed` after the one before: whether the operator has just
-    /// opened it.
+    /// Takes a sample without a fault, `passed` after the one before. Returns true if the operator
+    /// has just opened the latch.
     bool on_sample(const Sample& sample, base::Duration passed);
     /// A sample that is at fault or old: what the operator did before counts no more, but that the
     /// stylus was out of its holder.

@@ -36,7 +36,7 @@ struct GovernorLimits {
     /// consistent.
     bool checks_motion = false;
 
-    // Of the device, in its own frame.
+    // Limits of the device, in its own frame.
     double force_continuous_n = std::numeric_limits<double>::infinity();
     double speed_max_m_per_s = std::numeric_limits<double>::infinity();
     int axes_out = 3;

@@ -25,7 +25,7 @@ namespace hapnet::device {
                                                         const std::string& source,
                                                         std::span<const Mechanism> mechanisms);
 
-/// The keys of that text but for the joints', for the docs.
+/// The keys of that text except the joints', for the docs.
 [[nodiscard]] std::vector<base::KeyRow> limit_keys();
 
 } // namespace hapnet::device

@@ -31,7 +31,7 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
     sequence_ = sample.sequence;
     silence_ += passed;
     const base::Duration since_last = silence_;
-    // Without motors it may be silent: a cap or a grip at rest has nothing to say.
+    // A device without motors may be silent: a cap or a grip at rest reports nothing.
     if (is_new || (limits.axes_out <= 0 && !says_silent)) silence_ = base::Duration{0};
 
     if (silence_ >= limits.fault_after) {
@@ -61,7 +61,7 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
     return {sample.docked ? Finding::docked : Finding::usable};
 }
 
-/// Whether motion and force do not fit together.
+/// Compares motion and force. Returns the reason why they do not fit together; Trip::none: they do.
 Trip SampleCheck::misfit(const Sample& sample, base::Duration passed, const Push& push, bool is_new)
 {
     constexpr base::Duration piece{std::chrono::milliseconds{25}};

@@ -48,8 +48,9 @@ void DeviceCycle::end(const Command& command, bool is_new)
     silent_frames_ = on ? 0 : silent_frames_ + 1;
 }
 
-/// In every cycle, as public drivers have it (phantom_omni, Geomagic_Touch_ROS_Drivers). But an
-/// encoder reset takes for its origin wherever the arm is, and only a person knows where that is.
+/// Calibrates in every cycle, as public drivers do (phantom_omni, Geomagic_Touch_ROS_Drivers). An
+/// encoder reset is left out: it makes the arm's present place the origin, and only a person knows
+/// where that is.
 void DeviceCycle::calibrate()
 {
     report_.calibration = functions_->check_calibration();

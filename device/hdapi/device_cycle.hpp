@@ -46,7 +46,7 @@ public:
     /// calibrated, nor by a command that is `is_new` no more for 20 cycles: who gave it has
     /// stopped.
     void end(const Command& command, bool is_new);
-    /// An error of this device, after end(). Of several in one cycle the last call counts.
+    /// Notes an error of this device, after end(). The last call of a cycle counts.
     void note(unsigned int code) { happened_ = code; }
 
     [[nodiscard]] Handle handle() const { return handle_; }

@@ -4,8 +4,8 @@
 
 namespace hapnet::device::hdapi {
 
-// What of the binary interface of libHD, the vendor's library for the PHANToM family, is needed
-// here. The numbers are facts of that interface, as public bindings list them (pyOpenHaptics,
+// The part of the binary interface of libHD, the vendor's library for the PHANToM family, that is
+// used here. The numbers are facts of that interface, as public bindings list them (pyOpenHaptics,
 // OpenHaptics4CSharp; both MIT); the names are ours. Lengths are millimetres there.
 
 using Handle = unsigned int;
@@ -72,7 +72,7 @@ inline constexpr int style_automatic = 2;
 inline constexpr int style_inkwell = 4;
 } // namespace calibration
 
-/// The functions of the library. Those of state and force belong between begin_frame() and
+/// The functions of the library. Call those of state and force between begin_frame() and
 /// end_frame(), and all refer to the device that was made current last.
 struct Functions {
     Handle (*init_device)(const char* name) = nullptr; // nullptr: the default one; makes it current

@@ -33,7 +33,7 @@ class ItemReader {
 public:
     explicit ItemReader(std::span<const std::byte> bytes) : bytes_{bytes} {}
 
-    /// nullopt at the end, or where an item is cut off.
+    /// Returns the next item; nullopt at the end, or where an item is cut off.
     [[nodiscard]] std::optional<Item> next();
     /// True if the last next() reached the end of the descriptor, not an item that is cut off.
     [[nodiscard]] bool is_complete() const { return position_ == bytes_.size(); }

@@ -27,11 +27,12 @@ void pack(const Field& field, std::int64_t value, std::span<std::byte> data);
 void pack_bits(const Field& field, std::uint32_t bits, std::span<std::byte> data);
 
 /// The whole logical value nearest to a share of full scale: 0 is 0, 1 the range's upper end, and
-/// -1 its lower end or the upper one's opposite, whichever is nearer to 0. What is beyond is
-/// limited; what is not finite is 0.
+/// -1 its lower end or the upper one's opposite, whichever is nearer to 0. A share beyond -1 or 1
+/// is limited to these ends; one that is not finite gives 0.
 [[nodiscard]] std::int64_t scaled(const Field& field, double share);
 
-/// Where in the field's logical range a value lies: -1 at its lower end, 1 at its upper.
+/// Returns the position of a value in the field's logical range: -1 at its lower end, 1 at its
+/// upper.
 [[nodiscard]] double share_of(const Field& field, std::int64_t value);
 
 } // namespace hapnet::device::hid

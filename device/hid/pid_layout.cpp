@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t buttons_max = 8;
 
-/// Whether all values of the field's logical range have room in its bits.
+/// True if all values of the field's logical range have room in its bits.
 bool has_room(const Field& field)
 {
     const std::int64_t values = std::int64_t{1} << field.bit_size;
@@ -28,7 +28,7 @@ class Search {
 public:
     explicit Search(const Descriptor& descriptor) : descriptor_{descriptor} {}
 
-    /// From now on in reports of this kind with fields in this collection.
+    /// Searches from now on in reports of this kind with fields in this collection.
     void in(ReportKind kind, Usage collection, std::string_view report)
     {
         kind_ = kind;
@@ -36,7 +36,7 @@ public:
         report_ = report;
         place_.reset();
     }
-    /// From now on in any report of this kind.
+    /// Searches from now on in any report of this kind.
     void anywhere(ReportKind kind, std::string_view report) { in(kind, 0, report); }
 
     [[nodiscard]] std::optional<Field> optional(Usage variable)
@@ -57,7 +57,7 @@ public:
     }
     /// A way to say each of these.
     [[nodiscard]] Selector selector(std::initializer_list<Usage> choices, std::string_view name);
-    /// The report that the last ones lie in.
+    /// The report that contains the last fields found.
     [[nodiscard]] ReportPlace place() const { return place_.value_or(ReportPlace{}); }
 
     [[nodiscard]] const std::string& missing() const { return missing_; }

@@ -88,7 +88,7 @@ private:
         if (moved_ == TransferResult::yes) moved_ = wire_.write(report.all());
     }
 
-    /// As far as the device takes it: each report that it does not take costs 5 s.
+    /// Cleans up until the device does not take a report, because each such report costs 5 s.
     void clean_up(const Prepared& prepared)
     {
         moved_ = TransferResult::yes;

@@ -16,21 +16,21 @@
 
 namespace hapnet::device::hid {
 
-/// Turns orders into reports, one after the other, as fast as the device takes them; what an order
-/// says last counts, however many were missed.
+/// Turns orders into reports, one after the other, as fast as the device takes them. Only the
+/// newest order counts, however many were missed.
 ///
 /// Each axis has an effect of its own. A tick with the motors on costs one Set Constant Force
 /// report an axis, so two; every tenth starts the effects again, too. (A single effect with a
-/// direction would cost two as well, Set Effect and Set Constant Force, and between them the
-/// device would push the old force in the new direction.) A full-speed device takes a report
-/// every millisecond at most, and so hears of each axis 450 times a second.
+/// direction would cost two as well, Set Effect and Set Constant Force, and between them the device
+/// would push the old force in the new direction.) A full-speed device takes a report every
+/// millisecond at most, and so hears of each axis 450 times a second.
 ///
 /// To stop, it says three times over: stop all effects, disable the actuators, no force on any
 /// axis. Then it is silent, but for an order that wants to hear whether the device lives: then it
 /// says once more that the actuators are disabled.
 ///
-/// It only ever writes: a question (GET_REPORT) that a device leaves open holds the kernel up for
-/// 5 s, and with it every stop behind it.
+/// It only ever writes: a question (GET_REPORT) that a device leaves open holds the kernel up for 5
+/// s, and with it every stop behind it.
 class PidSender {
 public:
     /// `blocks`: the places of the effects, an axis each.

@@ -38,7 +38,7 @@ struct RecognisedDevice {
     std::optional<DeviceError> unusable{};
 };
 
-/// nullopt: neither a force-feedback device nor a SpaceMouse.
+/// Returns nullopt for a node that is neither a force-feedback device nor a SpaceMouse.
 [[nodiscard]] std::optional<RecognisedDevice> recognise(const HidNode& shown);
 
 /// Returns the name and the note for the user.

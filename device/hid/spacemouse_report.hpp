@@ -24,7 +24,7 @@ struct SpaceMouseReport {
 /// No SpaceMouse reports more than this.
 inline constexpr int deflection_valid_max = 1000;
 
-/// nullopt: nonsense. A report of another number gives an empty one.
+/// Returns nullopt for nonsense. A report of another number gives an empty one.
 [[nodiscard]] std::optional<SpaceMouseReport> read_spacemouse(std::span<const std::byte> report);
 
 /// Returns the name of the SpaceMouse; "" for a USB identity that is not a SpaceMouse's.

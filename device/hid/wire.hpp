@@ -38,8 +38,9 @@ public:
     // does: the kernel gives up after 5 s.
     [[nodiscard]] virtual TransferResult write(std::span<const std::byte> report) = 0;
     [[nodiscard]] virtual TransferResult set_feature(std::span<const std::byte> report) = 0;
-    /// Asks for the report whose ID stands first, into the same bytes: only while a device is
-    /// opened, as a question that it leaves open holds up all that would stop it.
+    /// Asks for the report whose ID stands first, into the same bytes. Use it only while a device
+    /// is opened: a request without an answer delays all later reports, also those that would stop
+    /// the device.
     [[nodiscard]] virtual TransferResult get_feature(std::span<std::byte> report) = 0;
 };
 

@@ -81,7 +81,7 @@ base::Result<DeviceState> device_in(const json& it)
                        .plain_axes = !axes.is_string() || axes == "XYZ"};
 }
 
-/// Of a grip: with a cable it has one button, without one three.
+/// Returns the buttons of a grip: with a cable it has one button, without one three.
 std::uint8_t buttons_of(const json& grips)
 {
     if (!grips.is_array() || grips.empty()) return 0;

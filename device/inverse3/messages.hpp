@@ -45,10 +45,10 @@ inline constexpr std::size_t message_bytes_max = std::size_t{256} * 1024;
 inline constexpr std::size_t devices_max = 16;
 inline constexpr std::size_t id_bytes_max = 64;
 
-/// Reads a message. What it does not know it leaves aside; a device without an identity of 1 to 64
-/// printable characters without quotes, or without a position and a velocity of finite numbers, is
-/// an error, and so is what is no JSON object, too long, or has more than 16 devices. A state that
-/// does not say so is not calibrated.
+/// Reads a message. Unknown members are ignored. A device needs an identity of 1 to 64 printable
+/// characters without quotes, and a position and a velocity of finite numbers; otherwise the
+/// message is an error. So is one that is no JSON object, is too long, or has more than 16 devices.
+/// A state is calibrated only if it says so.
 [[nodiscard]] base::Result<ServiceState> parse_state(std::string_view text);
 
 /// The message that tells the device a force, which answers itself with a state. Zero where the

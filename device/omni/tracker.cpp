@@ -12,7 +12,7 @@ namespace {
 
 // A stylus that rests jitters by less.
 constexpr int resting_counts = 3;
-// After this many lost reports a hand may be anywhere.
+// The number of lost reports after which a hand may be anywhere.
 constexpr std::uint32_t skipped_max = 100;
 // The ranges of the joints and the inkwell's pose are known to no more.
 constexpr double slack_radians = 0.15;
@@ -73,8 +73,8 @@ void Tracker::follow_dock(const Report& report, base::TimePoint now)
 const Sample& Tracker::at(base::TimePoint now)
 {
     if (!heard_at_) heard_at_ = now;
-    // Of several reports that come together, the last one counts: they do not tell the time
-    // between them.
+    // The last one of several reports that come together counts: they do not tell the time between
+    // them.
     if (std::exchange(has_moved_, false)) sample_.velocity = velocity_.at(sample_.hip, now);
     sample_.calibrated = zero_.has_value();
     sample_.fault = fault_at(now);

@@ -48,7 +48,8 @@ public:
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
 
-    // For the start and the end; they wait for an answer, but no longer than two seconds.
+    // These calls are for the start and the end. They wait for an answer, but no longer than two
+    // seconds.
 
     [[nodiscard]] virtual Opened<Channels> allocate() = 0;
     /// Reads as many bytes as there is room for.
@@ -58,19 +59,19 @@ public:
                                                              std::span<const std::byte> bytes) = 0;
     /// Begins to listen, and to be able to send.
     [[nodiscard]] virtual Opened<Channels> start(const Channels& channels) = 0;
-    /// Waits until what was sent is on the wire, or cannot be any more.
+    /// Waits until everything that was sent is on the wire, or can no longer be sent.
     virtual void drain() noexcept = 0;
 
-    // In a tick: none of them waits.
+    // These calls are for a tick: none of them waits.
 
-    /// The oldest that has not been asked for yet.
+    /// Takes the oldest packet that has not been taken yet.
     [[nodiscard]] virtual Arrival receive(ReceivedPacket& packet) noexcept = 0;
     /// Sends a command for the next millisecond; from any thread. False when it cannot be sent now
     /// because the last ones are still under way: one that pushes may be dropped then; one at zero
     /// is always taken.
     virtual bool send(const HostPacket& packet) noexcept = 0;
 
-    /// Waits until something comes, and not longer; whether something has.
+    /// Waits until something comes, and not longer than `most`. Returns true if something has come.
     [[nodiscard]] virtual bool wait(base::Duration most) noexcept = 0;
 };
 

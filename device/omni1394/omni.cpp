@@ -18,12 +18,13 @@ namespace hapnet::device::omni1394 {
 namespace {
 
 constexpr int last_words = 3;
-// Whether it sends 1000 packets a second or one in each of the bus's 8000 cycles, no source says:
-// a beat comes no sooner than this after the last, and then with a packet.
+// No source says if the device sends 1000 packets a second or one in each of the bus's 8000 cycles.
+// A beat therefore comes no sooner than this number of cycles after the last, and only with a
+// packet.
 constexpr unsigned beat_cycles = 6;
 constexpr unsigned cycles_per_second = 8000;
 constexpr std::size_t news_per_beat_max = 16;
-// More than two seconds of packets: it has started to count anew.
+// More than two seconds of packets: it has started to count from the beginning.
 constexpr std::uint32_t skipped_max = 2 * cycles_per_second;
 
 std::string_view describe(Use use)

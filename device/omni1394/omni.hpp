@@ -18,8 +18,8 @@ namespace hapnet::device::omni1394 {
 
 /// The PHANToM Omni with FireWire; written from descriptions, never run on the physical device.
 /// Without a measured table of torques it sends no force, except, where that is asked for, a
-/// quarter of what the motors may be told. Whether the device has a watchdog is unknown. What it
-/// does when this program is killed is therefore unknown; no more packets come then.
+/// quarter of what the motors may be told. It is unknown whether the device has a watchdog. Its
+/// reaction when this program is killed is therefore unknown, too; no more packets come then.
 class Omni final : public Device {
 public:
     /// Goes through the start; gives a device that speaks, or why it does not.
@@ -49,7 +49,7 @@ private:
     };
     Omni(Started started, const Profile& profile, Use use);
 
-    /// Takes what has come; whether that makes a beat.
+    /// Takes what has come. Returns true if that makes a beat.
     [[nodiscard]] bool gather();
     void take(const ReceivedPacket& received, base::TimePoint now);
     [[nodiscard]] HostPacket lights() const;

@@ -32,7 +32,7 @@ using HostBytes = std::array<std::byte, host_packet_bytes>;
 
 /// Motors beyond their range are clamped.
 [[nodiscard]] HostBytes encode(const HostPacket& packet);
-/// nullopt where encode() gives nothing like it.
+/// Returns nullopt for bytes that encode() never gives.
 [[nodiscard]] std::optional<HostPacket> decode_host(std::span<const std::byte> bytes);
 
 /// A packet from the device.
@@ -54,7 +54,7 @@ using DeviceBytes = std::array<std::byte, device_packet_bytes_min>;
 
 /// Encodes a packet, for test doubles of the device.
 [[nodiscard]] DeviceBytes encode(const DevicePacket& packet);
-/// nullopt where it is too short or does not begin as all of them do.
+/// Returns nullopt for bytes that are too short or do not begin as every device packet does.
 [[nodiscard]] std::optional<DevicePacket> decode_device(std::span<const std::byte> bytes);
 
 } // namespace hapnet::device::omni1394

@@ -35,7 +35,7 @@ public:
         : channels_{channels}, writes_dubious_register_{writes_dubious_register}
     {}
 
-    /// nullopt: it is over, well or not.
+    /// Returns the next access; nullopt: the sequence is over, with success or not.
     [[nodiscard]] std::optional<RegisterAccess> next() const;
     /// Takes the answer to the access that next() returned: the bytes that were read, or none after
     /// a write.

@@ -30,11 +30,11 @@ inline constexpr double page_reach_m = 0.25;
 /// The place that a page asks for. An error for a coordinate that is no number or out of reach.
 [[nodiscard]] base::Result<base::Position> parse_page_place(double x, double y, double z);
 
-/// A simulated hand that a person moves on a page: it goes where it is told, and whoever moves it
-/// sees the force and does not feel it. Wishes come a few times in a tenth of a second; in between
-/// the hand goes evenly, at most as fast as speed_max_m_per_s. Times are those of the loop: a wish
-/// counts from the tick that takes it. The hand is let go, as a stylus in its holder, before a
-/// session has a start, when the person lets it go, and when nothing has come for lets_go_after.
+/// A simulated hand that a person moves on a page: it goes where it is told. The person who moves
+/// it sees the force and does not feel it. Wishes come a few times in a tenth of a second; in
+/// between the hand goes evenly, at most as fast as speed_max_m_per_s. Times are those of the loop:
+/// a wish counts from the tick that takes it. The hand is let go, as a stylus in its holder, before
+/// a session has a start, when the person lets it go, and when nothing has come for lets_go_after.
 class PageHand final : public Device {
 public:
     static constexpr base::Duration lets_go_after{std::chrono::milliseconds{250}};

@@ -18,8 +18,8 @@ public:
     /// Returns the command to send at `now`. `newest` is the latest command; `is_new` is true if it
     /// has changed since the last call.
     [[nodiscard]] Command pass(const Command& newest, bool is_new, base::TimePoint now);
-    /// The answer to the command that was sent last. Gives it with the fault that it had, or that
-    /// one had in the last 20 ms: what reads less often than the device is asked misses none.
+    /// Returns the answer to the command that was sent last, with its fault or that of an answer in
+    /// the last 20 ms. Code that reads less often than the device is asked then misses no fault.
     [[nodiscard]] std::optional<Report> heard(std::optional<Report> report, base::TimePoint now);
 
     static constexpr base::Duration fresh_for{std::chrono::milliseconds{20}};

@@ -38,7 +38,7 @@ std::optional<double> number_in(std::string_view cell)
     return is_all && std::isfinite(value) ? std::optional{value} : std::nullopt;
 }
 
-/// Which cell of a line is which; in the unit that the columns' names say.
+/// The cells of a line that hold each value, in the units of the columns' names.
 struct Columns {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t count = 0;

@@ -17,9 +17,9 @@ enum class AfterTheEnd : std::uint8_t {
     begins_again, // with a jump, unless it ends where it began
 };
 
-/// A hand that goes a recorded way, whatever force it is given: evenly from one recorded moment to
-/// the next. The trace's time counts from the session's start; before its first moment the hand
-/// waits there. The velocity is that of a device: the way's differences, low-passed at 30 Hz.
+/// A hand that follows a recorded path, whatever force it is given: evenly from one recorded moment
+/// to the next. The trace's time counts from the session's start; before its first moment the hand
+/// waits there. The velocity is that of a device: the path's differences, low-passed at 30 Hz.
 class Replay final : public Device {
 public:
     /// `trace` has at least one moment, in the order of time. `source` is for the description.

@@ -9,7 +9,7 @@
 
 namespace hapnet::device {
 
-/// Where a hand is to be, seconds after the task's start; it stops there.
+/// A place where a hand is to be, seconds after the task's start. The hand stops there.
 struct Waypoint {
     double at_s = 0.0;
     double x_m = 0.0;

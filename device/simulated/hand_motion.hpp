@@ -38,8 +38,8 @@ public:
     /// Mass and stiffness above 0, damping and friction not below.
     HandMotion(const HandImpedance& hand, double friction_n);
 
-    /// How long the steps are from now on. Costs an exponential and two sines; nothing when it is
-    /// what it was.
+    /// Sets the length of the steps from now on. Costs an exponential and two sines, or nothing
+    /// when the length has not changed.
     void set_step(double seconds);
 
     void advance(HandAxis& axis, const HandDrive& drive) const;
@@ -55,7 +55,8 @@ private:
     static void move(HandAxis& axis, const HandResponse& response, const Pull& pull);
 
     [[nodiscard]] HandResponse response_after(double seconds) const;
-    /// When in a step the motion ends whose velocity has changed its sign at the step's end.
+    /// Returns the time in a step at which a motion ends whose velocity has changed its sign at the
+    /// step's end.
     [[nodiscard]] double rest_between(double velocity, double velocity_at_end,
                                       const Pull& pull) const;
     /// Starts the motion from rest, after a part of the step has passed.

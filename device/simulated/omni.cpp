@@ -90,7 +90,7 @@ void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,
     const double share = 1.0 / static_cast<double>(steps);
     const double seconds = share * base::to_seconds(elapsed);
     motion_.set_step(seconds);
-    // As arrays: an index into a glm vector costs a branch.
+    // Axes are arrays: an index into a glm vector costs a branch.
     using Axes = std::array<double, 3>;
     const auto per_axis = [](const glm::dvec3& v) { return Axes{v.x, v.y, v.z}; };
     const Axes begin = per_axis(intended_.value);

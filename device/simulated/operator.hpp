@@ -107,11 +107,11 @@ constexpr auto fields_of(base::Tag<Intent> /*struct*/)
                                     "from the force to the reaction"));
 }
 
-/// How a hand looks for a body that it means to touch and does not feel: `after` so long without a
-/// force its intention goes on toward the body at `speed`, at most `reach` beyond its task's. It
-/// stops at the first touch, which takes no time here, and stays there until its task has come as
-/// far; where the task does not mean to touch, it goes back. T1, T2, T3 and T7; chosen, not
-/// measured.
+/// The way in which a hand looks for a body that it means to touch and does not feel. After the
+/// time `after` without a force, its intention moves toward the body at `speed`, at most `reach`
+/// beyond the task's aim. It stops at the first touch, without a reaction time, and stays there
+/// until the task's aim has come as far. Where the task does not mean to touch, the intention goes
+/// back. T1, T2, T3 and T7; chosen, not measured.
 struct Search {
     double speed_m_per_s = 0.0; // 0: it does not look
     base::Duration after{std::chrono::milliseconds{400}};
@@ -184,8 +184,9 @@ inline constexpr auto operator_names = base::names("relaxed", "nominal", "firm",
 /// TOML that reads back as the same operator; of every parameter.
 [[nodiscard]] std::string print_operator(const Operator& person);
 
-/// One of `of` operators that together spread every parameter evenly over +-30 % of `person`'s: a
-/// latin hypercube (McKay, Beckman, Conover 1979). A pure function of its arguments; 0 stays 0.
+/// Returns one of `of` operators that together spread every parameter evenly over +-30 % of
+/// `person`'s: a latin hypercube (McKay, Beckman, Conover 1979). A pure function of its arguments;
+/// 0 stays 0.
 [[nodiscard]] Operator varied(const Operator& person, base::Seed seed, std::uint32_t index,
                               std::uint32_t of);
 

@@ -30,7 +30,7 @@ class Person {
 public:
     explicit Person(const Role& role);
 
-    /// From `rest`, where the hand is.
+    /// Takes the session's start. `rest` is the place where the hand is.
     void on_cue(const Cue& cue, const glm::dvec3& rest);
 
     /// A fault of the device was latched, or has ended.
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] const HandImpedance& hand() const { return role_.person.hand; }
 
 private:
-    /// From a fault to the return to its part.
+    /// The pause from a fault to the return to the hand's part.
     struct Pause {
         bool is_over = false;
         base::Position place{};                 // where the hand stays

@@ -14,7 +14,8 @@ struct Perception {
     glm::dvec3 deviation{0.0};        // of the hand from its intention, metres
     double pressing_n = 0.0;          // the force with which it presses
     std::optional<double> wanted_n{}; // with which it wants to; nullopt: it does not care
-    /// How far toward the body its task goes, metres, where it looks for it; nullopt: it does not.
+    /// The task's aim along the direction toward the body, metres, while the hand looks for it;
+    /// nullopt: it does not look.
     std::optional<double> aim_m{};
 };
 

@@ -17,10 +17,10 @@ namespace {
 constexpr double touching_m = 0.025;
 constexpr double clear_m = 0.055; // from the cube's centre, on the way to the part
 
-// How far a hand keeps off before it closes in. In T1: the idle hand.
+// The distance that a hand keeps before it closes in; in T1, that of the idle hand.
 constexpr double clearance_m = 0.008;
-// It closes in until it is so near, and then presses gently: a cube that two hands touch gives way
-// unopposed for as long as their forces travel.
+// The hand closes in to this distance, and then presses gently: a cube that two hands touch gives
+// way unopposed for as long as their forces travel.
 constexpr double near_m = 0.001;
 constexpr double near_after_s = 0.5;
 constexpr double pressing_after_s = 2.0;
@@ -34,14 +34,15 @@ constexpr double watching_z_m = -0.030;
 // T1: the path speed over which the turn changes.
 constexpr double turn_speed_m_per_s = 0.020;
 
-// Of the contact between a finger and the cube.
+// The stiffness of the contact between a finger and the cube.
 constexpr double contact_n_per_m = 500.0;
 
 // T3: what 4 mm of a nominal hand's aim press with; the mean stays below 0.8 N.
 constexpr double carry_squeeze_n = 4.0 / 7.0;
 
 // T4: the friction between finger and cube carries the cube's 0.5 N on 0.86 N of squeeze twice
-// over. The aim goes a little farther than the cube is to: so much do the hands give way.
+// over. The aim goes a little farther than the cube should, because the hands give way by that
+// distance.
 constexpr double lift_aim_m = 0.0525;
 constexpr double lift_begins_s = 6.0; // until then delayed forces have been made up for
 constexpr double lift_takes_s = 2.0;
@@ -63,8 +64,8 @@ constexpr double tap_hertz = 3.0;
 constexpr double tap_amplitude_m = 0.013;
 constexpr double tap_off_m = 0.004;
 
-// T8: so far beside the cube's middle a hand presses; when it turns the other way, on its other
-// side.
+// T8: the distance from the cube's middle at which a hand presses; when the hand turns the other
+// way, on the other side.
 constexpr double turn_beside_m = 0.010;
 constexpr double turn_angle_rad = 0.5; // each way
 constexpr double turn_squeeze_n = 0.7;
@@ -90,7 +91,7 @@ double sine_of_turns(double turns)
     return sine[0];
 }
 
-/// From 0 to 1 between two times, smoothly.
+/// Goes smoothly from 0 to 1 between two times.
 double between(double begin, double end, double t)
 {
     return minimum_jerk((t - begin) / (end - begin));

@@ -13,7 +13,7 @@ namespace hapnet::device {
 
 namespace {
 
-/// The four sines, millimetres.
+/// Returns the sum of the four sines that move the hand, in millimetres.
 double swings_mm(double seconds)
 {
     // Phases in turns, of 3.09, 3.24, 4.43 and 5.32 rad.

@@ -23,7 +23,8 @@ constexpr int silent_exchanges = 3;
 
 } // namespace
 
-/// What the thread and the device share. The thread holds on to it, as it may outlive the device.
+/// The data that the thread and the device share. The thread holds a reference, as it may outlive
+/// the device.
 struct PolledDevice::Shared {
     explicit Shared(std::unique_ptr<polled::Exchange> its_exchange)
         : exchange{std::move(its_exchange)}
@@ -61,7 +62,7 @@ struct PolledDevice::Shared {
     std::binary_semaphore done{0};
 };
 
-/// What belongs to the device's own thread.
+/// The data of the device's own thread.
 struct PolledDevice::Own {
     Identity identity;
     Capabilities capabilities;

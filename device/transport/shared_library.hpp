@@ -13,8 +13,8 @@ namespace hapnet::device {
 /// loaded a second time (CHAI3D saw it).
 class SharedLibrary {
 public:
-    /// From `file`, or with "" from the first of the usual names that the system finds. The error
-    /// is the loader's complaint about the first one.
+    /// Loads `file`, or with "" the first of the usual names that the system finds. The error is
+    /// the loader's complaint about the first one.
     [[nodiscard]] static base::Result<SharedLibrary> load(const std::string& file,
                                                           std::span<const char* const> usual_names);
 

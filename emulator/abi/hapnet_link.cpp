@@ -34,14 +34,14 @@ using namespace hapnet::emulator; // NOLINT(google-global-names-in-headers)
 
 namespace {
 
-/// What may be in flight on one link, each way.
+/// The limits of the datagrams in flight on one link, each way.
 constexpr auto limits = QueueLimits::within(std::size_t{64} << 20);
 constexpr base::Duration budget = std::chrono::milliseconds{1};
 
 base::TimePoint time_of(std::int64_t ns) { return base::TimePoint{base::Duration{ns}}; }
 std::int64_t ns_of(base::TimePoint time) { return time.time_since_epoch().count(); }
 
-/// As snprintf() does: a cut text has its final 0, too.
+/// Writes like snprintf(): a cut text has its final 0, too.
 std::size_t write(std::string_view text, char* buffer, std::size_t size)
 {
     if (size > 0) {
@@ -75,7 +75,7 @@ base::Result<Profile> profile_of(const std::string& text, const net::Folder* fol
     return parse_profile(preset->text, preset->source, open);
 }
 
-/// What a setting changes on the path of the link.
+/// Returns the change that a setting makes to the path of the link.
 base::Result<Set> set_of(std::string_view key, std::string_view value, const Path& path)
 {
     const OpenFile no_files = [](const std::string& name) -> base::Result<std::string> {

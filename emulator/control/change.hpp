@@ -56,8 +56,8 @@ struct Effect {
     std::vector<NextNumbers> next; // of each path: for these it holds
 };
 
-/// Tells all paths at once, in one step of the emulation's work; see Paths::apply(). What the
-/// command takes the place of is freed by the thread that calls this.
+/// Tells all paths at once, in one step of the emulation's work; see Paths::apply(). The calling
+/// thread frees the replaced settings.
 [[nodiscard]] base::Result<Effect> change(Emulation& emulation, const Paths::CommandFor& command,
                                           std::span<const std::string> mentioned,
                                           base::TimePoint now, ChangeCause by = ChangeCause::hand);

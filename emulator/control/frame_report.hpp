@@ -16,7 +16,8 @@ namespace hapnet::emulator {
 
 // The frame of an emulator: docs/formats/live.md.
 
-/// One direction of a path since the frame before; what waits to leave is that of now.
+/// One direction of a path since the frame before; the number of waiting datagrams is the present
+/// one.
 struct WayFrame {
     Counters counters;
     Pulse pulse;

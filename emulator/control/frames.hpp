@@ -20,8 +20,8 @@
 
 namespace hapnet::emulator {
 
-/// Makes frames for those who watch: docs/formats/live.md. What has left the links is shared out to
-/// all watches whenever one of them asks, so that none misses what another has seen.
+/// Makes frames for watches: docs/formats/live.md. Whenever one watch asks, the departures from the
+/// links are shared out to all of them, so that none misses a departure that another has seen.
 class Frames : public std::enable_shared_from_this<Frames> {
 public:
     /// Largest number of paths in a frame.

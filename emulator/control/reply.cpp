@@ -68,7 +68,8 @@ OpenFile files_for(const SentFiles& sent, const Emulation& emulation)
     };
 }
 
-/// `warnings`: what of it cannot be done.
+/// Reads the profile that a client has sent, or the preset that it has named. `warnings` gets a
+/// sentence for each part of a netem sentence that is done differently here.
 base::Result<Profile> parsed(const ProfileText& text, const SentFiles& files,
                              const Emulation& emulation, std::vector<std::string>& warnings)
 {
@@ -88,7 +89,7 @@ base::Result<Profile> parsed(const ProfileText& text, const SentFiles& files,
     });
 }
 
-/// What holds now, without what does nothing: {"up.delay":"160ms", ...}.
+/// Returns the present conditions, without those that change nothing: {"up.delay":"160ms", ...}.
 Json conditions_json(const Moment& moment)
 {
     Json json = Json::object();
@@ -137,7 +138,7 @@ std::string answer_of(const base::Result<Json>& effect)
     return effect ? line_of(*effect) : refusal(effect.error().message);
 }
 
-/// What is set by hand on several paths: one entry for all that ends at the same time.
+/// Returns the settings made by hand on several paths: one entry for all that end at one time.
 Json live_of_several(const std::vector<Decider>& deciders, base::TimePoint now)
 {
     std::map<std::optional<base::TimePoint>, std::vector<PathPatch>> by_end;
@@ -188,7 +189,8 @@ Json live_of(const Director& director)
     return live;
 }
 
-/// What is still to come; with clients, of those that have nothing of their own.
+/// Returns the changes that are still to come; with clients, those of clients without settings of
+/// their own.
 Profile remaining_of(const Emulation& emulation, const std::vector<Decider>& deciders)
 {
     const bool has_clients = emulation.paths.names().clients;
@@ -318,7 +320,7 @@ nlohmann::ordered_json statistics_of(Emulation& emulation)
 
 output::Metrics metrics_of(nlohmann::ordered_json statistics)
 {
-    // Not the sums of links and flows besides: whoever adds up would count all twice.
+    // Leaves out the sums of links and flows: adding up all entries would count them twice.
     const auto leave_parts_of = [](nlohmann::ordered_json& whole, const char* parts) {
         if (!whole.contains(parts)) return false;
         whole.erase("up");

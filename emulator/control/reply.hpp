@@ -33,7 +33,7 @@ namespace hapnet::emulator {
 /// The emulator's statistics with "generation" and "elapsed_s".
 [[nodiscard]] nlohmann::ordered_json statistics_of(Emulation& emulation);
 
-/// The metrics in the statistics of a run. Of several links each has its own.
+/// Returns the metrics in the statistics of a run. Each of several links has its own.
 [[nodiscard]] output::Metrics metrics_of(nlohmann::ordered_json statistics);
 
 /// Returns the answer to a request, or the condition or interval that the client waits for.

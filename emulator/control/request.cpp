@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using control::Members;
 
-/// A round of the relay may take a frame along so often.
+/// The least time between two frames that a round of the relay may take along.
 constexpr base::Duration frames_least = 20ms;
 
 std::vector<SettingText> settings_of(Members& members)

@@ -17,7 +17,7 @@
 
 namespace hapnet::emulator {
 
-// What a client of the control socket may ask; docs/formats/control.md describes it.
+// Requests of the control socket's clients; docs/formats/control.md describes them.
 
 /// A key and its value as a profile or a command line writes them: "both.delay", "80ms".
 using SettingText = std::pair<std::string, std::string>;

@@ -16,8 +16,8 @@
 
 namespace hapnet::emulator {
 
-// What --stats writes and `stats` answers: docs/formats/statistics.md. What a run of some kind does
-// not have is left out.
+// The statistics that --stats writes and `stats` answers: docs/formats/statistics.md. Keys that a
+// kind of run does not have are left out.
 
 /// The conditions of a path that are not the default, as a profile writes them.
 struct Configuration {

@@ -11,7 +11,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// As a person writes it: "80ms" for a text, anything else as in a profile.
+/// Returns the setting as a person writes it: "80ms" for a text, anything else as in a profile.
 std::string unquoted(const std::string& toml)
 {
     const bool is_plain_text = toml.size() >= 2 && toml.front() == '"' && toml.back() == '"' &&

@@ -8,14 +8,14 @@
 
 namespace hapnet::emulator {
 
-/// The paths of a run whose parts relay side by side: each part has Paths of its own, which know of
-/// the paths of the others what is decided for them, and so decide the same. What one is told, all
-/// are told. Its functions are for a moment in which no part is at work.
+/// The paths of a run whose parts relay side by side: each part has Paths of its own, which know
+/// the decisions for the paths of the other parts, and so decide the same. Each command goes to all
+/// parts. Call its functions only while no part is at work.
 class AllPaths {
 public:
-    /// Of a run with one part. Implicit: it is what most runs have.
+    /// All paths of a run with one part. Implicit: most runs have one part.
     AllPaths(Paths& only) : parts_{&only} {} // NOLINT(google-explicit-constructor)
-    /// At least one.
+    /// `parts` has at least one part.
     explicit AllPaths(std::vector<Paths*> parts);
 
     /// See Paths::apply(): for all parts, or for none.
@@ -35,10 +35,10 @@ public:
     [[nodiscard]] PathNames names() const { return parts_.front()->names(); }
     [[nodiscard]] const std::vector<Flow>& flows() const { return parts_.front()->flows(); }
 
-    /// Those that are there, in each part in the order in which they came.
+    /// The paths that are there, part by part, in the order in which they came.
     [[nodiscard]] std::vector<const Paths::Named*> all() const;
 
-    /// What decides for each; see Paths::deciders().
+    /// The directors of all paths; see Paths::deciders().
     [[nodiscard]] std::vector<Paths::Decider> deciders() const;
 
 private:

@@ -44,14 +44,15 @@ public:
     [[nodiscard]] bool is_idle() const { return queue_.empty() && evicted_.empty(); }
     /// True if nothing happens in it as long as nothing arrives.
     [[nodiscard]] bool rests() const { return is_idle() && !has_regimes_; }
-    /// From now on its rate changes by itself, or no longer: whoever changes it is to be asked
-    /// first.
+    /// Says if the rate changes by itself from now on. If it does, rests() is false, so that the
+    /// link that changes it is asked first.
     void have_regimes(bool do_so) { has_regimes_ = do_so; }
-    /// Whether it wants to know of what flow a datagram is.
+    /// True if it wants to know of what flow a datagram is.
     [[nodiscard]] bool is_fair() const { return fair_ != nullptr; }
 
-    /// Whether a payload of so many bytes would find room at the end of the queue. What is being
-    /// sent does not count. Where each flow has a queue, the longest one makes room.
+    /// True if a payload of this number of bytes would find room at the end of the queue. The
+    /// datagram that is being sent does not count. Where each flow has a queue, the longest one
+    /// makes room.
     [[nodiscard]] bool has_room(std::size_t payload_bytes) const
     {
         if (queue_.empty()) return true;
@@ -104,17 +105,17 @@ public:
         }
     }
 
-    /// When the one that is being sent will have left; nullopt when idle, or when the line will
-    /// never send it.
+    /// The time when the datagram that is being sent will have left; nullopt when idle, or when the
+    /// line will never send it.
     [[nodiscard]] std::optional<base::TimePoint> next_sent() const
     {
         return evicted_.empty() ? next_sent_ : std::optional{evicted_.front().datagram.due};
     }
 
-    /// The next that has left by `now`; due: when its last bit had left. What is left over when the
-    /// rate is taken away leaves at once, also by the time of an arrival just before that. What the
-    /// law of the queue drops comes here, too, at the time at which the line was free for it, and
-    /// at once what had to make room.
+    /// Takes the next datagram that has left by `now`; its `due` is the time when its last bit had
+    /// left. Datagrams that still wait when the rate is removed leave at once, also by the time of
+    /// an arrival just before that. Datagrams that the law of the queue drops come here, too, at
+    /// the time when the line was free for them. Those that had to make room come at once.
     [[nodiscard]] std::optional<Queued> pop(base::TimePoint now)
     {
         if (!evicted_.empty()) {
@@ -139,8 +140,8 @@ public:
         return sent;
     }
 
-    /// Another rate from `now` on, for what waits and for the rest of what is being sent. All that
-    /// has left by `now` has to be popped before.
+    /// Changes the rate from `now` on, for waiting datagrams and for the rest of the one that is
+    /// being sent. Pop all that has left by `now` first.
     void change(const Rate& rate, base::TimePoint now, const QueueControl& control = {})
     {
         manager_.change(control);
@@ -183,7 +184,7 @@ private:
 
     [[nodiscard]] std::size_t waiting_turns() const { return is_fair() ? fair_->size() : 0; }
 
-    /// Gives each flow a queue, or none. What waits in those that are there is served first then.
+    /// Gives each flow a queue, or none. Datagrams that wait in existing queues are served first.
     void make_fair(const QueueControl& control)
     {
         const bool is_to_be = control.law == QueueLaw::fq_codel;
@@ -236,7 +237,7 @@ private:
         work_ = 0;
     }
 
-    /// Whether the line will not be free by then for what arrives now.
+    /// True if the line will not be free by then for what arrives now.
     [[nodiscard]] bool is_busy_beyond(base::TimePoint then) const
     {
         constexpr std::size_t most = 1U << 30U; // more is beyond any time that a person writes

@@ -13,8 +13,8 @@
 
 namespace hapnet::emulator {
 
-/// What makes conditions change: a setting made by hand, or its end; the profile's timeline; the
-/// profile read again.
+/// The cause of a change of conditions: a setting made by hand, or its end; the profile's timeline;
+/// the profile read again.
 enum class ChangeCause : std::uint8_t { hand, timeline, reload };
 constexpr auto names_of(base::Tag<ChangeCause>)
 {

@@ -46,7 +46,7 @@ public:
 
     [[nodiscard]] const Address& address(std::size_t place) const { return at(place).address; }
 
-    /// When the client will have been silent for so long that it may be forgotten.
+    /// The time when the client will have been silent long enough to be forgotten.
     [[nodiscard]] base::TimePoint idle_at(std::size_t place) const
     {
         return at(place).heard + idle_;

@@ -33,7 +33,7 @@ constexpr auto names_of(base::Tag<Direction>) { return base::names("up", "down")
     return base::name_of(direction);
 }
 
-/// In which order datagrams leave that jitter would let overtake each other.
+/// The order in which datagrams leave that jitter would let overtake each other.
 enum class Order : std::uint8_t {
     keep,   // none leaves before one that arrived earlier: wide jitter lengthens the mean
     free,   // each leaves at its own time: wide jitter reorders
@@ -111,10 +111,10 @@ constexpr auto fields_of(base::Tag<Mtu>)
                    .required());
 }
 
-/// A bottleneck that sends so many bits a second, one datagram after the other, from a queue that
-/// drops what does not fit (QueueControl may drop more). 0 bits and no trace: no bottleneck. With a
-/// burst it is a token bucket: what the line could have sent while it had nothing to send, up to so
-/// many bytes, leaves at once.
+/// A bottleneck that sends at a rate in bits a second, one datagram after the other, from a queue
+/// that drops datagrams for which it has no room (QueueControl may drop more). 0 bits and no trace:
+/// no bottleneck. With a burst it is a token bucket: the amount that the line could have sent while
+/// it was idle, up to `burst_bytes`, leaves at once.
 struct Rate {
     static constexpr std::size_t burst_bytes_most = std::size_t{1} << 30;
 
@@ -128,7 +128,7 @@ struct Rate {
 
     friend bool operator==(const Rate&, const Rate&) = default;
 };
-/// Without the trace, which is a law with keys of its own.
+/// The fields without the trace, which is a law with keys of its own.
 constexpr auto fields_of(base::Tag<Rate>)
 {
     return base::fields(
@@ -144,7 +144,7 @@ constexpr auto fields_of(base::Tag<Rate>)
                     "depth of a token bucket: bytes that leave at once after a pause; 0: none"));
 }
 
-// Whether a stage can do what it says; the error says what would be right.
+// Refuse a stage whose parameters are impossible. The error says what would be right.
 
 [[nodiscard]] base::Result<void> validate(const Mtu& mtu);
 [[nodiscard]] base::Result<void> validate(const Rate& rate);
@@ -164,7 +164,7 @@ struct Regimes {
     friend bool operator==(const Regimes& a, const Regimes& b);
 };
 
-/// What one direction does to its datagrams. The defaults do nothing.
+/// The effect of one direction on its datagrams. The defaults change nothing.
 struct Conditions {
     Mtu mtu{};
     Rate rate{};
@@ -181,7 +181,7 @@ struct Conditions {
     friend bool operator==(const Conditions&, const Conditions&) = default;
 };
 
-/// What a change sets; the rest stays as it is.
+/// The settings that a change sets; the rest stays as it is.
 struct Patch {
     std::optional<Mtu> mtu{};
     std::optional<Rate> rate{};
@@ -215,8 +215,9 @@ struct WeightsFormat {
     [[nodiscard]] std::string describe() const { return "a table of weights, such as { bad = 1 }"; }
 };
 
-/// One of the states of a link: how long it lasts, what comes after it, and what it sets of delay,
-/// jitter, loss, rate, order, corrupt and duplicate. What it does not set is the direction's own.
+/// One of the states of a link: how long it lasts on average, the states that may follow it, and
+/// its settings of delay, jitter, loss, rate, order, corrupt and duplicate. Settings that it does
+/// not have are the direction's own.
 struct Regime {
     std::string name;
     base::Duration stay{};
@@ -225,7 +226,7 @@ struct Regime {
 
     friend bool operator==(const Regime&, const Regime&) = default;
 };
-/// Without its conditions, which have the keys of a direction.
+/// The fields without its conditions, which have the keys of a direction.
 constexpr auto fields_of(base::Tag<Regime>)
 {
     return base::fields(
@@ -255,7 +256,7 @@ inline constexpr std::array<std::string_view, 7> regime_keys{
 /// Their names, in their order.
 [[nodiscard]] std::vector<std::string> regime_names(const Regimes& regimes);
 
-/// One of the settings of a direction: its key, and where it is kept.
+/// A setting of a direction: its key, and the member that holds it.
 template <typename T>
 struct SettingSlot {
     std::string_view key;
@@ -287,7 +288,7 @@ constexpr void for_each_setting(const Visit& visit)
 /// `a` and what `b` sets besides or instead.
 [[nodiscard]] Patch merged(Patch a, const Patch& b);
 
-/// What `conditions` say that differs from the default.
+/// Returns the settings of `conditions` that differ from the default.
 [[nodiscard]] Patch to_patch(const Conditions& conditions);
 
 /// The conditions with what `patch` sets.
@@ -297,7 +298,7 @@ constexpr void for_each_setting(const Visit& visit)
 /// regimes themselves.
 [[nodiscard]] Conditions in_regime(const Conditions& conditions, std::size_t index);
 
-/// Both ways of a path.
+/// Both directions of a path.
 struct Path {
     Conditions up;
     Conditions down;

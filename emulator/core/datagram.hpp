@@ -25,10 +25,10 @@ namespace hapnet::emulator {
 //   Datagram        here            it waits for its time in the delay line, or leaves
 //   CapturedPacket  capture/        it passes a socket, as a capture file has it
 
-/// What a port knows of a datagram besides its bytes. No stage of the pipeline sees it.
+/// Facts that a port knows of a datagram besides its bytes. No stage of the pipeline sees them.
 struct Headers {
-    /// Before the datagram in its bytes, such as an Ethernet header: carried along, neither counted
-    /// nor changed.
+    /// The length of the envelope before the datagram in its bytes, such as an Ethernet header. The
+    /// envelope is carried along, neither counted nor changed.
     std::uint8_t envelope_bytes = 0;
     base::IpMarks marks{};
 };
@@ -44,7 +44,7 @@ struct Datagram {
     base::TimePoint due{};              // never leaves before
     std::span<const std::byte> bytes{}; // stay where they are until it has left
 
-    /// Of the datagram itself.
+    /// The size of the datagram itself, without its envelope.
     [[nodiscard]] std::size_t size() const { return bytes.size() - envelope_bytes; }
 };
 

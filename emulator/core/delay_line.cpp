@@ -54,8 +54,9 @@ std::optional<Datagram> DelayLine::pop_earliest(base::TimePoint now)
     const auto due = earliest_due();
     if (!base::is_due(due, now)) return std::nullopt;
     if (!times_.empty() && times_.front() == *due) return pop_sorted();
-    // Of equal times those in turn were pushed first: what came after one in the heap is due after
-    // the one that was the last in turn then, which is still there.
+    // Among equal times the datagrams in turn were pushed first. A datagram goes to the heap when
+    // it is due before the last one in turn. Those that come in turn later are due no earlier than
+    // that last one, which is still there.
     if (heap_.empty() || (!in_turn_.empty() && in_turn_.front().due == *due)) return in_turn_.pop();
     std::pop_heap(heap_.begin(), heap_.end(), leaves_after);
     const Datagram datagram = heap_.back().datagram;

@@ -36,7 +36,7 @@ public:
         return in_turn_.pop();
     }
 
-    /// When the earliest datagram is due; nullopt when the line is empty.
+    /// The time when the earliest datagram is due; nullopt when the line is empty.
     [[nodiscard]] std::optional<base::TimePoint> next_due() const
     {
         if (!are_in_turn()) return earliest_due();
@@ -55,7 +55,7 @@ private:
         std::uint64_t rank = 0; // of its push
     };
     static bool leaves_after(const HeapEntry& a, const HeapEntry& b);
-    /// As a constant delay leaves them.
+    /// True if the datagrams are due in the order of arrival, as a constant delay leaves them.
     [[nodiscard]] bool are_in_turn() const { return heap_.empty() && times_.empty(); }
     [[nodiscard]] std::optional<base::TimePoint> earliest_due() const;
     [[nodiscard]] std::optional<Datagram> pop_earliest(base::TimePoint now);

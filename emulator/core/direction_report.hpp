@@ -46,7 +46,7 @@ constexpr auto fields_of(base::Tag<TimesReport>)
             .left_out_if_none());
 }
 
-/// What is told of the delays of a stream.
+/// The report on the delays of a stream.
 struct DelayReport {
     base::Moments moments;
     base::Quantiles quantiles;
@@ -147,13 +147,13 @@ constexpr auto fields_of(base::Tag<RegimeReport>)
                             .counter("hapnet_emulator_regime_stays"));
 }
 
-/// By their names.
+/// The reports of the regimes, by their names.
 using RegimeReports = base::Entries<RegimeReport>;
-/// nullopt: there are none.
+/// Returns nullopt if there are no regimes.
 [[nodiscard]] std::optional<RegimeReports>
 regime_reports_of(const Regimes& regimes, const std::vector<RegimeCourse>& course);
 
-/// What a run knows of one direction.
+/// The data that a run has about one direction.
 struct DirectionReport {
     const Statistics* statistics = nullptr;
     const StreamTotals* stream = nullptr; // nullptr: of the sum of several paths
@@ -164,7 +164,7 @@ struct DirectionReport {
     bool has_distributions = false; // whole distributions, not quantiles alone
     std::optional<RegimeReports> regimes{};
 
-    /// What is against its being valid; see invalid_because().
+    /// The reasons why this direction is not valid; none if it is. See invalid_because().
     [[nodiscard]] std::vector<std::string> reasons() const;
 
     [[nodiscard]] TimesReport times(const base::DurationHistogram& histogram) const;

@@ -30,7 +30,7 @@ Patch picked(const Conditions& conditions, const Patch& patch)
     return picked;
 }
 
-/// What both patches set, as it is in `conditions`.
+/// Returns the settings that both patches set, with their values in `conditions`.
 Patch common(const Patch& a, const Patch& b, const Conditions& conditions)
 {
     Patch only_in_a = a;
@@ -55,7 +55,7 @@ void strip(Director::Override& one, const Patch& up, const Patch& down)
     strip(one.down, down);
 }
 
-/// Whether both patches set the same setting.
+/// True if there is a setting that both patches set.
 bool meets(const Patch& patch, const Patch& later)
 {
     bool does = false;
@@ -85,7 +85,7 @@ bool sets_nothing(const Director::Override& one)
     return sets_nothing(one.up) && sets_nothing(one.down);
 }
 
-/// Whether an override that ends at `until` is over no later than one that ends at `other`.
+/// True if an override that ends at `until` is over no later than one that ends at `other`.
 bool ends_within(std::optional<base::TimePoint> until, std::optional<base::TimePoint> other)
 {
     return !other || (until && *until <= *other);
@@ -182,7 +182,7 @@ void Director::follow(std::shared_ptr<const Script> script, base::TimePoint begi
     if (!update() && !is_the_same) ++generation_;
 }
 
-/// Whether there were steps since.
+/// Takes the settings of the steps since `before` out of the overrides. True if there were steps.
 bool Director::let_later_steps_win(base::Duration before)
 {
     const auto begin = after(script_->profile().timeline, before);

@@ -19,15 +19,15 @@
 
 namespace hapnet::emulator {
 
-/// Settings from now on, over whatever the profile says; for a time only when `lasting` is given,
-/// after which holds what would hold without them.
+/// Settings from now on, over those of the profile. With `lasting` they end after that time, and
+/// the conditions hold that would hold without them.
 struct Set {
     Patch up;
     Patch down;
     std::optional<base::Duration> lasting{}; // more than 0
 };
 
-/// Another profile. Its timeline counts from now, and what was set by hand is gone.
+/// Applies another profile. Its timeline counts from now, and settings made by hand are gone.
 struct Apply {
     std::shared_ptr<const Script> script; // never null
 
@@ -35,16 +35,16 @@ struct Apply {
     explicit Apply(Profile profile) : script{std::make_shared<const Script>(std::move(profile))} {}
 };
 
-/// Back to the profile that the emulator was started with, where its timeline stands by now: what
-/// would hold if nobody had ever changed anything.
+/// Returns to the profile with which the emulator was started, at the present time of its timeline:
+/// as if nobody had ever changed anything.
 struct Reset {};
 
 using Command = std::variant<Set, Apply, Reset>;
 
-/// Decides which conditions hold when: a profile, its timeline, and what is set by hand over it.
-/// Of two that say something about the same setting the later one wins, be it a step of the
-/// timeline or a person: a setting made by hand holds until the timeline's next step of that
-/// setting, and a ramp that is under way when it is made has no effect on it.
+/// Decides which conditions hold when: a profile, its timeline, and settings made by hand over it.
+/// The later of two changes of the same setting wins, whether it is a step of the timeline or made
+/// by hand: a setting made by hand holds until the timeline's next step of that setting, and a ramp
+/// that is under way when it is made has no effect on it.
 ///
 /// Does no I/O and reads no clock: feed it with apply(), call advance() by next_change(), and hand
 /// path() to the links whenever generation() has grown.
@@ -75,7 +75,7 @@ public:
 
     /// The conditions that hold at the time of the last call.
     [[nodiscard]] const Path& path() const { return *path_; }
-    /// The same conditions, to be shared with the links. Never null.
+    /// The conditions of path(), to be shared with the links. Never null.
     [[nodiscard]] const std::shared_ptr<const Path>& shared_path() const { return path_; }
 
     /// 1 at first, and one more whenever path() has changed or another profile was applied.
@@ -86,10 +86,11 @@ public:
     enum class Reason : std::uint8_t { hand, step, ramp };
     [[nodiscard]] Reason last_reason() const { return last_reason_; }
 
-    /// When advance() is to be called again; nullopt when time alone changes nothing.
+    /// The time at which to call advance() again; nullopt when time alone changes nothing.
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
-    /// Whether the conditions have changed by `now`. Cheap when next_change() has not come.
+    /// Moves on to `now`. Returns true if the conditions have changed. Cheap when next_change() has
+    /// not come.
     bool advance(base::TimePoint now)
     {
         const base::TimePoint before = now_;
@@ -101,7 +102,7 @@ public:
     /// refused.
     base::Result<void> apply(const Command& command, base::TimePoint now);
 
-    /// Whether both are at the same point, as far as it can be told at once: what is done to both
+    /// True if both are at the same point, as far as it can be told at once: what is done to both
     /// makes them the same again, and so has to be done once only. Their times may differ while
     /// nothing has become due.
     [[nodiscard]] bool is_twin_of(const Director& other) const;
@@ -109,17 +110,17 @@ public:
     /// The profile that it follows, with the timeline.
     [[nodiscard]] const Script& script() const { return *script_; }
 
-    /// What is set by hand; a later one wins over an earlier one. Never null.
+    /// The settings made by hand. A later one wins over an earlier one. Never null.
     using Overrides = std::vector<std::shared_ptr<const Override>>;
     [[nodiscard]] const Overrides& overrides() const { return overrides_; }
 
     /// The time of the last call.
     [[nodiscard]] base::TimePoint now() const { return now_; }
 
-    /// How far the timeline has come.
+    /// The time since the timeline began.
     [[nodiscard]] base::Duration position() const { return now_ - begin_; }
 
-    /// How long the run has lasted.
+    /// The time since the run began.
     [[nodiscard]] base::Duration elapsed() const { return now_ - start_; }
 
     /// A profile that, when it is applied now, changes nothing: the conditions that hold and what

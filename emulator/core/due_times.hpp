@@ -13,8 +13,9 @@
 
 namespace hapnet::emulator {
 
-/// When something is due in each of many places, and the earliest of them: a tournament tree. It
-/// is told which places to ask again, so that each turn costs what has changed, not what is there.
+/// The due time of each of many places, and the earliest of them: a tournament tree. Places are
+/// marked when they have to be asked again, so that the cost of each turn depends on the number of
+/// changes, not of places.
 class DueTimes {
 public:
     /// A place that is told apart from the others.
@@ -23,7 +24,7 @@ public:
         Place() = default; // of none: marking it does nothing
         Place(DueTimes& all, std::size_t number) : all_{&all}, number_{number} {}
 
-        /// What is due here may have changed.
+        /// Marks this place, because its due time may have changed.
         void mark() const
         {
             if (all_ != nullptr) all_->mark(number_);

@@ -21,9 +21,9 @@
 
 namespace hapnet::emulator {
 
-/// Both ways of an emulated path: two links, and the director that decides which conditions hold
-/// on them. Does no I/O and reads no clock: feed it with on_packet(), drain it with poll(), and
-/// call advance() by next_deadline(). Conditions that change in between hold from the first
+/// Both directions of an emulated path: two links, and the director that decides which conditions
+/// hold on them. Does no I/O and reads no clock: feed it with on_packet(), drain it with poll(),
+/// and call advance() by next_deadline(). Conditions that change in between hold from the first
 /// datagram that arrives after their time.
 class EmulatedPath {
 public:
@@ -82,13 +82,13 @@ public:
         link_of(direction).on_failed(datagram, cause);
     }
 
-    /// When the next datagram is due; nullopt when none is in flight.
+    /// The time when the next datagram is due; nullopt when none is in flight.
     [[nodiscard]] std::optional<base::TimePoint> next_due() const
     {
         return base::earlier(up_.next_deadline(), down_.next_deadline());
     }
 
-    /// When a datagram is due or the conditions may change.
+    /// The time when a datagram is due or the conditions may change.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
     {
         return base::earlier(next_due(), director_.next_change());
@@ -98,19 +98,21 @@ public:
     base::Result<void> apply(const Command& command, base::TimePoint now,
                              ChangeCause by = ChangeCause::hand);
 
-    /// From now on another director decides: the own one, as it has gone on elsewhere.
+    /// Makes the conditions follow `director` from now on: a copy of this path's own director that
+    /// has gone on elsewhere.
     void follow(const Director& director, base::TimePoint now, ChangeCause by);
-    /// The same of one that has only followed its timeline.
+    /// As above, for a director that has only followed its timeline.
     void follow(const Director& director, base::TimePoint now);
 
-    /// Its datagrams go through the bottlenecks of another path; see Link::share_bottleneck_of().
+    /// Sends its datagrams through the bottlenecks of another path; see
+    /// Link::share_bottleneck_of().
     void share_bottlenecks_of(EmulatedPath& other)
     {
         up_.share_bottleneck_of(other.up_);
         down_.share_bottleneck_of(other.down_);
     }
 
-    /// From now on packets of a flow go to the path of that flow.
+    /// Sends packets of a flow to the path of that flow from now on.
     void branch(std::unique_ptr<Branches> branches) { branches_ = std::move(branches); }
     /// The flows beside it; null: there are none.
     [[nodiscard]] Branches* branches() const { return branches_.get(); }
@@ -121,7 +123,7 @@ public:
     [[nodiscard]] const Director& director() const { return director_; }
     /// Its number among several; see Paths::each_due().
     [[nodiscard]] std::size_t number() const { return place_.number(); }
-    /// How the conditions have changed since the start.
+    /// The changes of the conditions since the start.
     [[nodiscard]] const ChangeLog& changes() const { return changes_; }
     [[nodiscard]] const Link& link(Direction direction) const
     {

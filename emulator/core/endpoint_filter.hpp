@@ -11,7 +11,7 @@
 
 namespace hapnet::emulator {
 
-/// Where a datagram came from.
+/// The sender of a datagram, as the filter knows it.
 enum class Sender : std::uint8_t {
     known,
     adopted, // known from now on
@@ -28,12 +28,12 @@ class EndpointFilter {
 public:
     static constexpr base::Duration silence_max = std::chrono::seconds{1};
 
-    /// nullopt: adopt.
+    /// Without an address the filter adopts one.
     explicit EndpointFilter(std::optional<Address> configured)
         : address_{std::move(configured)}, adopts_{!address_}
     {}
 
-    /// Who sent a datagram that came from `from` and arrived at `at`. May adopt.
+    /// Judges the sender of a datagram that came from `from` and arrived at `at`. May adopt it.
     [[nodiscard]] Sender classify(const Address& from, base::TimePoint at)
     {
         const bool known = address_ == from;
@@ -46,13 +46,13 @@ public:
         return Sender::adopted;
     }
 
-    /// nullopt until an endpoint is adopted.
+    /// The address; nullopt until an endpoint is adopted.
     [[nodiscard]] const std::optional<Address>& address() const { return address_; }
 
-    /// When its last datagram came.
+    /// The time when its last datagram came.
     [[nodiscard]] base::TimePoint heard_at() const { return heard_; }
 
-    /// Whether another sender may take the place of a silent one.
+    /// True if another sender may take the place of a silent one.
     [[nodiscard]] bool adopts() const { return adopts_; }
 
 private:

@@ -49,7 +49,7 @@ constexpr auto names_of(base::Tag<DropCause>)
 }
 [[nodiscard]] constexpr std::string_view to_text(DropCause cause) { return base::name_of(cause); }
 
-/// Each of them, in order.
+/// Every cause of a drop, in order.
 inline constexpr auto drop_causes = [] {
     std::array<DropCause, base::names_of_enum<DropCause>.size()> all{};
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<DropCause>(i);
@@ -67,7 +67,8 @@ struct Flips {
     friend bool operator==(const Flips&, const Flips&) = default;
 };
 
-/// How far behind its turn a datagram leaves: after so many later ones have left, or so much later.
+/// The distance by which a datagram leaves behind its turn: after this number of later ones, or
+/// later by this time.
 struct Displacement {
     std::uint32_t places = 0;
     base::Duration time{};
@@ -75,7 +76,7 @@ struct Displacement {
     friend bool operator==(const Displacement&, const Displacement&) = default;
 };
 
-/// In which state a law of loss judged a datagram.
+/// The state in which a law of loss judged a datagram.
 enum class LossState : std::uint8_t {
     none, // the law has no states
     good,
@@ -95,14 +96,14 @@ constexpr auto names_of(base::Tag<LossState>)
 /// The most laws of loss that one direction may have.
 inline constexpr std::size_t loss_laws_max = 8;
 
-/// What is to become of a datagram: delivered, or dropped for a cause. A pure function of the seed,
-/// the direction, the conditions and the numbers of the datagrams, and for laws that depend on time
-/// of the arrivals; what the queues make of it is not part of it. One that is delivered by all laws
-/// is dropped nevertheless as long as there is nobody on the other side: no_destination.
+/// The fate of a datagram: delivered, or dropped for a cause. A pure function of the seed, the
+/// direction, the conditions and the numbers of the datagrams, and for laws that depend on time of
+/// the arrivals; what the queues make of it is not part of it. A datagram that all laws deliver is
+/// still dropped while there is nobody on the other side: no_destination.
 struct Fate {
     std::optional<DropCause> drop{}; // nullopt: it is delivered
     std::uint8_t regime = 0;         // that it met, counted from 1; 0: there are none
-    // Of a delivered one; of a dropped one all of these are as they stand here.
+    // Properties of a delivered datagram. A dropped one keeps these defaults.
     base::Duration delay{};                     // before queues and the order policy; not negative
     std::optional<base::Duration> copy_after{}; // a copy leaves this long after the original
     Flips flips{};
@@ -110,7 +111,7 @@ struct Fate {
 
     std::array<LossState, loss_laws_max> states{}; // of the laws, in the order of their list
 
-    /// Whether the conditions, or a replay, drop it.
+    /// True if the conditions, or a replay, drop it.
     [[nodiscard]] bool is_lost() const { return drop && *drop != DropCause::no_destination; }
 
     friend bool operator==(const Fate&, const Fate&) = default;

@@ -81,7 +81,7 @@ public:
             hash_ = (hash_ ^ std::to_integer<std::uint32_t>(byte)) * 16'777'619U;
         }
     }
-    /// With all bits spread over all others, as flows are told apart by some of them.
+    /// Spreads all bits over all others, because flows are told apart by some of them.
     [[nodiscard]] std::uint32_t value() const
     {
         std::uint32_t mixed = hash_ ^ hash_ >> 16;
@@ -115,7 +115,7 @@ std::uint16_t folded(std::uint64_t sum)
     return static_cast<std::uint16_t>(~sum & 0xffff);
 }
 
-/// What stands behind an IP header.
+/// The payload behind an IP header.
 struct Segment {
     std::uint8_t protocol = 0;
     std::span<std::byte> bytes{};
@@ -164,7 +164,7 @@ void fix_ipv4(std::span<std::byte> packet)
                  .is_v4 = true});
 }
 
-/// Of a packet with an extension header the checksum stays as it is.
+/// The checksum of a packet with an extension header stays as it is.
 void fix_ipv6(std::span<std::byte> packet)
 {
     if (packet.size() < ipv6_header_bytes || at8(packet, 0) >> 4 != 6) return;

@@ -12,7 +12,7 @@
 
 namespace hapnet::emulator {
 
-/// What an Ethernet frame carries.
+/// The kind of payload of an Ethernet frame.
 enum class FrameKind : std::uint8_t {
     ip,         // IPv4 or IPv6, also with VLAN tags
     neighbours, // ARP, or the part of ICMPv6 that takes its place: who is where
@@ -54,9 +54,9 @@ struct Frame {
 /// that belongs to it. Ensures that it has marks.
 void mark_congestion(std::span<std::byte> frame);
 
-/// Computes the checksums of IPv4, TCP, UDP, ICMP and ICMPv6 anew, where the frame has them whole:
-/// no fragment, no header that says more bytes than there are. A UDP datagram over IPv4 without a
-/// checksum stays without.
+/// Recomputes the checksums of IPv4, TCP, UDP, ICMP and ICMPv6 where the frame has the whole
+/// packet: no fragment, and no header that claims more bytes than there are. A UDP datagram over
+/// IPv4 without a checksum stays without.
 void fix_checksums(std::span<std::byte> frame);
 
 } // namespace hapnet::emulator

@@ -16,7 +16,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// How long a datagram waits for later ones to overtake it before it leaves anyway.
+/// The time for which a datagram waits for later ones to overtake it before it leaves anyway.
 constexpr base::Duration displaced_for_max = std::chrono::seconds{1};
 constexpr std::size_t displaced_max = 1024;
 

@@ -31,7 +31,7 @@
 
 namespace hapnet::emulator {
 
-/// What became of a datagram on its arrival.
+/// The outcome of a datagram's arrival.
 struct Admission {
     std::uint64_t number = 0;
     Fate fate;                     // as it was drawn, or replayed
@@ -59,7 +59,7 @@ public:
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
-    /// The same; links may share them.
+    /// As above; several links may share `conditions`.
     Link(std::shared_ptr<const Conditions> conditions, const Setup& setup);
     Link(Link&&) noexcept;
     Link& operator=(Link&&) noexcept;
@@ -77,7 +77,7 @@ public:
     /// back through on_sent() or on_failed(), once; until then it counts as in flight.
     [[nodiscard]] std::optional<Datagram> poll(base::TimePoint now);
 
-    /// When poll() is to be called again; nullopt when nothing is in flight.
+    /// The time at which to call poll() again; nullopt when nothing is in flight.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
     /// The datagram left at `at`.
@@ -92,13 +92,13 @@ public:
     {
         share(std::make_shared<const Conditions>(conditions), now);
     }
-    /// The same of conditions that other links have, too. Not null.
+    /// As change(), with conditions that other links also have. Not null.
     void share(std::shared_ptr<const Conditions> conditions, base::TimePoint now);
 
-    /// From now on its datagrams go through the bottleneck and the queue of another link of the
-    /// same direction, and afterwards on through this one. Of all that share them, the earliest
-    /// arrival comes first. Ensures that it has no rate of its own. The other stays where it is,
-    /// and outlives what is in flight here.
+    /// Sends its datagrams from now on through the bottleneck and the queue of another link of the
+    /// same direction, and afterwards on through this one. Among all links that share them, the
+    /// earliest arrival comes first. Ensures that this link has no rate of its own. The other stays
+    /// where it is, and outlives what is in flight here.
     void share_bottleneck_of(Link& other);
 
     [[nodiscard]] const Conditions& conditions() const { return *conditions_; }
@@ -109,8 +109,8 @@ public:
     {
         return pipeline_.regime_course(until);
     }
-    /// What left since the last call. The first one begins to count, so that a link costs no more
-    /// as long as nobody watches.
+    /// Returns the departures since the last call. The first call begins to count, so that a link
+    /// costs no more while nobody watches.
     [[nodiscard]] Pulse take_pulse() { return std::exchange(pulse_, Pulse{}).value_or(Pulse{}); }
 
 private:

@@ -77,7 +77,7 @@ public:
         return stretches_[current_];
     }
 
-    /// From the start to the latest time that was asked for.
+    /// The stretches from the start to the latest time that was asked for.
     [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
     [[nodiscard]] base::Duration length() const { return length_; }
     [[nodiscard]] std::vector<StretchReport> report() const;

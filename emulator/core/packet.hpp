@@ -9,7 +9,7 @@
 
 namespace hapnet::emulator {
 
-/// What an impairment may know of a datagram.
+/// Facts of a datagram that an impairment may use.
 struct Packet {
     std::uint64_t number = 0; // counts what arrived in its direction, from 0
     std::size_t bytes = 0;    // of payload

@@ -35,8 +35,8 @@ struct PathParts {
 /// "client.3" and "voice" are "client.3.flow.voice"; without a flow, the path itself.
 [[nodiscard]] std::string flow_path(std::string_view path, std::string_view flow);
 
-/// What settings for all paths are called that hold for this one, too: "flow.voice", or "" for one
-/// that is no flow.
+/// Returns the name of the settings for all paths that also hold for this one: "flow.voice", or ""
+/// for a path that is no flow.
 [[nodiscard]] std::string_view common_name(std::string_view name);
 
 /// A way as the keys of settings call it.
@@ -45,14 +45,14 @@ struct PathParts {
 /// A way as the names of its random streams begin: with '/' instead of '.', "client/3/up".
 [[nodiscard]] std::string stream_name(std::string_view path, Direction direction);
 
-/// As above, for streams that both ways share: "both", "client/3/both", "1-2/both".
+/// As stream_name(), for streams that both directions share: "both", "client/3/both", "1-2/both".
 [[nodiscard]] std::string stream_name_of_both(std::string_view path);
 
 /// A way for people: "up: from A to B", "1-2: from 1 to 2", "2-1: from 2 to 1", "wan.up",
 /// "client.3.down: from the server".
 [[nodiscard]] std::string way_in_words(std::string_view path, Direction direction);
 
-/// Whether its ways are called by two peers.
+/// True if its ways are called by two peers.
 [[nodiscard]] bool is_pair(std::string_view path);
 
 /// A name as --link takes it: "1-2" with the lower number first, or a word.
@@ -65,8 +65,8 @@ struct Way {
 
     friend bool operator==(const Way&, const Way&) = default;
 };
-/// What the beginning of a key names: "", "all", "both", "up", "1-2", "wan", "wan.up",
-/// "client.3.down", "flow.voice.up"; nullopt when it can be no such name.
+/// Parses the beginning of a key: "", "all", "both", "up", "1-2", "wan", "wan.up", "client.3.down",
+/// "flow.voice.up"; nullopt when it can be no such name.
 [[nodiscard]] std::optional<Way> parse_way(std::string_view text);
 
 /// True if it is the letter of a command, "a" to "h".
@@ -79,10 +79,10 @@ struct Way {
 /// letters: the path has the name of the lower one first.
 [[nodiscard]] Way way_between(std::string_view from, std::string_view to);
 
-/// What a client is called.
+/// Returns the name of a client's path.
 [[nodiscard]] std::string client_path(std::string_view number_or_address);
 
-/// Which paths a run has; by default the only one.
+/// The paths of a run; by default it has only one.
 struct PathNames {
     std::vector<std::string> links{};
     bool clients = false;                    // whoever comes

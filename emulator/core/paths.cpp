@@ -13,10 +13,11 @@
 
 namespace hapnet::emulator {
 
-/// What is done to directors that are twins is done to one of them.
+/// Groups directors that are twins: their common work is done on only one of them.
 class Paths::Twins {
 public:
-    /// What has become of one that was as this one is; nullptr: there was none.
+    /// Returns the new state of a director that was a twin of this one before its work was done;
+    /// nullptr: there was none.
     [[nodiscard]] const Director* find(const Director& director) const
     {
         const auto found = std::ranges::find_if(
@@ -28,7 +29,7 @@ public:
         return known_.emplace_back(Known{before, std::move(after)}).after;
     }
 
-    /// As director.advance(now), where something has become due by then.
+    /// Returns the director after advance(now), where a change has become due by then.
     const Director& advanced(const Director& director, base::TimePoint now)
     {
         if (const Director* twin = find(director)) return *twin;
@@ -47,7 +48,7 @@ private:
 
 namespace {
 
-/// Whether it is the name of a single path, not of a flow on all.
+/// True if it is the name of a single path, not of a flow on all.
 bool is_of_one(std::string_view name) { return common_name(name) != name; }
 
 std::shared_ptr<const FlowFilters> filters_of(const std::vector<Flow>& flows)
@@ -97,7 +98,7 @@ Director Paths::beginning_of(const std::string& name) const
     return std::ranges::find(beginnings_, common_name(name), &Absent::name)->director;
 }
 
-/// What decides for a path that comes now.
+/// Returns the director of a path that comes now.
 Director Paths::director_for(const std::string& name)
 {
     const auto known = std::ranges::find(absent_, name, &Absent::name);
@@ -181,7 +182,7 @@ void Paths::advance_all(base::TimePoint now)
             one.path->advance(now);
         }
     }
-    // Those that come later stay twins of those that are there.
+    // Paths that come later stay twins of those that are there.
     const auto advance = [&](Director& director) {
         if (is_due(director)) {
             director = twins.advanced(director, now);
@@ -266,7 +267,8 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     return {};
 }
 
-/// After another profile, what was set for those that are not there is gone.
+/// Forgets the settings of paths that are not there, after another profile or a reset. Paths that
+/// the profile names keep theirs.
 void Paths::forget_absent(const Command& command, std::span<const std::string> mentioned)
 {
     if (std::holds_alternative<Set>(command)) return;

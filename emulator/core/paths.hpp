@@ -57,15 +57,15 @@ public:
         if (base::is_due(next_change_, now)) advance_all(now);
     }
 
-    /// The same, and lets all of them know what time it is, also where nothing changes.
+    /// Like advance(), and tells all paths the time, also where nothing changes.
     void catch_up(base::TimePoint now)
     {
         now_ = std::max(now_, now);
         advance_all(now_);
     }
 
-    /// What a path is told, by its name and the conditions that hold on it. Those whose names are
-    /// not mentioned are told the same by the same conditions.
+    /// Returns the command for a path, by its name and the conditions that hold on it. Paths whose
+    /// names are not mentioned in apply() get the same command for the same conditions.
     using CommandFor =
         std::function<base::Result<Command>(std::string_view path, const Path& conditions)>;
 
@@ -83,7 +83,8 @@ public:
     /// The next generation comes after this one.
     void count_from(std::uint64_t generation) { generation_ = std::max(generation_, generation); }
 
-    /// When the next datagram of any path is due. Asks only paths that something happened to.
+    /// The time when the next datagram of any path is due. It asks only paths whose state has
+    /// changed.
     [[nodiscard]] std::optional<base::TimePoint> next_due()
     {
         refresh_due_times();
@@ -97,21 +98,22 @@ public:
     }
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
-    /// That of an EmulatedPath::number().
+    /// The path with this EmulatedPath::number().
     [[nodiscard]] EmulatedPath& at(std::size_t number) const { return *by_number_[number]; }
 
     [[nodiscard]] PathNames names() const;
-    /// Of each path.
+    /// The flows of each path.
     [[nodiscard]] const std::vector<Flow>& flows() const { return profile_.flows; }
 
     struct Named {
         std::string name;
         std::unique_ptr<EmulatedPath> path;
     };
-    /// In the order in which they came, each with its flows behind it.
+    /// The paths in the order in which they came, each with its flows behind it.
     [[nodiscard]] const std::vector<Named>& all() const { return paths_; }
 
-    /// What decides for a path; of those that are not there, as far as something is known of them.
+    /// The director of a path. Paths that are not there are included as far as something is known
+    /// of them.
     struct Decider {
         std::string_view name; // empty, or of a flow alone: of all that come and have nothing of
                                // their own
@@ -119,11 +121,11 @@ public:
     };
     [[nodiscard]] std::vector<Decider> deciders() const;
 
-    /// How many names a run with newcomers can keep settings for.
+    /// The number of names for which a run with newcomers can keep settings.
     static constexpr std::size_t absent_max = 64;
 
 private:
-    /// What decides for paths that are not there.
+    /// The director of paths that are not there.
     struct Absent {
         std::string name;
         Director director;
@@ -142,7 +144,7 @@ private:
     base::Result<void> expect(std::span<const std::string> mentioned);
     void forget_absent(const Command& command, std::span<const std::string> mentioned);
     [[nodiscard]] Director director_for(const std::string& name);
-    /// As if it had been there from the start, and nothing had been changed.
+    /// A director for a path as if it had been there from the start, and nothing had been changed.
     [[nodiscard]] Director beginning_of(const std::string& name) const;
     void keep_for_absent(const std::string& name);
     [[nodiscard]] std::uint64_t generations() const;

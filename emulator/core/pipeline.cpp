@@ -18,7 +18,7 @@ base::RandomStream stream_of(base::Seed seed, std::string_view way, std::string_
     return seed.stream(fmt::format("{}/{}", way, stage));
 }
 
-/// Whether a share of all datagrams includes this one. A stage that is absent draws nothing.
+/// True if a share of all datagrams includes this one. A stage that is absent draws nothing.
 bool is_drawn(base::Probability share, const base::RandomStream& stream, std::uint64_t number)
 {
     return share.fraction() > 0 && stream.uniform(number) < share.fraction();
@@ -211,7 +211,7 @@ Flips Pipeline::draw_flips(std::uint64_t number) const
     return flips;
 }
 
-/// How long after the original the copy leaves.
+/// Returns the time after the original at which the copy leaves.
 base::Duration Pipeline::draw_copy(std::uint64_t number) const
 {
     const auto spread = static_cast<double>(duplicate_.spread.count());

@@ -60,7 +60,7 @@ public:
     /// Time and stays of each regime until this time; empty: there are none.
     [[nodiscard]] std::vector<RegimeCourse> regime_course(base::Duration until) const;
 
-    /// That of a further stage of this direction.
+    /// The random stream of a further stage of this direction.
     [[nodiscard]] base::RandomStream stream(std::string_view stage) const;
 
     /// Holds from the next packet on; laws that stay go on from their states.

@@ -7,25 +7,26 @@
 
 namespace hapnet::emulator {
 
-/// What may be in flight at a time.
+/// Limits of the datagrams and bytes in flight at a time.
 struct QueueLimits {
     static constexpr std::size_t bytes_by_default = std::size_t{256} << 20;
     static constexpr std::size_t datagrams_min = 65'536;
 
-    /// Of each direction. The memory for the queues, about 350 bytes a datagram, is reserved for
-    /// as many, and used for as many as there were.
+    /// The limit of each direction. Address space for the queues is reserved for that number, about
+    /// 350 bytes a datagram. Memory is used only for the largest number that was there.
     std::size_t datagrams_max = datagrams_of(bytes_by_default);
-    /// Of each direction; the size of the slab where it is not shared.
+    /// The limit of each direction; the size of the slab where it is not shared.
     std::size_t bytes_max = bytes_by_default;
 
-    /// The limits of a path that has so much memory: a datagram for each KiB, or 65 536.
+    /// The limits of a path that has this amount of memory: a datagram for each KiB, at least
+    /// 65 536.
     [[nodiscard]] static constexpr QueueLimits within(std::size_t bytes)
     {
         return {.datagrams_max = datagrams_of(bytes), .bytes_max = bytes};
     }
 
-    /// Those of one of several paths that share so much memory: it may have more than its part
-    /// while others need less, and a few datagrams in any case.
+    /// The limits of one of several paths that share this amount of memory. A path may have more
+    /// than its part while others need less, and a few datagrams in any case.
     [[nodiscard]] static constexpr QueueLimits shared(std::size_t bytes, std::size_t paths)
     {
         constexpr std::size_t parts = 4;

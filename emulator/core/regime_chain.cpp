@@ -47,8 +47,8 @@ std::vector<double> followers_of(std::span<const Regime> regimes, std::size_t in
     return followers;
 }
 
-/// By the algorithm of Grassmann, Taksar and Heyman (Operations Research 33, 1985), which subtracts
-/// nothing.
+/// Computes the shares by the algorithm of Grassmann, Taksar and Heyman (Operations Research 33,
+/// 1985), which subtracts nothing.
 std::vector<double> shares_of(std::span<const Regime> regimes)
 {
     const std::size_t n = regimes.size();

@@ -26,8 +26,8 @@ struct RegimeCourse {
     std::uint64_t stays = 0;
 };
 
-/// Which regime holds when: a Markov chain in time. It is a function of the regimes and of its
-/// stream alone, and nothing of when it is asked. It begins in its stationary law.
+/// The regime that holds at each time: a Markov chain in time. It depends only on the regimes and
+/// on its stream, not on the times at which it is asked. It begins in its stationary law.
 class RegimeChain {
 public:
     /// `regimes` is one that validate() accepts, and not empty.
@@ -44,7 +44,7 @@ public:
     /// The one that was asked for last.
     [[nodiscard]] std::size_t current() const { return now_; }
 
-    /// When it ends.
+    /// The time when the regime of current() ends.
     [[nodiscard]] base::Duration end() const { return end_; }
 
     /// Time and stays of each until this time, or until that of the last call if it is later.

@@ -23,7 +23,7 @@ public:
     [[nodiscard]] bool empty() const { return size_ == 0; }
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool full() const { return size_ > mask_; }
-    /// Whether it would be, with so many.
+    /// True if the ring would be full with this number of elements.
     [[nodiscard]] bool is_full_with(std::size_t size) const { return size > mask_; }
 
     void push(const T& entry)

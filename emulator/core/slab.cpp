@@ -18,7 +18,7 @@ Slab::Slab(std::size_t bytes_max)
     open_.fill(none);
 }
 
-/// Which of the sizes is the smallest that holds so many bytes.
+/// Returns the index of the smallest size that holds this number of bytes.
 std::uint8_t Slab::size_for(std::size_t bytes)
 {
     static constexpr auto by_units = [] {
@@ -34,8 +34,8 @@ std::uint8_t Slab::size_for(std::size_t bytes)
     return by_units[(bytes + sizes.front() - 1) / sizes.front()];
 }
 
-/// A block with a free slot of this size; of a larger size when there is none, as small as it can
-/// be had.
+/// Returns a block with a free slot of this size. If none can be had, it has slots of the smallest
+/// larger size that has a free one; nullopt: no size has.
 std::optional<std::uint32_t> Slab::block_with_room(std::uint8_t size)
 {
     if (open_[size] != none) return open_[size];

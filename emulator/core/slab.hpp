@@ -23,10 +23,11 @@ public:
     using Slot = std::uint32_t;
     static constexpr Slot no_slot = 0xffff'ffff;
     static constexpr std::size_t block_bytes = std::size_t{64} << 10;
-    /// So that slots have a number.
+    /// The limit keeps the numbers of slots within 32 bits.
     static constexpr std::size_t bytes_limit = std::size_t{256} << 30;
 
-    /// At least one block, at most `bytes_limit`; a part of a block is not used.
+    /// Ensures that `bytes_max` is at least one block and at most `bytes_limit`. A part of a block
+    /// is not used.
     explicit Slab(std::size_t bytes_max);
 
     struct Stored {
@@ -51,7 +52,7 @@ private:
         }
         return each;
     }();
-    /// So many numbers a block has for its slots; those of the smallest size need all of them.
+    /// The number of slot numbers of a block. Slots of the smallest size need all of them.
     static constexpr std::uint32_t slots_max = block_bytes / sizes.front();
     static constexpr std::uint32_t none = 0xffff'ffff;
 

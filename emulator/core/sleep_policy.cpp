@@ -23,7 +23,7 @@ constexpr base::Duration margin_decay = 20ns;
 /// A warm-up takes 10 us, now and then 14 us (measured as above): it must not make us late.
 constexpr base::Duration warm_up_time = 15us;
 
-/// What a wake-up usually costs, to begin with (measured 2026, 2 virtual CPUs, Linux 6.18).
+/// The usual cost of a wake-up, to begin with (measured 2026, 2 virtual CPUs, Linux 6.18).
 constexpr base::Duration margin_at_start = 60us;
 
 } // namespace

@@ -43,7 +43,7 @@ public:
 
     SleepPolicy(Margin limits, base::TimePoint now, Watching watching = Watching::within_budget);
 
-    /// What to do at `now` before `deadline`; nullopt: there is none.
+    /// Returns the plan at `now` for the time before `deadline`; nullopt: there is none.
     [[nodiscard]] Plan plan(std::optional<base::TimePoint> deadline, base::TimePoint now) const;
 
     struct WakeUp {
@@ -52,13 +52,13 @@ public:
         bool by_datagram = false;
     };
 
-    /// How `plan` went.
+    /// Takes the outcome of `plan`.
     void on_wake_up(const Plan& plan, const WakeUp& wake_up);
 
-    /// Whether on_usage() is to be called.
+    /// True if on_usage() is to be called.
     [[nodiscard]] bool wants_usage(base::TimePoint now) const { return budget_.wants_usage(now); }
 
-    /// The relay's thread has used so much processor time since it began.
+    /// Takes the processor time that the relay's thread has used since it began.
     void on_usage(base::Duration processor_time, base::TimePoint now)
     {
         budget_.on_usage(processor_time, now);

@@ -12,7 +12,7 @@
 
 namespace hapnet::emulator {
 
-/// What became of the datagrams of one direction. At every moment
+/// Counts of the datagrams of one direction, by their outcome. At every moment
 /// received + duplicated = delivered + dropped_total() + in_flight.
 struct Counters {
     std::uint64_t received = 0;
@@ -87,11 +87,11 @@ struct Statistics : Counters {
     /// Adds up the directions of several paths.
     void add(const Statistics& other);
 
-    /// Whether the emulator's own timing error is tolerable: 99 % left at most `budget` late, or
+    /// True if the emulator's own timing error is tolerable: 99 % left at most `budget` late, or
     /// nothing left at all.
     [[nodiscard]] bool is_punctual(base::Duration budget) const;
 
-    /// How many left more than `budget` late.
+    /// The number of datagrams that left more than `budget` late.
     [[nodiscard]] std::uint64_t late_beyond(base::Duration budget) const;
 };
 

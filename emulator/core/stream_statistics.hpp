@@ -25,8 +25,8 @@ namespace hapnet::emulator {
 /// Departures that follow each other sooner than this come as a clump.
 inline constexpr base::Duration clump_gap = std::chrono::microseconds{50};
 
-/// What a stream looks like to a loop that is fed by it, one direction. nullopt where nothing was
-/// there to be measured. Copies count nowhere.
+/// One direction of a stream, as a loop sees it that takes its input from the stream. nullopt where
+/// there was nothing to measure. Copies are not counted.
 struct StreamReport {
     /// The law that was asked for, before queues and the order policy: the drawn delays of those
     /// that were to be delivered.
@@ -36,7 +36,7 @@ struct StreamReport {
     std::optional<base::Quantiles> delay_quantiles;
     /// Delay variation (RFC 3393): |delay - delay of the one that departed just before|.
     std::optional<base::Quantiles> delay_variation;
-    /// From each departure to the next.
+    /// The time from each departure to the next.
     std::optional<base::Quantiles> gap;
     /// The share of these gaps that are shorter than clump_gap, from 0 to 1.
     std::optional<double> clumped_share;
@@ -47,7 +47,7 @@ struct StreamReport {
     base::Tally missing_runs;
     /// Reordered departures (RFC 4737, 3.3) by their extents (4.2), which count departures.
     base::Tally reordered;
-    /// How many of these extents may be too small; see base::ReorderExtents.
+    /// The number of these extents that may be too small; see base::ReorderExtents.
     std::uint64_t beyond_look_back = 0;
 
     /// Age of information at the output, from the arrival of updates, between the first and the
@@ -55,7 +55,7 @@ struct StreamReport {
     base::Age age;
 };
 
-/// What has been measured of one direction so far.
+/// The measurements of one direction so far.
 struct StreamTotals {
     base::RunningMoments requested;
     base::RunningMoments delay;
@@ -71,7 +71,7 @@ struct StreamTotals {
     [[nodiscard]] StreamReport report() const;
 };
 
-/// How much of a stream is measured. Each level includes the ones before it.
+/// The extent to which a stream is measured. Each level includes the ones before it.
 enum class StreamDetail { nothing, totals, over_time };
 
 /// Measures one direction as it goes, in memory of a fixed size.

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t icmp_header_bytes = 8;
 constexpr std::byte hops{64};
 
-/// How a family answers: where its addresses stand, and how long an answer may be.
+/// The form of a family's answers: the place of the addresses, and the greatest length.
 struct Family {
     std::size_t header_bytes;
     std::size_t addresses_at; // the source's, and behind it the destination's

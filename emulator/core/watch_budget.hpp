@@ -10,10 +10,11 @@
 
 namespace hapnet::emulator {
 
-/// How much a thread may watch the clock, from the processor time that it has used. A SCHED_FIFO
-/// thread that takes nearly all of a core is stopped by the kernel for 50 ms of each second, so
-/// that other programs get their part (the fair server of Linux 6.12, sched_rt_runtime_us before
-/// it): each datagram of that time is late. So a thread that works much watches less.
+/// Limits the time for which a thread may watch the clock, by the processor time that it has used.
+/// A SCHED_FIFO thread that takes nearly all of a core is stopped by the kernel for 50 ms of each
+/// second, so that other programs get their part (the fair server of Linux 6.12,
+/// sched_rt_runtime_us before it): each datagram of that time is late. So a thread that works much
+/// watches less.
 ///
 /// Watching is permitted as long as a budget lasts. It fills by `percent_max` of the time that
 /// passes and is spent by all processor time that the thread uses, work included.
@@ -22,20 +23,21 @@ public:
     /// Without watching, 20 000 datagrams a second take 74 % of a core, and with it 14 000 take
     /// 87 %, at which the stops begin (2 virtual CPUs, Linux 6.18, one busy process beside).
     static constexpr int percent_max = 70;
-    /// What can be saved up, or owed: a flood is over at most so long after its end.
+    /// The limit of the time that can be saved up, or owed. The effect of a flood is over at most
+    /// this long after its end.
     static constexpr base::Duration balance_max = std::chrono::milliseconds{50};
     /// Reading the processor time is a system call.
     static constexpr base::Duration look_every = std::chrono::milliseconds{5};
 
     explicit WatchBudget(base::TimePoint now) : looked_{now} {}
 
-    /// Whether on_usage() is to be called.
+    /// True if on_usage() is to be called.
     [[nodiscard]] bool wants_usage(base::TimePoint now) const
     {
         return now - looked_ >= look_every;
     }
 
-    /// The thread has used so much processor time since it began.
+    /// Takes the processor time that the thread has used since it began.
     void on_usage(base::Duration used, base::TimePoint now)
     {
         const auto spent = used_ ? used - *used_ : base::Duration{0};

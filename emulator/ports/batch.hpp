@@ -23,7 +23,7 @@
 
 namespace hapnet::emulator::ports {
 
-/// One direction of a path, and where it is recorded.
+/// One direction of a path, and the place where it is recorded.
 struct Way {
     EmulatedPath& path;
     Direction direction;
@@ -111,13 +111,14 @@ void put_by_number(std::vector<Owner*>& owners, const EmulatedPath& path, Owner*
     }
 }
 
-/// How many batches of each direction one release() sends at most. Twice what one receive() takes
-/// with a copy of each: a flood cannot fill the queue by being taken faster than it is sent, and
-/// what it left behind there shrinks while it goes on.
+/// The greatest number of batches of each direction that one release() sends. Their datagrams are
+/// twice those of one receive() with a copy of each. A flood then cannot fill the queue by being
+/// taken faster than it is sent, and the datagrams that it left in the queue become fewer while it
+/// goes on.
 inline constexpr int release_rounds_max = 32;
 
-/// Sends at most one batch of what is due at `now` in a direction; returns whether it was a whole
-/// one.
+/// Sends at most one batch of the datagrams that are due at `now` in a direction. Returns true if
+/// the batch was full.
 bool send_due(const Way& way, const Exit& exit, base::TimePoint now);
 
 /// Sends the due datagrams of both directions in turn, with a limit so that arrivals do not have to

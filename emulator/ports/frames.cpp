@@ -147,7 +147,7 @@ void Frames::count(End& from, const net::ReceivedFrame& received, const Frame& f
     }
 }
 
-/// Before the bytes go that have arrived.
+/// Sends the frames that are not delayed. Call it while the arrived bytes exist: they are theirs.
 void Frames::send_leaving()
 {
     for (End& end : ends_) end.leaving.flush();
@@ -214,7 +214,7 @@ void Frames::tell_of_oversized(const End& from)
                                        : cure);
 }
 
-/// At once, as if the router were the emulator's interface.
+/// Answers at once, as if the router were the emulator's interface.
 void Frames::answer_too_big(End& from, std::size_t mtu, std::span<const std::byte> frame)
 {
     const auto answer = too_big_answer(frame, mtu);

@@ -49,7 +49,7 @@ public:
         [[nodiscard]] std::vector<std::string> path_names() const;
     };
 
-    /// One interface, and what came from it.
+    /// An interface, and the counts of the frames that came from it.
     struct End {
         End(const Place& place, Recorder::Lane& recorder, bool fixes_checksums);
 
@@ -94,11 +94,11 @@ public:
     /// Why it must not go on; nullopt: it may.
     [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
 
-    /// From now on an interface that goes is no failure: what stands behind it ends.
+    /// Makes the loss of an interface no failure from now on: the program behind it ends.
     void expect_end() { is_end_expected_ = true; }
 
     [[nodiscard]] const std::deque<End>& ends() const { return ends_; }
-    /// In the order of Setup::path_names().
+    /// The pairs in the order of Setup::path_names().
     [[nodiscard]] const std::deque<Pair>& pairs() const { return pairs_; }
 
 private:

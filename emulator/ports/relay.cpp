@@ -8,11 +8,13 @@
 
 namespace hapnet::emulator::ports {
 
-/// Why the datagram is not to pass; nullopt: it is one of the side's peer, which may be a new one.
+/// Returns the reason why the datagram may not pass; nullopt: it is from the side's peer, which may
+/// be a new one.
 std::optional<Relay::Refusal> Relay::refusal_of(Side& from, const net::Received& datagram)
 {
     if (from.filter.address() != datagram.from) {
-        // What seems to come from ourselves is forged: adopted, it would go round for ever.
+        // A datagram that seems to come from this program is forged. If its address were adopted,
+        // it would go round for ever.
         if (own_.contains(datagram.from)) return Refusal::is_own;
         if (from.allowed && !from.allowed->contains(datagram.from)) return Refusal::not_allowed;
     }

@@ -13,7 +13,8 @@ namespace hapnet::emulator::ports {
 
 namespace {
 
-/// Where a client's socket to the server is bound: on loopback if the server is there.
+/// Returns the address to which a client's socket to the server is bound: on loopback if the server
+/// is there.
 net::Endpoint place_towards(const net::Endpoint& server)
 {
     const bool is_v6 = server.family() == AF_INET6;
@@ -139,7 +140,8 @@ Upstream::Part::Part(Common& common, net::UdpSocket listening, Paths& paths,
       clients_(common.setup.clients_max)
 {}
 
-/// By address, a client that comes again is another one: "client.10.0.0.1:5000#2".
+/// Names a client by its number, or by its address if that was asked for. By address, a client that
+/// comes again is another one: "client.10.0.0.1:5000#2".
 std::string Upstream::Part::name_of(const Client& client)
 {
     constexpr std::size_t remembered_max = 65'536;
@@ -160,7 +162,7 @@ void Upstream::Part::turn_away(const net::Received& datagram, const std::string&
                           local_.to_text(), why);
 }
 
-/// Of one that may be a client and cannot.
+/// Refuses a sender that may be a client but cannot be served.
 void Upstream::Part::refuse(const net::Received& datagram, const std::string& why)
 {
     ++refused_;
@@ -288,8 +290,8 @@ bool has_nothing_in_flight(const EmulatedPath& path)
 
 } // namespace
 
-/// What is in flight is still delivered. All are looked at when the first of them may be idle, not
-/// in each round: of those that have been heard since, it is not true any more.
+/// Forgets idle clients once their datagrams in flight are delivered. All clients are checked when
+/// the first of them may be idle, not in each round. One that has been heard since is not idle.
 void Upstream::Part::forget_idle(base::TimePoint now)
 {
     if (!base::is_due(next_look_, now)) return;

@@ -81,7 +81,7 @@ public:
 
     [[nodiscard]] std::vector<std::unique_ptr<Part>>& parts() { return parts_; }
 
-    // Of all parts, while none is at work.
+    // Facts about all parts together. Call these only while no part is at work.
 
     [[nodiscard]] const net::Endpoint& local() const;
     /// The addresses that the sockets are bound to, except the sockets to the server.

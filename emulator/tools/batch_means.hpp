@@ -11,7 +11,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// How far mean and standard deviation of a series are known, as shares of their values: half the
+/// The precision of a series' mean and standard deviation, as shares of their values: half the
 /// width of a 95 % interval.
 struct Precision {
     double mean = 0.0;
@@ -25,7 +25,7 @@ constexpr auto fields_of(base::Tag<Precision>)
 
 /// Tells by the method of batch means (Law, "Simulation Modeling and Analysis", 9.5.3) how far a
 /// series whose neighbours may be correlated has settled. Keeps 32 to 63 batches of equal length:
-/// when there would be more, neighbours are joined. What correlation is left between the batches
+/// when there would be more, neighbours are joined. The rest of the correlation between the batches
 /// widens the interval as for an autoregressive series of first order.
 class BatchMeans {
 public:
@@ -34,7 +34,7 @@ public:
     void add(double value);
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
-    /// nullopt: fewer values than batches_min.
+    /// Returns nullopt for fewer values than batches_min.
     [[nodiscard]] std::optional<Precision> precision() const;
 
 private:

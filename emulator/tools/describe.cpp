@@ -38,7 +38,7 @@ double load_of(const Conditions& conditions, const Stream& stream)
     return bytes * bits_per_byte * rate_of(stream);
 }
 
-/// In bits a second, on average.
+/// Returns the average rate in bits a second.
 double limit_of(const Rate& rate)
 {
     return rate.trace ? rate.trace->trace->mean_rate() : static_cast<double>(rate.bits_per_second);
@@ -157,8 +157,8 @@ std::string reorder_in_words(const Reordering& reorder)
                            : fmt::format("{} behind their turn", in_ms(displacement.time)));
 }
 
-/// What would keep the order without making the delay longer. A trace has the correlation that was
-/// recorded.
+/// Returns a setting that would keep the order without making the delay longer. A trace has the
+/// correlation that was recorded.
 std::string_view remedy_of(const Conditions& conditions)
 {
     const auto is_trace = [](const Variation& variation) {

@@ -29,7 +29,7 @@ base::Duration scaled(base::Duration duration, double by)
     return base::Duration{std::llround(base::to_nanoseconds(duration) * by)};
 }
 
-/// What the sentence says, before it is put together.
+/// The settings of the sentence, before they are put together.
 struct NetemSettings {
     base::Duration delay{};
     base::Duration jitter{};
@@ -46,7 +46,7 @@ struct NetemSettings {
     std::vector<std::string> warnings;
 };
 
-/// Whether this share, as netem draws it with a correlation, is another one; says so.
+/// Warns that netem, with this correlation, draws another share than this one.
 void warn_of_correlated(std::string_view verb, Probability share, Probability correlation,
                         NetemSettings& said)
 {

@@ -22,14 +22,14 @@ struct NetemProfile {
 };
 
 /// Reads "delay 80ms 5ms 25% distribution normal loss gemodel 1% 30%"; a leading "tc qdisc ...
-/// netem" is skipped. What cannot be done is an error that says so; nothing is left out silently.
+/// netem" is skipped. An impossible setting is an error that says so; nothing is left out silently.
 ///
-/// How it is translated, where it is not word by word:
+/// The sentence is translated word by word. The exceptions are:
 /// - jitter reorders (order free), unless a rate keeps the order, as in netem;
 /// - a correlation of delays becomes a correlation time, for packets 1 ms apart;
 /// - a correlation of losses becomes Gilbert's model of the same share, in which the losses of
 ///   neighbours have that correlation;
-/// - of `reorder P gap N`, those that netem sends at once leave at once, and the others leave
+/// - for `reorder P gap N`, packets that netem sends at once leave at once, and the others leave
 ///   their delay behind their turn; with a gap their places are drawn instead of regular;
 /// - `loss state` becomes the four-state model, or Gilbert's where it is only that.
 [[nodiscard]] base::Result<NetemProfile> parse_netem(std::string_view sentence);

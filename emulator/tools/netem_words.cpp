@@ -19,7 +19,7 @@ struct Unit {
     double size;
 };
 
-// As in iproute2: lib/utils_math.c and lib/utils.c.
+// The units of iproute2: lib/utils_math.c and lib/utils.c.
 constexpr std::array<Unit, 12> time_units{{
     {"s", 1e9},
     {"sec", 1e9},

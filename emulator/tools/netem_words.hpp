@@ -15,7 +15,7 @@
 namespace hapnet::emulator::tools {
 
 /// The words of a tc sentence, read one after the other, in the units of tc; keeps the first
-/// complaint about them. What is there after a complaint no longer matters.
+/// complaint about them. Words after a complaint no longer matter.
 class NetemWords {
 public:
     explicit NetemWords(std::string_view sentence);
@@ -26,7 +26,8 @@ public:
     /// Takes the next word if it is this one.
     [[nodiscard]] bool take_if(std::string_view word);
 
-    // Each takes the next word. The optional ones take it only where it begins like a number.
+    // Each function takes the next word. The optional ones take it only where it begins like a
+    // number.
 
     /// A bare number is in microseconds, and is remembered in bare_times().
     [[nodiscard]] base::Duration time();

@@ -36,7 +36,7 @@ public:
         }
     }
 
-    /// With what the link saw.
+    /// Returns the prediction with the link's counts.
     [[nodiscard]] DirectionPrediction with(const Link& link) const
     {
         DirectionPrediction result = result_;

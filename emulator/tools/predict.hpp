@@ -29,17 +29,17 @@ struct Stream {
     friend bool operator==(const Stream&, const Stream&) = default;
 };
 
-/// What became of the stream in one direction.
+/// The outcome of the stream in one direction.
 struct DirectionPrediction {
     Statistics statistics; // nothing in flight any more
     StreamReport measured;
     /// Runs of losses by their numbers: dropped, or damaged where that is refused.
     base::Tally loss_runs;
     base::Duration added_by_queues{}; // mean delay beyond the drawn one: rate and order
-    /// How far mean and deviation of the delay are known; nullopt: too little left.
+    /// The precision of the delay's mean and deviation; nullopt: too few datagrams left the link.
     std::optional<Precision> precision;
 
-    /// Whether both are known to settled_to, or there is no delay to be known.
+    /// True if both are known to settled_to, or there is no delay to be known.
     [[nodiscard]] bool is_settled() const;
     [[nodiscard]] double loss_share() const;
 };
@@ -58,9 +58,9 @@ inline constexpr double settled_to = 0.01;
 /// is late in virtual time: what it shows is what the profile itself does.
 [[nodiscard]] Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed);
 
-/// The same with a stream that begins with stream.packets and is made longer, twice and twice
-/// again up to `packets_max`, until mean and deviation of the delay have settled both ways. Of
-/// conditions that change on a timeline nothing settles: they get stream.packets.
+/// Like predict(), but the stream grows. It begins with stream.packets and doubles up to
+/// `packets_max`, until mean and deviation of the delay have settled in both directions. Conditions
+/// that change on a timeline never settle: they get stream.packets.
 [[nodiscard]] Prediction predict_until_settled(const Profile& profile, const Stream& stream,
                                                base::Seed seed, std::uint64_t packets_max);
 

@@ -37,7 +37,7 @@ constexpr auto fields_of(base::Tag<LossReport>)
 
 namespace hapnet::emulator {
 
-/// As `predict` tells it.
+/// The fields that `predict` prints.
 constexpr auto fields_of(base::Tag<StreamReport>)
 {
     using S = StreamReport;
@@ -60,7 +60,7 @@ constexpr auto fields_of(base::Tag<StreamReport>)
 
 namespace hapnet::emulator::tools {
 
-/// One direction of a prediction, and what was asked for it. All that it refers to outlives it.
+/// One direction of a prediction, and its conditions. Everything that it refers to outlives it.
 struct DirectionForecast {
     const DirectionPrediction* of = nullptr;
     const Conditions* conditions = nullptr;
@@ -70,9 +70,9 @@ struct DirectionForecast {
     [[nodiscard]] std::vector<std::string> theory() const;
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] std::string why_unsettled() const;
-    /// nullopt: nothing settles.
+    /// Returns nullopt when nothing settles.
     [[nodiscard]] std::optional<Precision> precision() const;
-    /// By cause: those that occurred.
+    /// The drops by cause. Only the causes that occurred are listed.
     [[nodiscard]] base::Entries<std::uint64_t> dropped() const;
     /// The share of departures that were out of order.
     [[nodiscard]] double reordered_share() const;
@@ -124,7 +124,7 @@ constexpr auto fields_of(base::Tag<DirectionForecast>)
             [](const D& one) -> const StreamReport& { return one.of->measured; }));
 }
 
-/// What `predict --json` prints.
+/// The output of `predict --json`.
 struct PredictionReport {
     std::string_view program = "hapnet-emulator predict";
     std::string_view version;

@@ -13,8 +13,8 @@
 
 namespace hapnet::emulator::tools {
 
-/// Answers the questions of a probe, and counts them, so that whoever asks can tell a question that
-/// was lost from an answer that was. Remembers the sessions heard last; does no I/O.
+/// Answers the questions of a probe, and counts them, so that the asking side can tell a lost
+/// question from a lost answer. Remembers the sessions heard last; does no I/O.
 class ProbeAnswerer {
 public:
     explicit ProbeAnswerer(std::uint64_t boot) : boot_{boot} {}

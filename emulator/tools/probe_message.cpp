@@ -31,7 +31,7 @@ private:
     std::uint64_t sum_ = 0xcbf2'9ce4'8422'2325U;
 };
 
-/// Of all bytes but its own.
+/// Returns the checksum of all bytes but its own.
 std::uint64_t checksum_of(std::span<const std::byte> bytes)
 {
     Checksum checksum;

@@ -20,7 +20,7 @@ struct ProbeMessage {
     std::uint64_t sequence = 0; // of the question, from 0
     base::TimePoint sent{};     // the question, by the clock of whoever asks
 
-    // Of an answer, by the clock of whoever answers:
+    // Fields of an answer, by the clock of the side that answers:
     base::TimePoint received{}; // the question's kernel receive stamp
     base::TimePoint answered{};
     std::uint64_t heard = 0; // questions of this session so far, copies left out

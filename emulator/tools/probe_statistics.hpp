@@ -68,7 +68,7 @@ struct ProbeSummary {
     ProbeWay back{};
     std::uint64_t unknown = 0;
 
-    /// Of the questions.
+    /// The share of questions without an answer.
     [[nodiscard]] double loss() const;
 };
 constexpr auto fields_of(base::Tag<ProbeSummary>)
@@ -91,7 +91,7 @@ constexpr auto fields_of(base::Tag<ProbeSummary>)
                      "Questions after the last one that was answered."));
 }
 
-/// What `probe --json` prints.
+/// The output of `probe --json`.
 struct ProbeReport {
     std::string_view program = "hapnet-emulator";
     std::string_view version;
@@ -106,26 +106,27 @@ constexpr auto fields_of(base::Tag<ProbeReport>)
         base::member("target", &R::target, "Who was asked."), base::part(&R::summary));
 }
 
-/// What a probe has sent and what came back. Does no I/O and reads no clock.
+/// Statistics of a probe: the questions that it sent and the answers that came back. Does no I/O
+/// and reads no clock.
 class ProbeStatistics {
 public:
     /// `boot`: of this machine.
     ProbeStatistics(std::uint64_t session, std::uint64_t boot) : session_{session}, boot_{boot} {}
 
-    /// A row of memory for each question: at most so many.
+    /// The greatest number of questions: each has a row in memory.
     static constexpr std::uint64_t questions_max = 10'000'000;
 
     /// The next question, which leaves at `now`. Ensures that there are fewer than questions_max.
     [[nodiscard]] ProbeMessage next_question(base::TimePoint now);
 
-    /// nullopt: it answers none of these questions.
+    /// Takes an answer. Returns nullopt for one that answers none of these questions.
     std::optional<ProbeReply> on_answer(const ProbeMessage& answer, base::TimePoint arrived);
 
     [[nodiscard]] std::uint64_t sent() const { return rows_.size(); }
     [[nodiscard]] bool all_answered() const { return answers_.counts().received == rows_.size(); }
     [[nodiscard]] base::Duration longest_round_trip() const { return longest_; }
 
-    /// Whether both ends read one clock: they are of one boot, and no delay by it is negative.
+    /// True if both ends read one clock: they are of one boot, and no delay by it is negative.
     [[nodiscard]] bool clocks_are_one() const
     {
         return clocks_are_one_ && answers_.counts().received > 0;

@@ -13,7 +13,7 @@
 using namespace hapnet;
 using namespace std::chrono_literals;
 
-/// In place of a device: a hand that goes 20 mm to the right and back, every five seconds.
+/// Returns a hand instead of a device's: it goes 20 mm to the right and back, every five seconds.
 peer::Hand hand_at(base::TimePoint now)
 {
     const double phase = 2.0 * M_PI * base::to_seconds(now.time_since_epoch()) / 5.0;

@@ -9,8 +9,8 @@
 
 namespace hapnet::lab {
 
-/// What two folders of results differ in, as a table, CSV or JSON. The error: one has no sessions,
-/// or files that its B2SUMS does not match; or they have no sessions in common.
+/// The differences between two folders of results, as a table, CSV or JSON. The error: one has no
+/// sessions, or files that its B2SUMS does not match; or they have no sessions in common.
 [[nodiscard]] base::Result<std::string> compare_folders(const CompareCommand& command);
 
 } // namespace hapnet::lab

@@ -58,7 +58,7 @@ void tell_of_damage(const runner::SessionStore& store)
     net::say(program_name, fmt::format("{}; left out", *damage));
 }
 
-/// What the names of all that is of a point have in common: "5ms" of one axis, or "point-3".
+/// Returns the folder of a point's records: "5ms" of one axis, or "point-3"; empty: no axes.
 std::string name_of_point(const LoadedExperiment::Part& part)
 {
     if (part.values.empty()) return {};
@@ -67,7 +67,7 @@ std::string name_of_point(const LoadedExperiment::Part& part)
     return is_name ? part.values.front() : fmt::format("point-{}", part.point + 1);
 }
 
-/// What the lines of a table have before their own cells: at which point of the axes they are.
+/// Returns the cells that come before a line's own in a table: they tell its point of the axes.
 std::vector<results::LeadingCell> leading_cells(const std::vector<experiment::Axis>& axes,
                                                 const LoadedExperiment::Part& part)
 {
@@ -144,7 +144,7 @@ public:
 
     [[nodiscard]] std::size_t jobs() const { return total_; }
 
-    /// False: it was stopped.
+    /// Carries out all jobs of the shard. Returns false when it was stopped.
     base::Result<bool> run(const UseResults& use)
     {
         auto deal = deal_of(experiment_, shard_);
@@ -186,7 +186,7 @@ private:
     std::size_t done_ = 0;
 };
 
-/// What an experiment found, on its way to a folder.
+/// The findings of an experiment, on their way to a folder.
 class ResultFolder {
 public:
     ResultFolder(const LoadedExperiment& experiment, const RunPlace& place)
@@ -255,7 +255,7 @@ public:
     }
 
 private:
-    /// Those of an earlier run no longer hold once a file is written.
+    /// Removes the checksums of an earlier run, which no longer hold once a file is written.
     void forget_old_checksums()
     {
         if (!std::exchange(has_written_, true)) fs::remove(out_ / runner::checksums_name);
@@ -267,7 +267,7 @@ private:
         return !axes.empty() && axes.front().reference.has_value();
     }
 
-    /// Whether the results say in which order the algorithms are with each hand.
+    /// True if the results say in which order the algorithms are with each hand.
     [[nodiscard]] bool ranks_hands() const
     {
         const auto& axes = experiment_.whole.axes;
@@ -287,7 +287,7 @@ private:
             table.name += axes.size() == 1 ? "_by_axis" : "_by_point";
         }
         tables_.add(table);
-        // What can be read at a glance stands on standard output, too.
+        // Tables that can be read at a glance are printed on standard output, too.
         constexpr std::array<std::string_view, 4> are_short{"table1", "limits", "limits_by_axis",
                                                             "requirements"};
         if (std::ranges::find(are_short, table.name) == are_short.end()) return;
@@ -352,7 +352,7 @@ std::string unfinished_among(const std::vector<std::string>& files)
     return fmt::format("{}", fmt::join(shards, ", "));
 }
 
-/// Why sessions of these files are missing, and what mends it.
+/// Returns the reason why sessions of these files are missing, or what to do about it.
 std::string why_missing(const runner::SessionStore& store, const std::vector<std::string>& files)
 {
     if (const auto unfinished = unfinished_among(files); !unfinished.empty())

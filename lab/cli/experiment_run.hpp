@@ -14,8 +14,7 @@
 
 namespace hapnet::lab {
 
-/// What an experiment is to find out: as it is stated, and in the parts that are played one after
-/// the other.
+/// An experiment, whole as it is stated, and in the parts that are played one after the other.
 struct LoadedExperiment {
     struct Part {
         std::size_t point = 0;           // number of the point of the axes
@@ -30,7 +29,7 @@ struct LoadedExperiment {
     std::size_t jobs = 0;
 };
 
-/// Where the results go, and what the manifest says of how they came about.
+/// The folder of the results, and the manifest's data about their origin.
 struct RunPlace {
     std::string out;
     unsigned threads = 1;

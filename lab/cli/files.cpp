@@ -48,7 +48,7 @@ bool is_list(const Json& json) { return json.is_array(); }
 bool is_flag(const Json& json) { return json.is_boolean(); }
 bool is_text(const Json& json) { return json.is_string(); }
 
-// Those that the code which reads these files takes for granted.
+// The types that the code which reads these files takes for granted.
 constexpr std::array analysis_keys{TypedKey{"invalid_because", is_list, "a list"}};
 constexpr std::array emulator_keys{
     TypedKey{"valid", is_flag, "true or false"}, TypedKey{"invalid_because", is_list, "a list"},
@@ -58,10 +58,8 @@ constexpr std::array peer_keys{TypedKey{"algorithm", is_text, "a text"},
                                TypedKey{"task", is_text, "a text"},
                                TypedKey{"others", is_list_of_objects, "a list of objects"}};
 
-/// The object that a result file holds. The error names the file, and the key whose value has
-/// another type.
-/// What stood in CSV before it stood in JSON: a folder with one and without the other is an old
-/// one.
+/// The JSON files, each with a table of it that older versions wrote as CSV alone. A folder with
+/// the CSV and without the JSON is an old one.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> written_as_csv{
     {{results::tables_name, "table1.csv"},
      {results::tables_name, "limits.csv"},
@@ -78,6 +76,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> written_
      {results::sessions_name, "sessions_by_point.csv"},
      {results::real_time_name, "real_time.csv"}}};
 
+/// Reads the object that a result file holds. The error names the file, and the key whose value has
+/// another type.
 base::Result<Json> read_result(const std::string& path, std::span<const TypedKey> keys)
 {
     auto json = read_json(path);

@@ -28,7 +28,8 @@ namespace hapnet::lab {
 /// std::system_error naming the folder.
 void create_folder(const std::string& path);
 
-/// What a folder holds of a session over real UDP. The error names the file that is missing.
+/// Reads the files of a session over real UDP from a folder. The error names the file that is
+/// missing.
 [[nodiscard]] base::Result<results::SessionFiles> read_session_files(const std::string& folder);
 
 /// The error: the folder has CSV and not the file of that name beside it, results.json,

@@ -251,7 +251,7 @@ void add_jobs(cli::Command& command, std::optional<unsigned>& jobs)
                    cli::into(jobs, base::Count{1, jobs_max}));
 }
 
-/// Which experiment, and what is changed of it.
+/// Adds the options that choose an experiment and change it.
 void add_experiment(cli::Command& command, RunCommand& run, const std::string& what)
 {
     command
@@ -388,7 +388,7 @@ void add_play(cli::Command& command, PlayCommand& play)
                    pace_into(play));
 }
 
-/// After the command line was read.
+/// Completes the options after the command line was read. Refuses those that do not fit together.
 base::Result<void> complete(PlayCommand& play, const cli::Command& command)
 {
     if (!play.record.empty()) {
@@ -485,7 +485,7 @@ void add_compare(cli::Command& command, CompareCommand& compare)
     command.flag("--csv", "Print the table as CSV", compare.csv);
 }
 
-/// What can be named on a command line and in an experiment, a line each.
+/// Returns the names that command lines and experiments can use, a line for each kind of them.
 std::string list_of_names()
 {
     const auto line = [](std::string_view what, const std::string& names) {
@@ -506,7 +506,7 @@ void describe_program(cli::Command& program)
     program.require_command();
 }
 
-/// That the options of these do not contradict each other. `command`: that of `exported`.
+/// Refuses options of these commands that contradict each other. `command`: that of `exported`.
 base::Result<void> check(const ReplayCommand& replay, const CompareCommand& compare,
                          const ExportCommand& exported, const cli::Command& command)
 {
@@ -521,7 +521,7 @@ base::Result<void> check(const ReplayCommand& replay, const CompareCommand& comp
     return {};
 }
 
-/// Of commands and what their options went into, the one that was chosen.
+/// Returns the chosen one of the commands, with its options.
 template <typename... Options>
 Command chosen_of(std::tuple<cli::Command&, Options&>... offers)
 {

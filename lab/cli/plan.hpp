@@ -11,8 +11,8 @@
 
 namespace hapnet::lab {
 
-/// plan.json: an experiment with all that it follows from, so that each shard of it, on whatever
-/// machine, plays sessions of the same one.
+/// plan.json: an experiment with all its inputs, so that each shard of it, on any machine, plays
+/// sessions of the same experiment.
 struct Plan {
     std::string experiment; // as after `hapnet-lab plan`
     experiment::Overrides overrides{};

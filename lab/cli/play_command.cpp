@@ -38,8 +38,9 @@ using namespace std::chrono_literals;
 /// Virtual time stands still in between, while clients are served: all their frames are of one
 /// time.
 constexpr base::Duration turn = 16ms;
-/// Of a turn that plays as fast as possible.
+/// The longest time that a turn plays for when it plays as fast as possible.
 constexpr base::Duration playing_max = 12ms;
+/// The virtual time that such a turn plays between two looks at the clock.
 constexpr base::Duration played_at_once = 20ms;
 constexpr control::Server::Limits limits{.line_bytes = emulator::request_bytes_max, .answers = 8};
 
@@ -58,7 +59,7 @@ base::Result<emulator::Profile> profile_named(const std::string& name)
     return emulator::parse_profile(found->text, found->source, net::text_of_file);
 }
 
-/// What the options say, as an experiment of one session.
+/// Returns the options as an experiment of one session.
 base::Result<experiment::Experiment> experiment_of(const PlayCommand& command)
 {
     const experiment::Overrides overrides{.settings = command.settings};
@@ -163,7 +164,7 @@ void play_a_turn(Played& session, live::Pace& pace, base::Duration passed, base:
     while (!session.is_over() && net::monotonic_now() < end) session.play_on(played_at_once);
 }
 
-/// Until it is stopped.
+/// Plays until it is stopped.
 template <typename Played>
 int play_live(const PlayCommand& command, Played& session, base::Duration tick)
 {

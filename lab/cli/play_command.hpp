@@ -28,7 +28,7 @@ constexpr auto fields_of(base::Tag<PlayedSession>)
                      "What it is measured by: docs/design/metrics.md."));
 }
 
-/// What `play --json` prints.
+/// The output of `play --json`.
 struct PlayReport {
     device::Task task{};
     std::uint64_t seed = 0;
@@ -49,7 +49,7 @@ constexpr auto fields_of(base::Tag<PlayReport>)
 }
 
 /// Plays one session in virtual time: to its end, for its numbers, or with a control socket for
-/// whoever watches it, until it is stopped. The exit code. The error: bad input. Throws
+/// clients that watch it, until it is stopped. Returns the exit code. The error: bad input. Throws
 /// std::system_error when a socket or a file cannot be made.
 [[nodiscard]] base::Result<int> play_session(const PlayCommand& command);
 

@@ -6,8 +6,8 @@
 
 namespace hapnet::lab {
 
-/// All of hapnet-lab but its main(). `words` are those of the command line, the program's name
-/// first. The exit code: docs/use and --help say which there are.
+/// Runs hapnet-lab. `words` are those of the command line, the program's name first. Returns the
+/// exit code; docs/use and --help list them.
 int main_program(std::span<char*> words);
 
 } // namespace hapnet::lab

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Where sessions were played, and the folders of those, by name.
+/// Returns the folders of the sessions in a place, by name.
 std::vector<fs::path> session_folders(const fs::path& place)
 {
     std::vector<fs::path> folders;

@@ -177,7 +177,7 @@ fs::path folder_of(const fs::path& file)
     return file.has_parent_path() ? file.parent_path() : fs::path{"."};
 }
 
-/// Where the page goes.
+/// Returns the path of the page. The error: --out names a folder.
 base::Result<fs::path> page_for(const ReportCommand& command)
 {
     const fs::path first{command.path};
@@ -188,7 +188,7 @@ base::Result<fs::path> page_for(const ReportCommand& command)
         fmt::format("--out: {0} is a folder: name the page, such as {0}/report.html", command.out));
 }
 
-/// What the arguments name, for a page in `folder`.
+/// Reads the results that the arguments name, for a page in `folder`.
 base::Result<results::Results> read_source(const ReportCommand& command, const fs::path& folder)
 {
     const fs::path first{command.path};
@@ -231,7 +231,7 @@ void say_what_is_replaced(const fs::path& path, std::string_view page)
                                         : fmt::format("a page about {}, not {}", before, now)));
 }
 
-/// Of a folder whose subfolders alone have one.
+/// Writes the manifest of a folder whose subfolders alone have one.
 void write_manifest(const results::Results& results, std::string root)
 {
     if (results.runs.empty()) return;

@@ -9,9 +9,9 @@
 
 namespace hapnet::lab {
 
-/// Writes report.html and figures/: of a folder into it, of two records beside the first.
-/// Says so on standard error when it replaces a page about something else. Gives the path of the
-/// page. The error: a file cannot be read, or its folder's B2SUMS does not match it. Throws
+/// Writes report.html and figures/: for a folder into it, for two records beside the first. Says so
+/// on standard error when it replaces a page about something else. Returns the path of the page.
+/// The error: a file cannot be read, or its folder's B2SUMS does not match it. Throws
 /// std::system_error when something cannot be written.
 [[nodiscard]] base::Result<std::string> write_report(const ReportCommand& command);
 

@@ -31,8 +31,9 @@ base::Result<std::uint64_t> hash_of_file(const std::string& path)
         [](const std::string& bytes) { return base::Seed{}.stream(bytes).bits(0); });
 }
 
-/// Who plays: this very build, and the algorithms that are no part of it. A session that any other
-/// has played is not reused. The error names an algorithm whose file cannot be read.
+/// Returns the identity of the playing program: this very build, and the algorithms that are no
+/// part of it. A session that another program has played is not reused. The error names an
+/// algorithm whose file cannot be read.
 base::Result<std::string> program_identity(const LoadedExperiment& experiment)
 {
     std::string identity = fmt::format("{} {:016x}", base::version_line("hapnet-lab"),
@@ -63,7 +64,7 @@ experiment::Overrides overrides_of(const RunCommand& command)
     return overrides;
 }
 
-/// What a plan says; `open` gives the texts of the files that it names.
+/// Loads the experiment of a plan; `open` gives the texts of the files that it names.
 base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open)
 {
     auto whole = load_experiment(plan.experiment, open, plan.overrides);

@@ -17,12 +17,12 @@ namespace hapnet::lab {
 [[nodiscard]] base::Result<std::vector<record::Record>> records_in(const std::string& folder,
                                                                    std::size_t peers);
 
-/// When each of them ticked. They were on one machine, which has one clock.
+/// The times of each peer's ticks. The peers were on one machine, which has one clock.
 [[nodiscard]] std::vector<std::vector<base::Duration>>
 ticks_in(const std::vector<record::Record>& records);
 
-/// What manifest.json of a folder says of sessions in real time: adds to the manifest that is
-/// there; without one, writes a manifest of its own.
+/// Adds the facts about sessions in real time to the manifest.json of a folder. Writes a new one if
+/// there is none, or if the one there is about such sessions alone.
 [[nodiscard]] base::Result<void> note_in_manifest(const std::string& folder,
                                                   nlohmann::ordered_json real_time);
 

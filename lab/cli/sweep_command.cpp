@@ -55,7 +55,7 @@ struct Sweep {
     std::vector<Cell> cells;
 };
 
-/// The same for the same session, whatever else an experiment has.
+/// Returns a name that is the same for the same session, whatever else an experiment has.
 std::string name_of(const experiment::SessionJob& job)
 {
     constexpr std::size_t digits = 16; // of the hash at the end of a key
@@ -99,7 +99,7 @@ base::Result<Sweep> load_sweep(const std::string& folder)
     return sweep;
 }
 
-/// At which point of the axes: "hands.stiffness=100N/m"; empty: there are none.
+/// Returns the point of the axes: "hands.stiffness=100N/m"; empty: there are none.
 std::string point_of(const LoadedExperiment& experiment, const LoadedExperiment::Part& part)
 {
     std::vector<std::string> settings;
@@ -124,7 +124,7 @@ std::size_t peers_of(const results::SessionFiles& files)
     return std::max<std::size_t>(files.others.size(), 1) + 1;
 }
 
-/// What a session's records say. They are of one session.
+/// Returns the metrics of a session in real time. All records are of this session.
 base::Result<results::PlayedCell> played_in(const std::vector<record::Record>& records)
 {
     std::vector<records::Session> sessions;
@@ -146,7 +146,7 @@ virtual_time::Setting perfect(virtual_time::Setting setting)
     return setting;
 }
 
-/// What the session is held against.
+/// Returns the reference for the session's scores.
 base::Result<metrics::Metrics> reference_of(const virtual_time::Setting& setting)
 {
     const auto unimpaired = play(perfect(setting));

@@ -13,19 +13,20 @@ namespace hapnet::lab {
 // compares what was played; scripts/real-time.sh starts the programs. A session has a folder
 // cells/NAME/attempt-N. Each throws std::system_error when something cannot be written.
 
-/// Whether sessions of a plan were played in the folder.
+/// True if sessions of a plan were played in the folder.
 [[nodiscard]] bool is_sweep(const std::string& folder);
 
-/// Writes the files of the next session, and gives a line with its folder, peers, task, seconds,
+/// Writes the files of the next session, and returns a line with its folder, peers, task, seconds,
 /// seed, and words for people; empty: every session is valid or was played as often as it may be.
-/// What an attempt left that was broken off is removed.
+/// Files of an attempt that was broken off are removed.
 [[nodiscard]] base::Result<std::string> next_session(const RealTimeCommand& command);
 
 /// Plays a session that was played into a folder in virtual time, and writes result.json there.
-/// Gives a line for people.
+/// Returns a line for people.
 [[nodiscard]] base::Result<std::string> compare_session(const RealTimeCommand& command);
 
-/// Writes the tables and the manifest from what was played so far. Gives a table for people.
+/// Writes the tables and the manifest from the sessions that were played so far. Returns a table
+/// for people.
 [[nodiscard]] base::Result<std::string> conclude_sweep(const RealTimeCommand& command);
 
 } // namespace hapnet::lab

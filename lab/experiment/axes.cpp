@@ -68,7 +68,7 @@ struct NumberRange {
     }
 
 private:
-    /// Without the zeros at its end.
+    /// Returns a value with its unit, without the zeros at the end of its decimals.
     [[nodiscard]] std::string text(double value) const
     {
         std::string number = fmt::format("{:.{}f}", value, decimals);
@@ -138,7 +138,7 @@ base::Result<std::vector<std::string>> listed(const Axis& axis)
     return values;
 }
 
-/// As many values of an axis as there are points.
+/// Draws one value of an axis for each point.
 base::Result<std::vector<std::string>> drawn(const Axis& axis, const LatinHypercube& hypercube)
 {
     std::vector<std::string> all;

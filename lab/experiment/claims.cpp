@@ -75,7 +75,7 @@ private:
     const NamedAlgorithm& algorithm_;
 };
 
-/// Whether all hands are off, and away.
+/// True if all hands are off, and away.
 bool are_silent(const virtual_time::VirtualWorld& world)
 {
     for (std::size_t side = 0; side < world.sides(); ++side) {
@@ -94,7 +94,8 @@ bool has_ended(const virtual_time::VirtualWorld& world)
     return false;
 }
 
-/// From when on all hands are silent to the session's end, since the world began; nullopt: never.
+/// Returns the time from which all hands are silent to the session's end, since the world began;
+/// nullopt: never.
 std::optional<base::Duration> silent_from(const virtual_time::Setting& setting)
 {
     using virtual_time::VirtualWorld;

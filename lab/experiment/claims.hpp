@@ -25,15 +25,16 @@ struct ClaimCell {
 };
 [[nodiscard]] std::span<const ClaimCell> claim_cells();
 
-/// Where silence is tried: everything at once.
+/// The cell in which silence is tried: delay, jitter and loss at once.
 inline constexpr std::string_view settled_cell = "all";
 
-/// Of each algorithm, cell, task and seed, in this order; then of each algorithm and seed that
-/// judges, how far copies are apart after silence.
+/// The jobs of each algorithm, cell, task and seed, in this order. Then follows, for each algorithm
+/// and seed, a job that measures how far copies are apart after silence.
 [[nodiscard]] std::vector<Job> claim_jobs(const Experiment& experiment);
 
-/// How far two copies of the body are apart at most, so long after all hands let go and the
-/// network became perfect, metres. Played twice: the first time tells when that is.
+/// The greatest distance between two copies of the body, a given time after all hands let go and
+/// the network became perfect, metres. The session is played twice: the first time finds when that
+/// is.
 [[nodiscard]] base::Result<double> apart_after_silence(const virtual_time::Setting& setting,
                                                        base::Duration after);
 

@@ -17,7 +17,7 @@ struct BuiltInCriteria {
     std::string_view text;
 };
 
-/// All of them, by name.
+/// All built-in criteria, by name.
 [[nodiscard]] std::span<const BuiltInCriteria> built_in_criteria();
 
 /// Reads the built-in criteria of that name, or else the file that `open` gives the text of.

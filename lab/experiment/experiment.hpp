@@ -34,14 +34,14 @@ struct NamedAlgorithm {
     peer::Algorithm algorithm{};
 };
 
-/// Whose hands play those that act as A and as B.
+/// The hands of the players that act as A and as B: those of operators or of recorded people.
 struct Hands {
     device::Operator left{};
     device::Operator right{};
     /// Intended motions of recorded people, instead of a task; nullptr: simulated hands play.
     std::shared_ptr<const hands::Population> people{};
 
-    /// How often each seed is played: once for each of the people's trials.
+    /// The number of times that each seed is played: once for each of the people's trials.
     [[nodiscard]] std::size_t trials() const { return people ? people->trials.size() : 1; }
     /// nullptr: there are no people.
     [[nodiscard]] const hands::Trial* trial(std::size_t index) const
@@ -89,7 +89,8 @@ struct Axis {
     std::optional<std::string> from{};
     std::optional<std::string> to{};
     std::optional<std::string> step{}; // from `from` on; nullopt: anything between
-    /// The value that is taken for the truth: what is found at the others is held against it.
+    /// The value that is taken for the truth. The results at the others are compared with those at
+    /// this one.
     std::optional<std::string> reference{};
 
     friend bool operator==(const Axis&, const Axis&) = default;
@@ -103,7 +104,7 @@ struct LatinHypercube {
     friend bool operator==(const LatinHypercube&, const LatinHypercube&) = default;
 };
 
-/// How many play together, and in which of the experiment's scenes.
+/// The number of peers that play together, and the one of the experiment's scenes in which they do.
 struct Party {
     std::uint32_t peers = 2;
     std::optional<std::size_t> scene{}; // nullopt: each task's own
@@ -111,8 +112,9 @@ struct Party {
     friend bool operator==(const Party&, const Party&) = default;
 };
 
-/// Where the level is looked for at which half of the sessions fail: a coarse scan upward from
-/// `from` in steps, `to` at most; then levels that count, `resolution` or a multiple of it apart.
+/// The range in which a search looks for the level at which half of the sessions fail: a coarse
+/// scan upward from `from` in steps, `to` at most; then levels that count, `resolution` or a
+/// multiple of it apart.
 struct SearchRange {
     Impairment impairment{};
     ImpairmentLevel from{};
@@ -140,8 +142,8 @@ struct SearchRanges {
     friend bool operator==(const SearchRanges&, const SearchRanges&) = default;
 };
 
-/// How sensitive the limits are to the way of measuring: with which filters and hands they are to
-/// be searched again. In a text [convention].
+/// The check of the limits' sensitivity to the way of measuring: the filters and hands with which
+/// they are searched again. In a text [convention].
 struct Sensitivity {
     std::vector<metrics::FilterOrder> filter_orders{
         metrics::FilterOrder::first, metrics::FilterOrder::second, metrics::FilterOrder::fourth};
@@ -172,7 +174,7 @@ struct Limits {
     friend bool operator==(const Limits&, const Limits&) = default;
 };
 
-/// In the order of the impairments.
+/// The ranges in the order of the impairments.
 [[nodiscard]] std::vector<SearchRange> ranges_of(const Limits& limits);
 
 /// Fig. 7: what cubes, hands and forces did over time; the first seed of the first task.
@@ -199,8 +201,8 @@ struct Calibration {
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
-/// What is claimed of an algorithm beyond the paper's: claim_cells() are the conditions. Tasks,
-/// hands and peers are theirs.
+/// The claims about algorithms beyond the paper's: claim_cells() are the conditions. Tasks, hands
+/// and peers are theirs.
 struct Claims {
     std::uint32_t judging_seeds = 200; // that a claim needs: one of fewer is told as such
 
@@ -212,7 +214,7 @@ using Kind = std::variant<Table1, Limits, Trajectories, ImpairmentGrid, Calibrat
 /// "table1", "limits", "trajectories", "plane", "calibration", "claims"
 [[nodiscard]] std::string_view name_of(const Kind& kind);
 
-/// What is to be found out, and about what: sessions of every algorithm, task and seed.
+/// The question of an experiment and its subjects: sessions of every algorithm, task and seed.
 struct Experiment {
     std::string title;
     Kind kind{};
@@ -236,9 +238,9 @@ struct Experiment {
     bool keyed = false;    // the players seal their messages
     bool record = false;   // keeps records of the first seed's sessions
     emulator::Path path{}; // the conditions that all sessions have in common
-    /// What single links have of their own, whatever is tried on all of them.
+    /// The settings that single links have of their own, whatever is tried on all of them.
     std::vector<emulator::PathPatch> links{};
-    /// What changes in every session, counted from its first hello.
+    /// The changes of the network in every session, at times since its first hello.
     std::vector<emulator::Change> timeline{};
     std::vector<Axis> axes{}; // the same experiment again at each of the points of these
     std::optional<LatinHypercube> latin_hypercube{};
@@ -246,8 +248,8 @@ struct Experiment {
     std::vector<NamedContents> files{};
 };
 
-/// The length of a session whose scripts end after so many seconds: hands are off for the last 3 s,
-/// below 6 s for the last half.
+/// Returns the length of a session whose scripts end after `end_s` seconds. Hands are off for the
+/// last 3 s; in a session below 6 s, for its last half.
 [[nodiscard]] base::Duration session_length(double end_s);
 
 /// Every number of peers in every scene.

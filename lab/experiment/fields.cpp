@@ -36,7 +36,7 @@ std::vector<std::string> read_texts(const Node& node, Reading& reading)
     return texts;
 }
 
-/// Whether it can stand in a CSV and in the name of a file.
+/// True if it can stand in a CSV and in the name of a file.
 bool is_plain(std::string_view name)
 {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"

@@ -18,7 +18,7 @@ struct KindFormat {
     [[nodiscard]] std::string describe() const;
 };
 
-/// Names of algorithms. What an own name stands for is read elsewhere.
+/// Names of algorithms. The meaning of a user's own name is read elsewhere.
 struct AlgorithmNames {
     void read(const base::Node& node, std::vector<NamedAlgorithm>& target,
               base::Reading& reading) const;
@@ -116,7 +116,7 @@ struct RangeFormat : base::Table {
     }
 };
 
-/// One range at least.
+/// A table with at least one range.
 struct RangesFormat : base::Table {
     void read(const base::Node& node, SearchRanges& target, base::Reading& reading) const;
 };
@@ -220,7 +220,7 @@ constexpr auto fields_of(base::Tag<Claims> /*struct*/)
                               "many played"));
 }
 
-/// Whether the keys of a kind stand in a table of its name, and not among those of the experiment.
+/// True if the keys of a kind stand in a table of its name, and not among those of the experiment.
 template <typename OneKind>
 inline constexpr bool has_own_table =
     std::is_same_v<OneKind, ImpairmentGrid> || std::is_same_v<OneKind, Calibration>;
@@ -319,7 +319,7 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "points drawn from all axes, instead of every combination"));
 }
 
-/// What a text describes that names only kind and tasks.
+/// The experiment of a text that names only a kind and tasks.
 [[nodiscard]] Experiment usual_experiment();
 
 } // namespace hapnet::lab::experiment

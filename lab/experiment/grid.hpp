@@ -15,7 +15,7 @@ struct GridPoint {
     ImpairmentLevel loss{};
 };
 
-/// All of them: loss runs first, then jitter, then delay.
+/// All points of the grid: loss runs first, then jitter, then delay.
 [[nodiscard]] std::vector<GridPoint> grid_points(const ImpairmentGrid& plane);
 
 /// The conditions of a point. The mean delay is `delay`, or the jitter where that is more: nothing

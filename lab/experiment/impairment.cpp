@@ -50,7 +50,7 @@ void read_share_level(const base::Node& node, ImpairmentLevel& target, base::Rea
     target = level;
 }
 
-/// Of bursts and intervals, which are whole numbers.
+/// The format of bursts and intervals, which are whole numbers.
 base::Count count_format(Impairment impairment)
 {
     return {0, impairment == Impairment::interval ? peer::SendPolicy::every_max : burst_period};

@@ -17,8 +17,8 @@
 
 namespace hapnet::lab::experiment {
 
-/// What a search makes worse and worse: what Fig. 6 of the paper does, and the interval between the
-/// messages of a player, who asks less of the network's rate the longer it is.
+/// An impairment that a search makes worse and worse: one of Fig. 6 of the paper, or the interval
+/// between a player's messages. A longer interval needs less of the network's rate.
 enum class Impairment : std::uint8_t { delay, jitter, random_loss, burst_loss, interval };
 inline constexpr std::array impairments{Impairment::delay, Impairment::jitter,
                                         Impairment::random_loss, Impairment::burst_loss,
@@ -30,19 +30,19 @@ constexpr auto names_of(base::Tag<Impairment> /*enum*/)
 }
 using base::name_of;
 
-/// What its levels count: "ms", "percent", "of_100" (messages lost in a row of every 100) or
-/// "ticks" (from one message to the next).
+/// The unit of an impairment's levels: "ms", "percent", "of_100" (messages lost in a row of every
+/// 100) or "ticks" (from one message to the next).
 [[nodiscard]] std::string_view unit_of(Impairment impairment);
 
-/// How much of an impairment, in thousandths of its unit: whole, so that a search visits the same
-/// levels on every machine. Not negative.
+/// The amount of an impairment, in thousandths of its unit: a whole number, so that a search visits
+/// the same levels on every machine. Not negative.
 struct ImpairmentLevel {
     std::int64_t thousandths = 0;
 
     friend constexpr auto operator<=>(const ImpairmentLevel&, const ImpairmentLevel&) = default;
 };
 
-/// In the unit: "160", "4.5".
+/// The level as a number of its unit: "160", "4.5".
 [[nodiscard]] std::string to_text(ImpairmentLevel level);
 [[nodiscard]] double in_units(ImpairmentLevel level);
 
@@ -55,16 +55,17 @@ struct LevelFormat {
     [[nodiscard]] std::string describe() const;
 };
 
-/// The path `ground` with so much of the impairment, the same both ways. ImpairmentLevel 0 leaves
-/// `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J, each datagram on its own:
-/// unless `order` keeps them from it they overtake one another. The interval leaves every path as
-/// it is.
+/// Returns the path `ground` with an impairment of this level, equal in both directions.
+/// ImpairmentLevel 0 leaves `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J,
+/// each datagram on its own. Datagrams overtake one another unless `order` prevents it. The
+/// interval leaves every path as it is.
 [[nodiscard]] emulator::Path impaired(const emulator::Path& ground, Impairment impairment,
                                       ImpairmentLevel level,
                                       emulator::Order order = emulator::Order::free);
 
-/// How players send at a level of the impairment: every so many ticks where it is the interval.
-/// Other impairments, and level 0, leave `send` as it is.
+/// Returns the send policy of players at a level of the impairment. For the interval, the level is
+/// the number of ticks from one message to the next. Other impairments, and level 0, leave `send`
+/// as it is.
 [[nodiscard]] peer::SendPolicy thinned(const peer::SendPolicy& send, Impairment impairment,
                                        ImpairmentLevel level);
 

@@ -22,13 +22,13 @@ std::uint32_t seeds_end(const Experiment& experiment, std::uint32_t seeds)
     return experiment.first_seed + seeds;
 }
 
-/// Which seeds.
+/// A range of seeds.
 struct Seeds {
     std::uint32_t first = 1;
     std::uint32_t count = 1;
 };
 
-/// Whether the network draws lots: all but a constant delay may.
+/// True if the network draws lots: all but a constant delay may.
 bool has_chance(const emulator::Path& path)
 {
     emulator::Path delayed;
@@ -148,7 +148,8 @@ private:
     }
 };
 
-/// What a session is held against. The one shared world is played where stiffness is measured.
+/// Returns the reference for a session's scores. The one shared world is played where stiffness is
+/// measured.
 base::Result<metrics::Metrics> reference_of(const SessionSpec& spec, const PlaySession& play)
 {
     auto perfect = play(perfect_twin(spec));
@@ -174,7 +175,7 @@ public:
         session_.seed = seed;
         const auto order = std::get<Limits>(experiment_.kind).jitter_order;
         const auto path = impaired(experiment_.path, impairment_, level, order);
-        // What fewer messages cost counts: the reference sends as the experiment says.
+        // The cost of fewer messages counts: the reference sends as the experiment says.
         const auto unthinned = make_session_spec(experiment_, session_, path);
         auto spec = unthinned;
         for (auto& player : spec.setting.players)
@@ -199,7 +200,7 @@ private:
     Sessions scores_;
 };
 
-/// By what a session fails: it is not at least of the tier.
+/// The demand on a session, which fails if it is not at least of the tier.
 struct Demand {
     const metrics::Criteria& criteria;
     metrics::Tier tier = metrics::Tier::usable;

@@ -14,10 +14,10 @@
 
 namespace hapnet::lab::experiment {
 
-// An experiment in jobs that do not depend on one another: on whatever thread and in whatever
-// order they are carried out, each finds the same.
+// An experiment in jobs that do not depend on one another: each finds the same on any thread and in
+// any order.
 
-/// One session and what it is held against.
+/// One session and the reference for its scores.
 struct SessionJob {
     std::size_t algorithm = 0; // of the experiment's
     device::Task task{};
@@ -26,7 +26,7 @@ struct SessionJob {
     std::size_t trial = 0; // of the people whose hands play
 };
 
-/// One limit.
+/// The search for one limit.
 struct SearchJob {
     std::size_t algorithm = 0;
     device::Task task{};
@@ -34,7 +34,7 @@ struct SearchJob {
     Party party{};
 };
 
-/// The same limit for these hands, and by each order of the filter.
+/// The search for one limit with these hands, once by each order of the filter.
 struct SensitivityJob {
     std::size_t algorithm = 0;
     device::Task task{};
@@ -43,7 +43,7 @@ struct SensitivityJob {
     Hands hands{};
 };
 
-/// How far copies are apart after silence: see claims.hpp.
+/// Measures the distance of copies after silence: see claims.hpp.
 struct SilenceJob {
     std::size_t algorithm = 0;
     SessionSpec spec{};
@@ -69,14 +69,14 @@ struct CurvePoint {
     metrics::Tier tier{};
 };
 
-/// What came of the levels that count (levels in the impairment's unit, ascending), for each tier
-/// of the experiment in their order, and all sessions.
+/// The outcomes of the levels that count (levels in the impairment's unit, ascending), for each
+/// tier of the experiment in their order, and all sessions.
 struct SearchResult {
     std::vector<std::vector<metrics::LevelOutcome>> outcomes{};
     std::vector<CurvePoint> curve{}; // ascending in level, then seed
 };
 
-/// The same by the filter orders of the sensitivity check, in their order.
+/// The outcomes by the filter orders of the sensitivity check, in their order.
 struct SensitivityResult {
     std::vector<std::vector<metrics::LevelOutcome>> outcomes{};
 };

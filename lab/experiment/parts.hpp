@@ -9,7 +9,7 @@
 namespace hapnet::lab::experiment {
 
 /// Experiments whose sessions and results, one after the other, are those of the whole: a plane by
-/// its points; of other kinds the whole is the only part. What has to be kept in memory at a time
+/// its points. An experiment of another kind is its only part. The memory that is needed at a time
 /// grows with a part, not with the whole.
 [[nodiscard]] std::vector<Experiment> parts_of(const Experiment& experiment);
 

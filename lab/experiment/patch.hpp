@@ -16,8 +16,8 @@ void overlay(base::Node& under, const base::Node& over);
 /// Takes the entry of this key out of a table; an empty table when there is none.
 [[nodiscard]] base::Node taken(base::Node& table, std::string_view key);
 
-/// "limit.delay.to=200ms" as a table to overlay. What is no TOML is a text: quotes can be left out.
-/// The error says how to write it.
+/// "limit.delay.to=200ms" as a table to overlay. A value that is no TOML is a text: quotes can be
+/// left out. The error says how to write it.
 [[nodiscard]] base::Result<base::Node> setting_table(std::string_view setting);
 
 } // namespace hapnet::lab::experiment

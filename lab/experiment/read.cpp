@@ -115,7 +115,7 @@ void read_kind(TableReader& table, Kind& kind)
     std::visit(read, kind);
 }
 
-/// Whether the results of the kind tell several numbers of peers, or scenes, apart.
+/// True if the results of the kind tell several numbers of peers, or scenes, apart.
 bool has_parties(const Kind& kind)
 {
     return std::holds_alternative<Limits>(kind) || std::holds_alternative<ImpairmentGrid>(kind);
@@ -301,8 +301,8 @@ Experiment read_experiment(const Node& document, Reading& reading)
     return experiment;
 }
 
-/// Where a key belongs that its table does not have: at the top, as the fields of an experiment do,
-/// or where a profile has it.
+/// Says where a misplaced key belongs: at the top, like the fields of an experiment, or where a
+/// profile has it.
 std::string advice_on_key(std::string_view key)
 {
     const auto& rows = base::field_table<Experiment>().rows;
@@ -311,7 +311,7 @@ std::string advice_on_key(std::string_view key)
     return emulator::advice_on_key(key);
 }
 
-/// Of whom an error speaks.
+/// The source that an error names.
 struct Source {
     std::string name;
     bool has_lines = true; // false: an option
@@ -352,7 +352,7 @@ base::Result<Experiment> complain_of_settings(Node document, const Overrides& ov
     return complaint;
 }
 
-/// Whether a setting is of the axes themselves.
+/// True if a setting is of the axes themselves.
 bool is_of_axes(std::string_view setting)
 {
     const std::string_view key = setting.substr(0, setting.find('='));
@@ -373,7 +373,7 @@ base::OpenFile beside(const std::string& file, const base::OpenFile& open)
     return open.is_quoted() ? files : files.unquoted();
 }
 
-/// What is wrong with a value of an axis, with the place in the file where the axis stands.
+/// Returns the complaint about a value of an axis, with the axis' place in the file.
 std::string complaint_of_axis(const std::string& file_or_name, const base::OpenFile& open,
                               const std::string& complaint)
 {
@@ -441,7 +441,8 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
         if (overrides.settings.empty()) return experiment;
         return complain_of_settings(chosen, overrides, open, experiment);
     }
-    // What the text says for another day is to be right today, if the rest is so by itself.
+    // The values under [quick] must be valid in every run, unless only settings make the text
+    // valid.
     if (overrides.settings.empty() || read_tree(document, {source}, open)) {
         if (auto read = read_tree(quick_document, {source}, open); !read) return read;
     }

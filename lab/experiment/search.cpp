@@ -13,7 +13,7 @@ using Thousandths = std::int64_t;
 
 constexpr Thousandths gaps = counted_levels - 1;
 
-/// Between which levels sessions begin to fail: the last without failures before the first with
+/// The levels between which sessions begin to fail: the last without failures before the first with
 /// some, and the first at which all fail, or the last that was tried.
 struct Onset {
     Thousandths low = 0;

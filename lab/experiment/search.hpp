@@ -11,7 +11,7 @@
 
 namespace hapnet::lab::experiment {
 
-/// How many of the first `seeds` seeds fail at a level; an error ends the search.
+/// Returns the number of the first `seeds` seeds that fail at a level. An error ends the search.
 using Failures = std::function<base::Result<std::uint32_t>(ImpairmentLevel, std::uint32_t seeds)>;
 
 inline constexpr std::uint32_t scan_seeds = 4;   // of a coarse scan

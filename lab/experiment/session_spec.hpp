@@ -22,11 +22,11 @@ struct SessionSpec {
     std::string algorithm{}; // what the experiment calls it; nothing follows from that
     /// The files that the experiment names. The setting has their contents, its texts only names.
     std::vector<NamedContents> files{};
-    /// Nothing is kept but how far copies are apart so long after all is silent: see claims.hpp.
+    /// If set, only the distance of the copies this time after silence is kept: see claims.hpp.
     std::optional<base::Duration> silence{};
 };
 
-/// What came of a session: a pure function of its spec.
+/// The outcome of a session: a pure function of its spec.
 struct PlayedSession {
     metrics::Metrics metrics{};
     std::string rows{}; // CSV without a header: see replay.hpp; empty when none were to be kept
@@ -36,7 +36,7 @@ struct PlayedSession {
 /// Plays a session, or gives what is known of it already.
 using PlaySession = std::function<base::Result<PlayedSession>(const SessionSpec&)>;
 
-/// Which of an experiment's sessions.
+/// Names one of an experiment's sessions.
 struct SessionCase {
     const NamedAlgorithm& algorithm;
     const Hands& hands;
@@ -49,18 +49,19 @@ struct SessionCase {
 [[nodiscard]] SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,
                                             const emulator::Path& path);
 
-/// The same session on a perfect network: what scores are relative to. Keeps no rows.
-[[nodiscard]] SessionSpec perfect_twin(const SessionSpec& spec);
-/// The same hands in one scene, whatever the algorithm: what stiffness is relative to. Keeps no
+/// Returns the spec of this session on a perfect network, which scores are relative to. It keeps no
 /// rows.
+[[nodiscard]] SessionSpec perfect_twin(const SessionSpec& spec);
+/// Returns the spec of these hands in one scene, whatever the algorithm. Stiffness is relative to
+/// it. It keeps no rows.
 [[nodiscard]] SessionSpec one_world_twin(const SessionSpec& spec);
 
 /// A profile on one line.
 [[nodiscard]] std::string network_text(const emulator::Profile& profile);
 
-/// One line that tells sessions apart: what a person looks for, and a hash of all that the session
-/// follows from, the contents of the files that it names included. `program` is who plays it:
-/// another program may play it differently.
+/// Returns one line that tells sessions apart: the facts that a person looks for, and a hash of all
+/// inputs of the session, including the contents of the files that it names. `program` is the
+/// program that plays it: another one may play it differently.
 [[nodiscard]] std::string key_of(const SessionSpec& spec, std::string_view program);
 
 } // namespace hapnet::lab::experiment

@@ -34,7 +34,7 @@ public:
     /// `first_jobs`: those that will be asked for first; they tell how many twins there are.
     ShardDeal(const Shard& shard, const std::vector<Job>& first_jobs);
 
-    /// Whether the next job is of the shard.
+    /// True if the next job is of the shard.
     [[nodiscard]] bool takes(const Job& job);
 
 private:

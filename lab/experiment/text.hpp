@@ -41,7 +41,7 @@ struct BuiltInExperiment {
     std::string_view text;
 };
 
-/// All of them, by name.
+/// All built-in experiments, by name.
 [[nodiscard]] std::span<const BuiltInExperiment> built_in_experiments();
 
 /// Reads the built-in experiment of that name, or else the file that `open` gives the text of. A

@@ -25,7 +25,7 @@ struct Bound {
     }
 };
 
-/// How far to the right A is of B; of a single hand, of the scene's origin.
+/// Returns how far A is to the right of B; for a single hand, of the scene's origin.
 double reach_at(const std::vector<Motion>& hands, std::size_t i)
 {
     return hands[0][i].x - (hands.size() > 1 ? hands[1][i].x : 0.0);
@@ -39,7 +39,7 @@ std::size_t meeting_of(const std::vector<Motion>& hands)
     return meeting;
 }
 
-/// Where a hand is at the meeting.
+/// Returns the place where the fit puts a hand at the meeting.
 glm::dvec3 anchor_of(std::size_t hand, double press_m)
 {
     const double x = touching_m - press_m;
@@ -75,7 +75,7 @@ double mean_reach_of(const std::vector<Motion>& hands)
     return sum / static_cast<double>(hands[0].size());
 }
 
-/// With four digits, and not above the bound.
+/// Rounds down to four digits, so that the result is not above the bound.
 double rounded_down(double scale)
 {
     const double per_unit = std::pow(10.0, 3.0 - std::floor(std::log10(scale)));

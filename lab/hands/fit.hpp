@@ -12,15 +12,15 @@
 
 namespace hapnet::lab::hands {
 
-// How recorded motion gets into the scene. One factor scales all hands of a trial. Each hand is
-// then moved, without being turned, so that at the moment when the two are nearest to each other
-// along x, it means to be in the middle of its side of the cube, `press` deep in it. Of a single
-// hand, which acts as A, that is the moment when it is farthest to the right.
+// Recorded motion is fitted into the scene as follows. One factor scales all hands of a trial. Each
+// hand is then moved, without being turned, so that at the moment when the two are nearest to each
+// other along x, it means to be in the middle of its side of the cube, `press` deep in it. For a
+// single hand, which acts as A, that is the moment when it is farthest to the right.
 
 /// Half of the Omni's workspace, 160 x 120 x 70 mm, about the cube's place at the start.
 inline constexpr glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
-/// From the middle of the paper's cube to where a hand touches its face: half an edge and the
-/// radius of the HIP.
+/// The distance from the middle of the paper's cube to a hand that touches its face: half an edge
+/// and the radius of the HIP.
 inline constexpr double touching_m = 0.025;
 
 struct FitRules {

@@ -15,13 +15,13 @@ namespace hapnet::lab::hands {
 
 namespace {
 
-/// What one file says about one person.
+/// The data of one file about one person.
 struct Person {
     std::string source;
     Track track;
 };
 
-/// From where to where the motion is taken, on the clock of the recording.
+/// The stretch of a recording that is taken, on the clock of the recording.
 struct Stretch {
     double zero_s = 0.0; // its first row
     double from_s = 0.0;
@@ -97,7 +97,7 @@ base::Result<void> check(const Person& person, const Stretch& stretch, const Imp
         gaps.begin_of_longest_s - stretch.zero_s, 1e3 * rules.longest_gap_s));
 }
 
-/// To whole nanometres, which are short in a file.
+/// Rounds to whole nanometres, which are short in a file.
 double whole_nm(double metres) { return std::round(metres * 1e9) / 1e9; }
 
 std::string script_text(const Motion& motion)

@@ -21,7 +21,7 @@ struct Trial {
     /// Motions of A and of B; empty: the simulated hand does what the task says.
     std::array<std::shared_ptr<const device::HandTrace>, 2> ways{};
 
-    /// Until the last of them ends, seconds.
+    /// The end of the motion that ends last, seconds.
     [[nodiscard]] double end_s() const;
 };
 

@@ -19,8 +19,8 @@ constexpr std::array<base::ColumnUnit, 4> time_units{
 constexpr double farthest_m = 1000.0;
 constexpr double latest_s = 1e11; // a clock that counts from an epoch has about 2e9
 
-/// What the columns of a table may hold: the place of the first person, that of the second, the
-/// time.
+/// Returns the kinds of columns that a table may hold: the place of the first person, that of the
+/// second, the time.
 std::array<base::ColumnKind, 7> kinds_of(const RecordingFormat& format)
 {
     constexpr std::array<std::string_view, 3> usual{"x_m or x_mm, or x with --units",
@@ -104,7 +104,7 @@ private:
         return time_s;
     }
 
-    /// nullopt inside: the hand was not seen.
+    /// Returns the place of a person's hand; nullopt inside: the hand was not seen.
     [[nodiscard]] base::Result<std::optional<glm::dvec3>>
     place_of(std::span<const std::string_view> cells, std::size_t person)
     {
@@ -170,7 +170,7 @@ base::Result<std::vector<Track>> read_rows(base::LineReader& lines, const Record
     return tracks;
 }
 
-/// "px,py,pz": WHAT=NAME for each.
+/// Returns the names "px,py,pz" as "x=px,y=py,z=pz"; nullopt: their number is not allowed.
 std::optional<std::string> with_meanings(std::string_view names)
 {
     std::vector<std::string_view> words;

@@ -41,7 +41,7 @@ struct Axes {
 /// Metres in one of m, cm and mm.
 [[nodiscard]] base::Result<double> parse_length_unit(std::string_view text);
 
-/// How a table of recorded motion is to be read.
+/// The format in which a table of recorded motion is read.
 struct RecordingFormat {
     base::Columns columns{};
     /// Metres of 1 in columns that say no unit; nullopt: they have to.
@@ -50,7 +50,7 @@ struct RecordingFormat {
     Axes axes{};
 };
 
-/// Where a hand was, in the axes of the scene.
+/// The place of a hand at a time, in the axes of the scene.
 struct Sample {
     double time_s = 0.0; // on the clock of the recording
     glm::dvec3 place_m{0.0};

@@ -49,7 +49,7 @@ double seconds_in(Members& members, const char* key, double least)
     return 0.0;
 }
 
-/// nullopt: as fast as possible.
+/// Reads the factor of the pace; nullopt: as fast as possible, or a fault is noted.
 std::optional<double> factor_in(Members& members)
 {
     const Json* value = members.find("factor");
@@ -128,7 +128,7 @@ std::string pace_reply(Members& members, const Controlled<Played>& controlled)
     return control::line_of(reply);
 }
 
-/// What an emulator says of itself, and what it has besides here.
+/// Adds the program, the peers and the pace to what an emulator says of itself.
 template <typename Played>
 std::string shown(const std::string& reply, const Controlled<Played>& controlled)
 {

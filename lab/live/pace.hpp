@@ -9,10 +9,10 @@
 
 namespace hapnet::lab::live {
 
-/// After a seek those who watch see the last of the way there.
+/// The last part of the way of a seek: those who watch see this much of it.
 inline constexpr base::Duration shown_of_a_seek{std::chrono::milliseconds{20}};
 
-/// How fast virtual time goes by against a clock. Reads none: it is told the time.
+/// The pace of virtual time against a clock. It reads no clock: callers pass the time.
 class Pace {
 public:
     static constexpr double factor_min = 0.1;
@@ -28,8 +28,8 @@ public:
     [[nodiscard]] bool plays() const { return plays_; }
     [[nodiscard]] std::optional<double> factor() const { return factor_; }
 
-    /// How much virtual time to play for this much of the clock's: whole ticks, the rest is kept.
-    /// nullopt: as much as is possible.
+    /// Returns the virtual time to play for a passed time of the clock: whole ticks, the rest is
+    /// kept. nullopt: play as fast as possible.
     [[nodiscard]] std::optional<base::Duration> due(base::Duration passed, base::Duration tick);
 
 private:

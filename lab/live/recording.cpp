@@ -99,7 +99,7 @@ void Recording::seek(base::Duration time)
     play_to(time);
 }
 
-/// Without showing anything before that time but what had been agreed on.
+/// Goes to a time. Of the rows before it, only those of agreements are shown.
 void Recording::go_to(Playback& one, base::TimePoint time)
 {
     const auto& ticks = one.side.ticks;
@@ -172,7 +172,7 @@ nlohmann::ordered_json Recording::statistics() const
     return {{"program", "hapnet-lab"}, {"elapsed_s", base::to_seconds(at())}};
 }
 
-/// Of an emulator that nothing passes: what it did is not in the records of the peers.
+/// Returns frames of an emulator without links: the records of the peers do not hold its work.
 control::FrameSource Recording::watch()
 {
     return [this](std::string& text, std::uint64_t left_out) {

@@ -25,7 +25,8 @@ namespace hapnet::lab::live {
 /// of the records, each on the clock of its peer. Reads no clock.
 class Recording {
 public:
-    /// Of the last session that both know; in either order. Both records outlive it.
+    /// Takes the last session that both records know. The records may be in either order. Both
+    /// outlive it.
     [[nodiscard]] static base::Result<std::unique_ptr<Recording>> make(const record::Record& a,
                                                                        const record::Record& b);
 
@@ -37,7 +38,7 @@ public:
 
     /// Since both had a row.
     [[nodiscard]] base::Duration at() const { return at_; }
-    /// Until one has no further row, at most to the end of the session.
+    /// The time until one record has no further row, at most to the end of the session.
     [[nodiscard]] base::Duration length() const { return end_ - begin_; }
     [[nodiscard]] bool is_over() const { return at() >= length(); }
     [[nodiscard]] base::Duration tick() const { return tick_; }
@@ -46,7 +47,7 @@ public:
     void play_on(base::Duration by) { play_to(at() + by); }
     void seek(base::Duration time);
 
-    /// As an emulator answers whose conditions cannot be changed, and are not known.
+    /// Answers as an emulator whose conditions cannot be changed and are not known.
     [[nodiscard]] control::Answer answer(std::string_view line) const;
     [[nodiscard]] nlohmann::ordered_json statistics() const;
     [[nodiscard]] control::FrameSource watch();
@@ -55,18 +56,18 @@ public:
         return playbacks_[seat].tap.watch();
     }
     [[nodiscard]] nlohmann::ordered_json show_peer(std::size_t seat) const;
-    /// How far it is: what else the peer counted is not in its record.
+    /// The position in the recording. The peer's other counters are not in its record.
     [[nodiscard]] nlohmann::ordered_json peer_statistics(std::size_t seat) const;
     [[nodiscard]] std::size_t peers() const { return playbacks_.size(); }
     [[nodiscard]] const scene::Description& scene() const { return scene_; }
 
     [[nodiscard]] nlohmann::ordered_json steps() const { return nlohmann::ordered_json::array(); }
     [[nodiscard]] base::Result<experiment::Experiment> as_experiment() const;
-    /// Nothing is computed.
+    /// A recording computes nothing and has no digest.
     [[nodiscard]] std::uint64_t digest() const { return 0; }
 
 private:
-    /// One peer, and how far its rows have been shown.
+    /// A peer, and how far its rows have been shown.
     struct Playback {
         const record::Record* record = nullptr;
         records::Side side;

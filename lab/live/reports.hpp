@@ -14,7 +14,7 @@
 
 namespace hapnet::lab::live {
 
-/// What both replies of a peer in virtual time begin with.
+/// The beginning of both replies of a peer in virtual time.
 struct PeerIntroduction {
     std::string_view program = "hapnet-lab";
     std::string_view version = base::version();
@@ -67,7 +67,7 @@ constexpr auto fields_of(base::Tag<PeerStatistics>)
         base::member("valid", &P::is_valid, "Virtual time is never late."));
 }
 
-/// How far apart the copies are in another session that plays beside the first, as its frames say.
+/// The distance of the copies in another session that plays beside the first, for its frames.
 struct OtherSession {
     std::string algorithm;
     base::Position cube_a;

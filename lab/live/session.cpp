@@ -24,14 +24,14 @@ namespace {
 using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
 
-/// From the first hello to the start: all hear each other, and then count down.
+/// The usual time from the first hello to the start: all hear each other, and then count down.
 constexpr base::Duration usual_countdown = 1s;
-/// What is changed at a time holds after the ticks of that time, as a step of a timeline then does.
+/// A change at a time holds after the ticks of that time, like a step of a timeline.
 constexpr base::Duration after_the_ticks = 1ns;
 /// 16 s of datagrams, more than a page can ask for.
 constexpr emulator::QueueLimits roomy{.datagrams_max = 16384, .bytes_max = 64U << 20};
 
-/// Whether a request of this kind may change what holds.
+/// True if a request of this kind may change what holds.
 bool may_change(std::string_view line)
 {
     const auto request = emulator::parse_request(line);
@@ -85,7 +85,7 @@ Session::Session(const experiment::Experiment& experiment,
     begin();
 }
 
-/// Everything from its start, with nobody in it who was watched before.
+/// Begins everything again from its start. The world and the frames that were watched are replaced.
 void Session::begin()
 {
     journals_.clear();

@@ -32,7 +32,7 @@ public:
     static constexpr std::size_t algorithms_max = 3;
     static constexpr bool is_read_only = false;
 
-    /// Who moves the hand of A.
+    /// The source of the motion of A's hand.
     enum class HandOfA : std::uint8_t { simulated, page };
 
     /// The first task and seed of the experiment, and up to three of its algorithms. `presets`
@@ -48,19 +48,21 @@ public:
 
     /// Since the first hello.
     [[nodiscard]] base::Duration at() const { return world_->now() - World::start; }
-    /// When the session ends; as far as that is known before it is agreed on.
+    /// The time from the first hello to the session's end. Until the session is agreed on, it is an
+    /// estimate.
     [[nodiscard]] base::Duration length() const;
     [[nodiscard]] bool is_over() const { return at() >= length(); }
 
     /// Plays on to that time, at most to the end.
     void play_to(base::Duration time);
-    /// One step of at least a tick; for playing as fast as possible.
+    /// Plays on for `by`, at most to the end. To play as fast as possible, call it again and again
+    /// with steps of at least a tick.
     void play_on(base::Duration by) { play_to(at() + by); }
     /// There from wherever it is, at once.
     void seek(base::Duration time);
 
-    /// A request to the emulator: what it changes holds from now on, in all sessions. What was
-    /// changed later, before a seek came back here, is forgotten then.
+    /// Answers a request to the emulator. Its changes hold from now on, in all sessions. Later
+    /// changes, made before a seek came back here, are forgotten then.
     [[nodiscard]] control::Answer answer(std::string_view line);
     [[nodiscard]] nlohmann::ordered_json statistics() const;
 
@@ -77,22 +79,22 @@ public:
     /// a peer of the first.
     [[nodiscard]] control::FrameSource watch();
     [[nodiscard]] control::FrameSource watch_peer(std::size_t seat) { return taps_[seat].watch(); }
-    /// What a peer says of itself, as a daemon does.
+    /// Returns a peer's report on itself, as a daemon gives it.
     [[nodiscard]] nlohmann::ordered_json show_peer(std::size_t seat) const;
-    /// Its counters, as far as there are any without sockets and a clock.
+    /// The peer's counters, except those of sockets and a clock.
     [[nodiscard]] nlohmann::ordered_json peer_statistics(std::size_t seat) const;
     [[nodiscard]] std::size_t peers() const { return settings_.front().players.size(); }
     [[nodiscard]] const scene::Description& scene() const { return settings_.front().scene; }
 
-    /// What has changed so far, each as {"at_s","settings"}.
+    /// The changes so far, each as {"at_s","settings"}.
     [[nodiscard]] nlohmann::ordered_json steps() const;
-    /// An experiment that plays the same, bit for bit: with what was changed as its timeline, and
-    /// with the way of a page's hand so far as its replay, without a name yet. The error says why
+    /// An experiment that plays the same, bit for bit: with the changes as its timeline, and with
+    /// the motion of a page's hand so far as its replay, without a name yet. The error says why
     /// there is none.
     [[nodiscard]] base::Result<experiment::Experiment> as_experiment() const;
 
-    /// Of all that the hands felt and the bodies did in every session so far: equal bits, equal
-    /// digest.
+    /// A digest of all forces on the hands and motions of the bodies in every session so far. Equal
+    /// bits give equal digests.
     [[nodiscard]] std::uint64_t digest() const { return digest_; }
 
 private:

@@ -15,7 +15,8 @@ namespace {
 using virtual_time::Pose;
 using virtual_time::Trace;
 
-/// Of the pair of sides whose mean is largest; `distance(a, b, i)` is that of two at sample i.
+/// Returns the spread for the pair of sides whose mean is largest; `distance(a, b, i)` is the
+/// distance between the sides a and b at sample i.
 template <typename Distance>
 std::optional<Spread> widest_spread(const Trace& trace, const Distance& distance)
 {
@@ -32,7 +33,7 @@ std::optional<Spread> widest_spread(const Trace& trace, const Distance& distance
     return widest;
 }
 
-/// Where a side's sample has one of the bodies.
+/// Returns the position and the orientation of one of the bodies in a side's sample.
 Pose pose_of(const Trace& trace, std::size_t side, std::size_t sample, std::size_t body)
 {
     if (body > 0) return trace.further[side][sample * trace.further_bodies + body - 1];
@@ -50,7 +51,7 @@ bool is_turned_by_any(const Trace& trace, std::size_t body)
     return false;
 }
 
-/// That of the body whose mean is largest.
+/// Returns the spread of the body whose mean is largest.
 std::optional<Spread> widest_of(const std::vector<BodyApart>& bodies,
                                 std::optional<Spread> BodyApart::*spread)
 {

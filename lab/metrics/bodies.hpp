@@ -11,12 +11,13 @@
 
 namespace hapnet::lab::metrics {
 
-/// How far the copies of one shared body are apart at equal times. Metres and radians. Among more
-/// than two copies: of the two that are farthest apart in the mean.
+/// The distance and the angle between the copies of one shared body at equal times, in metres and
+/// radians. Among more than two copies, each is that of the two which are farthest apart in the
+/// mean.
 struct BodyApart {
     /// |x_A - x_B|.
     std::optional<Spread> discrepancy_x_m{};
-    /// In space; otherwise the same.
+    /// The distance in space.
     std::optional<Spread> discrepancy_m{};
     /// The angle between the orientations; nullopt: it never turned.
     std::optional<Spread> turned_apart_rad{};
@@ -41,7 +42,7 @@ constexpr auto fields_of(base::Tag<BodyApart>)
         base::member("settled_rad", &B::settled_rad, "Likewise the angle."));
 }
 
-/// Of each shared body, in the order of their ids. The trace is not empty.
+/// Returns an entry for each shared body, in the order of their ids. The trace is not empty.
 [[nodiscard]] std::vector<BodyApart> bodies_apart(const virtual_time::Trace& trace);
 
 /// The body that is farthest apart in the mean, by |x_A - x_B| and by the angle.

@@ -61,7 +61,8 @@ std::optional<double> median_stiffness_error(std::span<const Scores> sessions)
 
 double rounded(double value, double steps) { return std::round(value * steps) / steps; }
 
-/// What more than half of a task's sessions fail by, whatever the two numbers are.
+/// Returns a reason why more than half of a task's sessions fail whatever the two calibrated limits
+/// are; nullopt: there is none.
 std::optional<std::string> objection_to(std::span<const Scores> sessions, Criteria criteria)
 {
     constexpr double none = std::numeric_limits<double>::infinity();

@@ -11,8 +11,8 @@
 
 namespace hapnet::lab::metrics {
 
-/// What metrics are made of, of one side, as one contiguous row of numbers each: a sample is three
-/// cache lines, and a metric needs two numbers of it. SI units; x components.
+/// The numbers of one side that metrics read, one contiguous column for each. A sample is three
+/// cache lines long, and a metric needs only two numbers of it. SI units; x components.
 struct Columns {
     std::vector<double> body_x;
     std::vector<double> body_y;

@@ -12,7 +12,7 @@ namespace hapnet::lab::metrics {
 
 /// Mean ||F_L| - |F_R|| over the mean of all the forces, both over the ticks in which both hands
 /// touch, at equal times: no delay is taken out, for the two persons do not know of any. 0: they
-/// push alike. nullopt when they never both touch.
+/// push equally. nullopt when they never both touch.
 [[nodiscard]] std::optional<double> force_discrepancy_of(const Columns& left, const Columns& right);
 
 /// The share of the samples, 0 to 1, in which a push is less than 0.02 N. nullopt when there are

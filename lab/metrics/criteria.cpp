@@ -39,7 +39,8 @@ std::string commented_lines(const base::FieldTable& fields, const void* value)
     return text;
 }
 
-/// What took the place of a key that is gone.
+/// Returns advice on the keys that took the place of one that no longer exists; empty for all other
+/// keys.
 std::string advice_on_key(std::string_view key)
 {
     if (key != "stiffness_ratio_min") return {};

@@ -32,11 +32,12 @@ struct FilterOrderFormat {
 
 [[nodiscard]] double at_order(const ByOrder& values, FilterOrder order);
 
-/// What a session must keep to be usable.
+/// The limits that a usable session keeps.
 struct UsableCriteria {
     ByOrder vibration_max_m{.first = 1.0e-3, .second = 0.97e-3, .fourth = 0.95e-3};
     double slow_stiffness_error_max = 0.859;
-    /// In excess of the perfect network's: a tap on a rigid cube alone has more than 0.1 N.
+    /// The most that the network may add to the vibration on the perfect network, where a tap on a
+    /// rigid cube alone has more than 0.1 N.
     double force_vibration_max_n = 0.1;
     double scored_share_min = 0.95;
     double discrepancy_max_m = 13.8e-3;
@@ -45,7 +46,7 @@ struct UsableCriteria {
     friend bool operator==(const UsableCriteria&, const UsableCriteria&) = default;
 };
 
-/// What it must keep besides to be good.
+/// The further limits that a good session keeps.
 struct GoodCriteria {
     double stiffness_error_max = 0.23;
     double force_discrepancy_max = 0.1;
@@ -133,7 +134,7 @@ constexpr auto fields_of(base::Tag<Criteria>)
         base::field("usable", &Criteria::usable), base::field("good", &Criteria::good));
 }
 
-/// `source` names the text in errors, which say line and column. What is left out has its default.
+/// `source` names the text in errors, which say line and column. A missing key gets its default.
 [[nodiscard]] base::Result<Criteria> parse_criteria(std::string_view text,
                                                     const std::string& source);
 

@@ -9,17 +9,17 @@
 
 namespace hapnet::lab::metrics {
 
-/// From when to when, in seconds from the session's start.
+/// The beginning and the end, in seconds from the session's start.
 struct Stretch {
     double begin_s = 0.0;
     double end_s = 0.0;
 };
 
-/// What a task has its hands do, as far as metrics care. A metric of what they do not do is not
-/// taken. Of the tasks with their default options.
+/// The actions of a task's hands that metrics depend on, with the task's default options. A metric
+/// of an action that the task does not have is not measured.
 struct Exercise {
-    /// One side at a time only receives: its body's vibration counts then. Otherwise both push,
-    /// and count all the time.
+    /// True if only one side at a time receives: its body's vibration counts then. Otherwise both
+    /// push, and count all the time.
     bool by_turns = false;
     bool along_path = false;              // device::path_x()
     double path_pace = 1.0;               // of it

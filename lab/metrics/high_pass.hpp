@@ -12,7 +12,7 @@
 
 namespace hapnet::lab::metrics {
 
-/// Where a filter begins to pass, in hertz, and its sampling.
+/// The frequency at which a filter begins to pass, in hertz, and its sampling.
 struct Cutoff {
     double hertz = 20.0;
     double tick_s = 0.001;
@@ -36,7 +36,7 @@ public:
         return y;
     }
 
-    /// As if the input had been `x` for ever. Returns what the output then is.
+    /// Sets the state as if the input had been `x` for ever. Returns the output.
     double settle(double x);
 
 private:
@@ -63,7 +63,7 @@ struct ByOrder {
 };
 
 inline constexpr base::Quantity vibration_format{base::length_kind, 0.0};
-/// In a text as lengths.
+/// Texts have the values as lengths.
 constexpr auto fields_of(base::Tag<ByOrder>)
 {
     return base::fields(

@@ -15,7 +15,7 @@ namespace hapnet::lab::metrics {
 /// Exact: metrics_from(to_json(m)) == m, as long as all numbers are finite.
 [[nodiscard]] nlohmann::ordered_json to_json(const Metrics& metrics);
 
-/// nullopt when a key is missing or holds something else.
+/// Returns nullopt when a key is missing or its value cannot be read.
 [[nodiscard]] std::optional<Metrics> metrics_from(const nlohmann::json& json);
 
 } // namespace hapnet::lab::metrics

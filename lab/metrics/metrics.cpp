@@ -24,8 +24,8 @@ namespace {
 constexpr double vibration_above_hz = 20.0;
 constexpr double tugging_above_hz = 2.0;
 constexpr double felt_below_hz = 300.0;
-// Who learns late of the session's start has to catch up first. That is in the discrepancy, and in
-// nothing else.
+// A peer that learns late of the session's start has to catch up first. The effect of that is
+// included in the discrepancy only.
 constexpr double catching_up_s = 0.5;
 constexpr double path_every_s = 0.010;
 constexpr double fallen_m = 0.025; // half the height to which the body is lifted
@@ -45,7 +45,7 @@ struct TraceColumns {
         const double index = std::ceil((seconds - begin_s) / tick_s - 1e-6);
         return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count())));
     }
-    /// From when on all has caught up.
+    /// The first sample at which all have caught up.
     [[nodiscard]] std::size_t steady() const { return index_at(begin_s + catching_up_s); }
     [[nodiscard]] std::span<const double> cut(const std::vector<double>& column,
                                               const Stretch& stretch) const

@@ -17,8 +17,8 @@
 
 namespace hapnet::lab::metrics {
 
-/// Of A and of B. Among more than two hands, the larger value of the hands that act as A, and of
-/// those that act as B.
+/// Values of A and of B. Among more than two hands, the larger value of the hands that act as A,
+/// and of those that act as B.
 template <typename Value>
 using BySide = std::array<std::optional<Value>, 2>;
 
@@ -27,9 +27,9 @@ inline constexpr std::array press_hertz{0.5, 1.0, 2.0};
 inline constexpr std::size_t judged_press = 1; // of them: of stiffness_ratio
 inline constexpr std::size_t slow_press = 0;   // the slowest
 
-/// What a session is measured by, A to L. SI units. What a task does not exercise is nullopt.
-/// As measured: what has to be taken relative to the unimpaired session is, in scores_of().
-/// docs/design/metrics.md says what each can tell and what not.
+/// The metrics of a session, A to L, as measured. SI units. A metric that the task does not
+/// exercise is nullopt. scores_of() relates metrics to the unimpaired session where that is needed.
+/// docs/design/metrics.md explains what each one can show and what it cannot.
 struct Metrics {
     device::Task task = device::Task::p1;
     double scored_s = 0.0; // how long all sides were running
@@ -74,14 +74,14 @@ struct Metrics {
     BySide<double> overshoot_m{};
     /// K: from a tap of A to the motion of B's body, seconds.
     std::optional<double> response_s{};
-    /// L: of what the resting hand feels to what the pressing hand does.
+    /// L: the similarity of the force on the resting hand to the force on the pressing hand.
     std::optional<Similarity> similarity{};
     /// Traffic of the busiest direction between any two, with the headers of UDP over IPv4, bit/s.
     std::optional<double> rate_bit_per_s{};
 
     friend bool operator==(const Metrics&, const Metrics&) = default;
 };
-/// By side a list of two, null where there is no value.
+/// Values by side are a list of two, null where there is no value.
 constexpr auto fields_of(base::Tag<Metrics>)
 {
     using M = Metrics;

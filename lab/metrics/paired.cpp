@@ -52,7 +52,8 @@ Interval interval_of_quantile(std::vector<double> values, double share)
     constexpr double infinite = std::numeric_limits<double>::infinity();
     std::ranges::sort(values);
     const auto count = static_cast<double>(values.size());
-    // In logarithms: of a thousand values the first terms are too small for a double.
+    // The sum is of logarithms: with a thousand values the first chances are too small for a
+    // double.
     const auto chance_of = [&](double k) {
         return std::exp(std::lgamma(count + 1.0) - std::lgamma(k + 1.0) -
                         std::lgamma(count - k + 1.0) + k * std::log(share) +

@@ -39,7 +39,8 @@ struct PairedTest {
 /// the true one follows a binomial law. An end is infinite where there are too few values.
 [[nodiscard]] Interval interval_of_quantile(std::vector<double> values, double share);
 
-/// Of how uneven a split of `above` and `below` is.
+/// The two-sided p of the sign test for a split into `above` and `below`: the probability of a
+/// split at least as uneven if both signs are equally likely.
 [[nodiscard]] double sign_test(std::uint32_t above, std::uint32_t below);
 
 } // namespace hapnet::lab::metrics

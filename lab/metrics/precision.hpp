@@ -11,7 +11,8 @@
 
 namespace hapnet::lab::metrics {
 
-// How far a figure is from the same by a finer step or by more seeds, and how that falls.
+// The difference of a figure from its value with a finer step or more seeds, and the rate at which
+// the difference falls.
 
 /// Means of the values of `draws` seeds in each bootstrap replicate. Replicate i draws the same
 /// seeds as every other of as many.

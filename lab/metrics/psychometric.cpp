@@ -28,9 +28,9 @@ constexpr std::array<Lapses, 9> lapse_pairs{{{0.0, 0.0},
                                              {0.05, 0.0},
                                              {0.05, 0.025},
                                              {0.05, 0.05}}};
-/// By how much likelier, as a logarithm, the second core has to be than the first: the difference
-/// of 4 in Akaike's criterion from which Burnham and Anderson ("Model Selection and Multimodel
-/// Inference", 2002, 2.6) call the other one considerably less supported.
+/// The evidence that the second core needs over the first, as the logarithm of a likelihood ratio:
+/// the difference of 4 in Akaike's criterion from which Burnham and Anderson ("Model Selection and
+/// Multimodel Inference", 2002, 2.6) call the other one considerably less supported.
 constexpr double evidence = 2.0;
 constexpr int steps_max = 40;
 constexpr double tenth_of_seeds = 0.1;
@@ -140,7 +140,7 @@ Parameters climbed(const Posterior& posterior, Parameters p, const Interval& wit
     return p;
 }
 
-/// Where half fail if straight lines join the levels: where the climb begins.
+/// Returns the level at which half fail if straight lines join the levels. The climb begins there.
 double crossing(std::span<const FailCount> counts)
 {
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -233,7 +233,7 @@ double students(double degrees)
     return z * sum;
 }
 
-/// What share of replicates lies below a 95 % interval.
+/// Returns the share of replicates below a 95 % interval.
 double share_below(std::uint32_t seeds)
 {
     if (seeds < 2) return 0.025;

@@ -28,13 +28,13 @@ namespace hapnet::lab::metrics {
 // still have a fit, about half-way between the two (after Kuss, Jaekel and Wichmann, "Bayesian
 // inference for psychometric functions", Journal of Vision 5, 2005, 478-492).
 
-/// What came of one level: of each seed whether its session failed, in the order of the seeds.
+/// The outcome of one level: for each seed true if its session failed, in the order of the seeds.
 struct LevelOutcome {
     double level = 0.0;
     std::vector<bool> failed;
 };
 
-/// How many of how many failed at a level.
+/// The number of sessions at a level, and the number that failed.
 struct FailCount {
     double level = 0.0;
     double failed = 0.0;
@@ -65,14 +65,14 @@ inline constexpr double beyond = std::numeric_limits<double>::infinity();
 
 inline constexpr std::uint32_t bootstrap_replicates = 1000;
 
-/// How often each seed stands in each replicate of so many draws, by a generator of its own: equal
-/// numbers, equal draws.
+/// The number of times that each seed occurs in each bootstrap replicate, which has `draws` draws,
+/// by a generator of its own. Equal arguments give equal draws.
 [[nodiscard]] std::vector<std::vector<double>> drawn_weights(std::size_t seeds, std::size_t draws);
 
-/// Where half of the sessions fail, and how sure that is.
+/// The level at which half of the sessions fail, and its interval.
 struct Threshold {
     double p50 = 0.0; // at most the highest level
-    /// Where a tenth fails; nullopt: not within the levels.
+    /// The level at which a tenth fails; nullopt: not within the levels.
     std::optional<double> p10{};
     bool is_open = false; // less than half fail at the highest level: p50 is the top of the range
     /// The 95 % interval of p50: interval_of() the replicates. Where the levels stand too far apart
@@ -93,8 +93,8 @@ struct Threshold {
 /// not independent), by a generator of its own: equal outcomes, equal bits.
 [[nodiscard]] Threshold threshold_of(std::span<const LevelOutcome> outcomes, double top);
 
-/// p50 of each bootstrap replicate, as Threshold::replicates, but of `draws` seeds: what an
-/// experiment of so many finds.
+/// Returns p50 of each bootstrap replicate, as Threshold::replicates, but of `draws` seeds: the
+/// result of an experiment with that number of seeds.
 [[nodiscard]] std::vector<double> p50_replicates(std::span<const LevelOutcome> outcomes,
                                                  std::size_t draws);
 
@@ -110,8 +110,8 @@ struct Interval {
 };
 [[nodiscard]] Interval interval_of(std::vector<double> values, std::uint32_t seeds);
 
-/// The fewest seeds of which interval_of() gives 95 %. Of fewer its ends would lie beyond all
-/// replicates, and it goes from the least of these to the most.
+/// The fewest seeds for which interval_of() gives 95 %. With fewer seeds its ends would lie beyond
+/// all replicates, and it goes from the least of these to the most.
 inline constexpr std::uint32_t interval_seeds_min = 6;
 
 /// A paired difference of p50, and its 95 % interval. Two that are both `beyond` do not differ.

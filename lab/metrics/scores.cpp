@@ -15,7 +15,8 @@ namespace {
 
 // A number that is not finite stays so: it fails where it is judged.
 
-/// What is in `value` beyond `reference`, of two root mean squares that do not correlate.
+/// Returns the part of `value` beyond `reference`. Both are root mean squares, of signals that do
+/// not correlate.
 double excess(double value, double reference)
 {
     const double squares = value * value - reference * reference;
@@ -66,9 +67,10 @@ const auto ratio_of = [](double value, double reference) -> std::optional<double
 
 using Complex = std::complex<double>;
 
-/// What both hands feel and what is due to them at one frequency of pressing: the sum of both, as
-/// both press on the same coupling, and each on its own is off by how the hands waver meanwhile. Of
-/// one alone, where the session ended before the other's turn. nullopt: nothing is due.
+/// The stiffness that both hands feel, and the one that they should feel, at one frequency of
+/// pressing. Each is the sum over both hands: both press on the same coupling, and each alone has
+/// an error because the hands waver meanwhile. Only one hand counts where the session ended before
+/// the other's turn. nullopt: nothing is due.
 struct FeltStiffness {
     Complex felt;
     Complex due;

@@ -9,15 +9,15 @@
 
 namespace hapnet::lab::metrics {
 
-/// Metrics against those of the same session (task, algorithm, hands, seed) on a perfect network:
-/// what the network did. Stiffness is held against that of the same hands in one shared world. SI
-/// units; of the side that is worse off.
+/// Metrics relative to those of the same session (task, algorithm, hands, seed) on a perfect
+/// network: the effect of the network. Stiffness is relative to that of the same hands in one
+/// shared world. SI units; the values of the worse side.
 struct Scores {
     device::Task task = device::Task::p1;
-    /// How long all sides were running, of what it was on the perfect network.
+    /// The time in which all sides were running, as a share of that on the perfect network.
     double scored_share = 0.0;
 
-    /// A: sqrt(a^2 - a0^2), a the vibration, a0 that on the perfect network; 0 when it is less.
+    /// A: sqrt(a^2 - a0^2), a the vibration, a0 that on the perfect network; 0 when a is below a0.
     std::optional<ByOrder> vibration_m{};
     /// B: magnitude of the mean dynamic stiffness of both hands over that in one shared world, by
     /// press_hertz.
@@ -33,10 +33,12 @@ struct Scores {
     /// D as measured.
     std::optional<Spread> discrepancy_m{};
     std::optional<Spread> turned_apart_rad{};
-    /// E as measured, and in excess of the perfect network's as A.
+    /// E as measured, e, and sqrt(e^2 - e0^2), e0 that on the perfect network; 0 when e is below
+    /// e0.
     std::optional<ByOrder> force_vibration_n{};
     std::optional<ByOrder> force_vibration_added_n{};
-    /// E2: likewise, in excess.
+    /// E2: sqrt(e^2 - e0^2), e the vibration above 2 Hz, e0 that on the perfect network; 0 when e
+    /// is below e0.
     std::optional<ByOrder> force_above_2hz_added_n{};
     std::optional<double> felt_vibration_n{};
     /// F: the share lost beyond that on the perfect network; below 0 when less is lost.
@@ -56,17 +58,17 @@ struct Scores {
     std::optional<double> response_added_s{};
     /// L as measured.
     std::optional<Similarity> similarity{};
-    /// As measured.
+    /// The rate as measured.
     std::optional<double> rate_bit_per_s{};
 
     friend bool operator==(const Scores&, const Scores&) = default;
 };
 
-/// What sessions are held against: the metrics on a perfect network, with the stiffness that the
-/// hands feel in one shared world.
+/// Returns the reference for sessions: the metrics on a perfect network, with the stiffness that
+/// the hands feel in one shared world.
 [[nodiscard]] Metrics make_reference(Metrics perfect, const Metrics& one_world);
 
-/// Both are to be of the same task; see make_reference().
+/// Both must be of the same task; see make_reference().
 [[nodiscard]] Scores scores_of(const Metrics& impaired, const Metrics& reference);
 
 } // namespace hapnet::lab::metrics

@@ -50,7 +50,8 @@ std::vector<double> compressed(std::span<const double> force)
     return sensation;
 }
 
-/// Of `a` and of `b` `lag` samples later, every `stride` samples; -1 when one does not vary.
+/// The correlation of `a` and of `b` `lag` samples later, every `stride` samples; -1 when one does
+/// not vary.
 double correlation(std::span<const double> a, std::span<const double> b, std::size_t lag,
                    std::size_t stride)
 {

@@ -9,7 +9,7 @@
 
 namespace hapnet::lab::metrics {
 
-/// How alike one force is to another once the delay is taken out.
+/// The similarity of one force to another once the delay is taken out.
 struct Similarity {
     double share = 0.0; // 1: the same; can be below 0
     double lag_s = 0.0; // that was taken out
@@ -23,11 +23,12 @@ constexpr auto fields_of(base::Tag<Similarity>)
                         base::member("lag_s", &Similarity::lag_s, "The lag that was taken out."));
 }
 
-/// How alike what one hand feels is to what the other does, robust against delay, after the haptic
-/// structural similarity (HSSIM) of Sakr, Georganas and Zhao: the received force is shifted back
-/// by the lag, 0 to 0.5 s, at which the two correlate best; forces are compressed to log(1 + |F| /
-/// 0.05 N), as sensation is; the structural similarity index is taken in windows of 50 ms and its
-/// mean returned. nullopt when there is less than 1 s, or no force.
+/// The similarity of the force that one hand receives to the force that the other hand sends,
+/// robust against delay, after the haptic structural similarity (HSSIM) of Sakr, Georganas and
+/// Zhao: the received force is shifted back by the lag, 0 to 0.5 s, at which the two correlate
+/// best; forces are compressed to log(1 + |F| / 0.05 N), as sensation is; the structural similarity
+/// index is taken in windows of 50 ms and its mean returned. nullopt when there is less than 1 s,
+/// or no force.
 [[nodiscard]] std::optional<Similarity>
 similarity_of(std::span<const double> sent, std::span<const double> received, double tick_s);
 

@@ -10,7 +10,7 @@
 
 namespace hapnet::lab::metrics {
 
-/// How values lie, in their own unit; `std` is the population's.
+/// The distribution of values, in their own unit; `std` is the population's.
 struct Spread {
     double mean = 0.0;
     double min = 0.0;
@@ -27,13 +27,13 @@ constexpr auto fields_of(base::Tag<Spread>)
                         base::member("std", &Spread::std));
 }
 
-/// In another unit.
+/// Converts to another unit.
 [[nodiscard]] constexpr Spread operator*(double unit, const Spread& of)
 {
     return {unit * of.mean, unit * of.min, unit * of.max, unit * of.std};
 }
 
-/// nullopt when there are no values.
+/// Returns nullopt when there are no values.
 [[nodiscard]] std::optional<Spread> spread_of(std::span<const double> values);
 
 } // namespace hapnet::lab::metrics

@@ -9,11 +9,11 @@
 
 namespace hapnet::lab::metrics {
 
-/// How abruptly a force changes.
+/// The abruptness of a force's changes.
 struct ForceSteps {
     double largest_n = 0.0; // in one millisecond
-    /// How often a change of more than 0.5 N/ms is followed by one of the other sign; smaller ones
-    /// in between do not matter.
+    /// The number of changes of more than 0.5 N/ms that are followed by one of the other sign.
+    /// Smaller changes in between do not matter.
     double reversals = 0.0;
 
     friend bool operator==(const ForceSteps&, const ForceSteps&) = default;
@@ -28,7 +28,7 @@ constexpr auto fields_of(base::Tag<ForceSteps>)
                      "of the other sign."));
 }
 
-/// nullopt when there are less than two samples.
+/// Returns nullopt for fewer than two samples.
 [[nodiscard]] std::optional<ForceSteps> force_steps_of(std::span<const double> force,
                                                        double tick_s);
 

@@ -59,7 +59,8 @@ std::optional<DynamicStiffness> stiffness_of(std::span<const double> force_on_ha
     Pointer at;
     SignalPart force_part, place_part;
     for (std::size_t i = 0; i < count; ++i) {
-        // From the first value on: what does not swing is far larger than what does.
+        // Values are relative to the first one: the constant part is far larger than the swinging
+        // part.
         force_part.add(force[i] - force[0], at);
         place_part.add(place[i] - place[0], at);
         at.turn(by);

@@ -16,7 +16,7 @@ class SubjectMeans {
 public:
     void add(const std::optional<std::string>& subject, double value);
 
-    /// In the order in which the subjects first came.
+    /// The means in the order in which the subjects first came.
     [[nodiscard]] std::vector<double> means() const;
     [[nodiscard]] std::size_t count() const { return sums_.size(); }
 

@@ -11,7 +11,7 @@ namespace hapnet::lab::metrics {
 
 namespace {
 
-/// How a criterion is put in words.
+/// The wording of a criterion.
 struct Wording {
     std::string_view name;
     std::string_view unit;
@@ -35,7 +35,7 @@ std::string sentence(const Wording& words, double value, char relation, double l
                        relation, limit * words.scale, words.unit);
 }
 
-/// What a session does not keep of a tier, in words, and by which metrics.
+/// The limits of a tier that a session does not keep, in words, and their metrics.
 struct Objections {
     std::vector<std::string> sentences;
     std::vector<std::string_view> metrics;

@@ -21,11 +21,11 @@ constexpr auto names_of(base::Tag<Tier>) { return base::names("unusable", "usabl
 
 struct Judgement {
     Tier tier = Tier::unusable;
-    /// What keeps it from `usable`, e.g. "vibration 1.31 mm > 0.95 mm"; empty when usable.
+    /// The reasons why it is not `usable`, e.g. "vibration 1.31 mm > 0.95 mm"; empty when usable.
     std::vector<std::string> failures;
     /// The metrics of `failures`, in the same order, e.g. "vibration".
     std::vector<std::string_view> failed;
-    /// What keeps it from `good` besides, e.g. "contact lost 12 % > 5 %".
+    /// Further reasons why it is not `good`, e.g. "contact lost 12 % > 5 %".
     std::vector<std::string> shortcomings;
     /// The metrics of `shortcomings`, in the same order.
     std::vector<std::string_view> short_of;

@@ -11,8 +11,8 @@
 
 namespace hapnet::lab::metrics {
 
-// Of two values of one metric the larger, which is the worse. A number that is not finite is worse
-// than any: it fails where it is judged.
+// These functions return the larger of two values of one metric, which is the worse one. A number
+// that is not finite is worse than any: it fails where it is judged.
 
 [[nodiscard]] inline double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
@@ -29,7 +29,7 @@ namespace hapnet::lab::metrics {
             .reversals = larger(a.reversals, b.reversals)};
 }
 
-/// By the mean.
+/// Compares by the mean.
 [[nodiscard]] inline Spread larger(const Spread& a, const Spread& b)
 {
     return a.mean > b.mean || std::isnan(a.mean) ? a : b;

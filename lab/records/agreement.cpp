@@ -50,7 +50,7 @@ std::vector<const Moment*> settled_moments(const std::vector<Moment>& moments)
     return settled;
 }
 
-/// How often one side of the moments says another owner than before.
+/// Counts how often one side of the moments names another owner than before.
 class Handovers {
 public:
     void note(std::uint16_t owner)
@@ -59,7 +59,7 @@ public:
         if (last_ != 0 && owner != last_) ++count_;
         last_ = owner;
     }
-    /// nullopt: it never said one.
+    /// Returns the number of handovers; nullopt: the side never named an owner.
     [[nodiscard]] std::optional<std::uint64_t> count() const
     {
         return last_ == 0 ? std::nullopt : std::optional{count_};

@@ -15,7 +15,7 @@
 
 namespace hapnet::lab::records {
 
-/// In newtons.
+/// A difference of forces in newtons.
 struct ForceDiscrepancy {
     double mean = 0.0;
     double max = 0.0;
@@ -46,19 +46,19 @@ constexpr auto fields_of(base::Tag<TouchShares>)
 inline constexpr double mm_per_m = 1e3;
 inline constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
-/// In another unit.
+/// Converts to another unit.
 template <typename Figure>
 [[nodiscard]] std::optional<Figure> scaled(const std::optional<Figure>& figure, double unit)
 {
     return figure ? std::optional<Figure>{unit * *figure} : std::nullopt;
 }
 
-/// How far the copies of one body are apart at equal times. Metres and radians.
+/// The agreement of the copies of one body at equal times. Metres and radians.
 struct BodyAgreement {
     RecordedBody body{};
     /// |x_A - x_B| while both are running; nullopt when they never are.
     std::optional<metrics::Spread> discrepancy_x{};
-    /// In space; otherwise the same.
+    /// The distance in space, under the same conditions.
     std::optional<metrics::Spread> discrepancy{};
     /// The angle between their orientations; nullopt, too, for a body that cannot turn.
     std::optional<metrics::Spread> turned_apart{};
@@ -66,8 +66,8 @@ struct BodyAgreement {
     /// nullopt when that was not reached, and the angle of a body that cannot turn.
     std::optional<double> settled_discrepancy{};
     std::optional<double> settled_turned_apart{};
-    /// How often its owner changed while both were running, as the side has it that saw more of
-    /// it; nullopt when the records do not say who owns it.
+    /// The number of changes of its owner while both were running, by the side that saw more of
+    /// them; nullopt when the records do not name the owner.
     std::optional<std::uint64_t> handovers{};
     /// The share of that time, 0 to 1, in which both say that the same peer owns it. While both
     /// hands move it, each side says its own.
@@ -110,10 +110,10 @@ constexpr auto fields_of(base::Tag<BodyAgreement>)
                      "owner; while both hands move a body each names itself."));
 }
 
-/// How well both copies of the scene agree at equal times, namely at each tick of A; B's state
+/// The agreement of both copies of the scene at equal times, namely at each tick of A. B's state
 /// then is interpolated linearly between its ticks.
 struct Agreement {
-    /// Each shared body.
+    /// The agreement of each shared body.
     std::vector<BodyAgreement> bodies;
     /// |x_A - x_B| of the body that is farthest apart in the mean, in metres, while both are
     /// running; nullopt when they never are.
@@ -121,14 +121,15 @@ struct Agreement {
     /// ||F_A| - |F_B|| of the forces that the devices were told, after their governors, while both
     /// are running and touch; nullopt when they never do.
     std::optional<ForceDiscrepancy> force_discrepancy;
-    /// Likewise of the contact forces, before the governor.
+    /// ||F_A| - |F_B|| of the contact forces, before the governor, under the same conditions.
     std::optional<ForceDiscrepancy> contact_force_discrepancy;
     /// The largest of all bodies.
     std::optional<double> settled_discrepancy;
     std::optional<double> settled_turned_apart;
-    /// Who touched the cube while both were running; all zero when they never were.
+    /// The shares of the time with both running in which the sides touched the cube; all zero when
+    /// they never both were.
     TouchShares touching;
-    /// How long both were running.
+    /// The time in which both were running.
     base::Duration scored{};
     /// The share of the session, 0 to 1, in which both have ticks and are running or hands off.
     double overlap = 0.0;

@@ -54,8 +54,8 @@ std::int64_t id_of(const record::Record& record)
     return id.is_number_integer() ? id.get<std::int64_t>() : 0;
 }
 
-/// Of two pairs of copies of one body the farther apart, quantity by quantity; a quantity that only
-/// one has is that one's.
+/// Returns the worse of the values of two pairs of copies of one body, quantity by quantity. A
+/// quantity that only one pair has is that one's.
 BodyAgreement worse_of(const BodyAgreement& a, const BodyAgreement& b)
 {
     return {.body = a.body,

@@ -19,8 +19,8 @@
 
 namespace hapnet::lab::records {
 
-/// What two records of one session say: how far the copies were apart, what the network did, how
-/// well both loops kept their time, and whether the run counts.
+/// The analysis of two records of one session: how far the copies were apart, what the network did,
+/// how well both loops kept their time, and whether the run counts.
 struct Analysis {
     Agreement agreement;
     Path a_to_b;
@@ -55,7 +55,7 @@ constexpr auto fields_of(base::Tag<Analysis>)
 /// Refuses records that cannot be compared; a run that went badly is analysed and not valid.
 [[nodiscard]] base::Result<Analysis> analyse(const record::Record& a, const record::Record& b);
 
-/// Two of a session, the lower id as A.
+/// The analysis of two peers of a session, the lower id as A.
 struct PairAnalysis {
     std::int64_t id_a = 0;
     std::int64_t id_b = 0;
@@ -64,21 +64,21 @@ struct PairAnalysis {
     [[nodiscard]] std::string name() const; // "1-2"
 };
 
-/// What the records of three to eight peers say of one session: every two of them compared.
+/// The analysis of one session of three to eight peers: every two of their records are compared.
 struct CircleAnalysis {
-    /// In the order of their ids: 1-2, 1-3, 2-3.
+    /// The pairs in the order of their ids: 1-2, 1-3, 2-3.
     std::vector<PairAnalysis> pairs;
     /// The loop of each peer, by its id.
     std::map<std::int64_t, Loop> loops;
     std::vector<std::string> invalid_because;
 
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
-    /// Of the two whose copies were farthest apart on average; nullptr: none was ever compared.
+    /// The pair whose copies were farthest apart on average; nullptr: none was ever compared.
     [[nodiscard]] const PairAnalysis* worst() const;
-    /// The largest of all; nullopt: none came so far.
+    /// The largest value of all pairs; nullopt: no pair was measured so far into the session.
     [[nodiscard]] std::optional<double> settled_discrepancy() const;
     [[nodiscard]] std::optional<double> settled_turned_apart() const;
-    /// Of each body the largest of all pairs.
+    /// For each body and each of its quantities the worst value of all pairs.
     [[nodiscard]] std::vector<BodyAgreement> bodies() const;
 };
 

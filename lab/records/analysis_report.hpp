@@ -44,7 +44,7 @@ constexpr auto fields_of(base::Tag<PairReport>)
             "The reasons as a list of texts; empty when valid."));
 }
 
-/// What `analyse --json` prints: docs/formats/statistics.md.
+/// The output of `analyse --json`: docs/formats/statistics.md.
 struct AnalysisReport {
     Analysis all; // of more than two the first two by their ids, with the worst of all pairs
     std::optional<std::optional<std::string>> worst_pair{}; // the inner: none was ever compared
@@ -73,14 +73,14 @@ constexpr auto fields_of(base::Tag<AnalysisReport>)
 /// An analysis for people, as tables: distances, touch, network, loops.
 [[nodiscard]] std::vector<TextTable> tables_of(const Analysis& analysis);
 
-/// How far apart two clocks are; empty when both records were made by one clock.
+/// The difference of two clocks in words; empty when both records were made by one clock.
 [[nodiscard]] std::string clock_text(const Clock& clock);
 
 /// An analysis for people, as lines of text: the tables, and whether the run counts.
 [[nodiscard]] std::string to_table(const Analysis& analysis);
 
-/// Of more than two: the keys of the first two by their ids, but the discrepancies of the worst
-/// pair; `pairs` has all of each pair, `peers` the loop of each.
+/// Reports of more than two peers. They have the keys of the first two by their ids, but the
+/// discrepancies of the worst pair. `pairs` has all of each pair, `peers` the loop of each.
 [[nodiscard]] nlohmann::ordered_json to_json(const CircleAnalysis& circle);
 [[nodiscard]] std::vector<TextTable> tables_of(const CircleAnalysis& circle);
 [[nodiscard]] std::string to_table(const CircleAnalysis& circle);

@@ -14,8 +14,8 @@
 
 namespace hapnet::lab::records {
 
-/// Which bodies a session shared, as its records hold them: those that both have rows of, or else
-/// the only one that the ticks hold. Never empty.
+/// The bodies that a session shared, as its records hold them: those that both have rows of, or
+/// else the only one that the ticks hold. Never empty.
 [[nodiscard]] std::vector<RecordedBody> bodies_shared_in(const record::Record& a,
                                                          const record::Record& b);
 
@@ -26,14 +26,14 @@ namespace hapnet::lab::records {
 
 using virtual_time::Pose;
 
-/// Where one side's ticks left a body. Refers into the side.
+/// The poses of a body after the ticks of one side. Refers into the side.
 class Poses {
 public:
     Poses(const Side& side, const RecordedBody& body) : side_{side}, body_{body} {}
 
-    /// nullopt: its row is lost.
+    /// Returns nullopt when its row is lost.
     [[nodiscard]] std::optional<Pose> at(const record::TickRow& tick) const;
-    /// Whose copy of the body counted, as the side saw it; 0: not said.
+    /// The peer whose copy of the body counted, as the side saw it; 0: not recorded.
     [[nodiscard]] std::uint16_t owner_at(const record::TickRow& tick) const;
 
 private:
@@ -43,7 +43,7 @@ private:
     const RecordedBody& body_;
 };
 
-/// How far two copies of a body are apart.
+/// The distance and the angle between two copies of a body.
 struct Apart {
     base::Displacement distance; // from B's copy to A's
     double angle_rad = 0.0;      // between their orientations, 0 to pi
@@ -56,7 +56,7 @@ public:
         : a_{session.a, body}, b_{session.b, body}
     {}
 
-    /// At a moment; nullopt: a row of it is lost.
+    /// The distance and the angle at a moment; nullopt: a row of it is lost.
     [[nodiscard]] std::optional<Apart> apart_at(const Moment& moment) const;
 
     [[nodiscard]] const Poses& a() const { return a_; }

@@ -19,7 +19,8 @@ namespace hapnet::lab::records {
 
 namespace {
 
-/// How people read a vector: what its columns add to the name, and their unit per SI unit.
+/// The form of a vector for people: the endings of its columns' names, and the number of their
+/// units in one SI unit.
 template <typename V>
 struct Shown;
 template <>

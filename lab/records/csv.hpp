@@ -16,14 +16,14 @@ namespace hapnet::lab::records {
 // Rows of a record as lines of CSV, without their end of line. The first column is the time in
 // seconds since `zero`; numbers that are not finite become empty cells.
 
-/// Where the time of a CSV starts: T0 of the last session; without one, the first tick.
+/// The zero of the time in a CSV: T0 of the last session; without one, the first tick.
 [[nodiscard]] base::TimePoint csv_zero(const record::Record& record);
 
 [[nodiscard]] std::string tick_csv_header();
 [[nodiscard]] std::string csv_line(const record::TickRow& row, base::TimePoint zero);
 
-/// The shared bodies after each tick, a line for each; of a record without rows of bodies the one
-/// that its ticks hold.
+/// The shared bodies after each tick, a line for each. A record without rows of bodies gives the
+/// one body that its ticks hold.
 [[nodiscard]] std::string body_csv_header();
 void for_each_body_csv_line(const record::Record& record, base::TimePoint zero,
                             const std::function<void(const std::string&)>& take);

@@ -16,14 +16,14 @@ struct TimedValue {
     double value = 0.0;
 };
 
-/// How far the copies of one body were apart over time.
+/// The distance and the angle between the copies of one body over time.
 struct BodyCurves {
     std::string name;
     std::vector<TimedValue> apart_mm;         // in space
     std::vector<TimedValue> turned_apart_deg; // empty: it cannot turn
 };
 
-/// How a session went over time: every tick in which a peer took part, hands off included.
+/// The course of a session over time: every tick in which a peer took part, hands off included.
 struct SessionCurves {
     std::vector<TimedValue> cube_a_mm; // x of each copy of the cube
     std::vector<TimedValue> cube_b_mm;
@@ -33,7 +33,7 @@ struct SessionCurves {
     std::vector<double> late_a_us; // how late each of these ticks was
     std::vector<double> late_b_us;
     PathsOverTime paths;
-    /// Of each, where there are several or one that can turn.
+    /// The curves of each body, where there are several bodies or one that can turn.
     std::vector<BodyCurves> bodies;
 };
 

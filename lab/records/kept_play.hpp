@@ -11,8 +11,8 @@
 
 namespace hapnet::lab::records {
 
-/// What a daemon would have recorded of a session: the head of its file, and its rows in the order
-/// in which they were written.
+/// The record of a session that a daemon would have written: the head of its file, and its rows in
+/// the order in which they were written.
 struct KeptRecord {
     nlohmann::json config;
     record::Layout layout{};

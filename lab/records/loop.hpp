@@ -12,14 +12,15 @@
 
 namespace hapnet::lab::records {
 
-/// What 99 % of the ticks of a valid session are to keep: a tick of lateness is a tick of error.
+/// The lateness that 99 % of the ticks of a valid session do not exceed. A tick of lateness is a
+/// tick of error.
 inline constexpr base::Duration tick_lateness_max{std::chrono::milliseconds{1}};
 
-/// How well one peer's haptic loop kept its time, from T0 to its end.
+/// The punctuality of one peer's haptic loop, from T0 to its end.
 struct Loop {
     std::uint64_t ticks = 0;
     std::uint64_t missed = 0;
-    /// nullopt with fewer than two ticks.
+    /// The rate; nullopt with fewer than two ticks.
     std::optional<double> rate_hz;
     std::optional<base::Quantiles> late;
 

@@ -27,15 +27,15 @@ public:
     /// Adds a channel whose messages are encoded as CDR.
     [[nodiscard]] std::uint16_t add_channel(std::uint16_t schema, std::string_view topic);
 
-    /// `time_ns`: of logging and of publishing, in nanoseconds since whatever the file's times
-    /// count from.
+    /// `time_ns`: the time of logging and of publishing, in nanoseconds since the zero of the
+    /// file's times.
     void write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
 
     /// Ends the file.
     void finish();
 
 private:
-    /// Where the messages of a chunk stand in it: time and offset, by channel.
+    /// The times of the messages of a chunk and their offsets in it, by channel.
     using Index = std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>>;
     /// The first and the last of some messages.
     struct Times {

@@ -10,15 +10,15 @@
 
 namespace hapnet::lab::records {
 
-/// What the analysis needs of a recorded state message.
+/// The parts of a recorded state message that the analysis needs.
 struct MessageView {
     std::uint32_t session = 0;
     std::uint32_t sequence = 0;
-    /// On the sender's clock.
+    /// The time of sending, on the sender's clock.
     base::TimePoint sent{};
 };
 
-/// nullopt when the bytes are no state message, or one whose stamp no clock reads.
+/// Returns nullopt for bytes that are no state message, or one with a stamp that no clock can have.
 [[nodiscard]] std::optional<MessageView> view_of(const record::MessageRow& row);
 
 } // namespace hapnet::lab::records

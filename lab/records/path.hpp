@@ -14,25 +14,26 @@
 
 namespace hapnet::lab::records {
 
-/// What became of the state messages of one session on one way.
+/// The outcome of the state messages of one session in one direction.
 struct Path {
     /// `sent` by the sender's record; in a circle that knows it only of messages to the first
     /// other. To the rest: up to the highest that came.
     base::ArrivalCounts arrived;
     /// Share of the sequences up to the highest received that never came, 0 to 1; nullopt when
-    /// nothing came. Those after it may still have been on their way.
+    /// nothing came. Messages after it may still have been on their way.
     std::optional<double> loss;
-    /// From the sender's stamp to the kernel's receive stamp.
+    /// The time from the sender's stamp to the kernel's receive stamp.
     std::optional<base::Quantiles> delay;
     /// |difference of the delays| of messages received one after another (RFC 3393, in the order
     /// of arrival).
     std::optional<base::Quantiles> jitter;
     /// The rate at which the sender sent.
     std::optional<double> packets_per_s;
-    /// How many were sent after the highest that came: they were on their way at the end, or lost.
+    /// The number of messages sent after the highest one received. They were on their way at the
+    /// end, or lost.
     std::uint64_t in_flight = 0;
 
-    /// How many up to the highest that came never did.
+    /// The number of messages up to the highest one received that never came.
     [[nodiscard]] std::uint64_t lost() const { return arrived.sent - arrived.received - in_flight; }
 };
 
@@ -67,7 +68,7 @@ struct ArrivedMessage {
     bool is_duplicate = false; // another copy has arrived before
 };
 
-/// In the order of arrival.
+/// The messages in the order of arrival.
 [[nodiscard]] std::vector<ArrivedMessage> arrived_messages(const Session& session, Way way);
 
 /// The first sequence that the receiver's record can have.

@@ -106,7 +106,7 @@ public:
     }
 
 private:
-    /// What is before the start has the first place.
+    /// A time before the start has the first place.
     [[nodiscard]] std::size_t place_of(base::Duration sent) const
     {
         return static_cast<std::size_t>(std::max(sent, base::Duration{0}) / stretch_);
@@ -117,7 +117,8 @@ private:
     std::vector<base::DurationSample> delays_; // of each stretch
 };
 
-/// When the sender's record has the first message of the session; nullopt: it does not say.
+/// Returns when the first message of the session was sent, by the sender's record; nullopt: it does
+/// not say.
 std::optional<base::TimePoint> first_sent(const Session& session, Way way)
 {
     const Side& sender = way == Way::a_to_b ? session.a : session.b;

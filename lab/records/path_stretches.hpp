@@ -26,7 +26,7 @@ struct PathStretch {
     std::uint64_t received = 0;
     std::optional<DelaySpan> delay_ms{}; // nullopt: none arrived
 
-    /// nullopt: none was sent.
+    /// The share that was lost; nullopt: none was sent.
     [[nodiscard]] std::optional<double> loss() const
     {
         if (sent == 0) return std::nullopt;

@@ -38,7 +38,7 @@ constexpr auto fields_of(base::Tag<WrittenMount>)
                         base::member("offset_m", &WrittenMount::offset_m));
 }
 
-/// What of the configuration in a record's header the forces of the session depend on.
+/// The part of the configuration in a record's header on which the forces of the session depend.
 struct WrittenConfig {
     std::uint16_t peer_id = 0;
     std::uint32_t nonce = 0;
@@ -83,7 +83,7 @@ bool can_play(std::span<const std::uint16_t> others, std::uint16_t self)
            std::ranges::find(others, self) == others.end();
 }
 
-/// Why the session cannot be played again with these numbers; "" for nothing.
+/// Returns the reason why the session cannot be played again with these numbers; "" for none.
 std::string_view validate(const WrittenConfig& config)
 {
     constexpr double seconds_max = 1e6;
@@ -104,7 +104,8 @@ std::string_view validate(const WrittenConfig& config)
     return config.mount.scale > 0.0 ? "" : "'mount': the scale is not positive";
 }
 
-/// How the peer played these bodies with the others: its algorithm, and when it sent.
+/// Reads the way in which the peer played these bodies with the others: its algorithm, and when it
+/// sent.
 base::Result<void> read_play(const WrittenConfig& written, std::span<const peer::SharedBody> bodies,
                              peer::Settings& settings)
 {

@@ -11,14 +11,14 @@
 
 namespace hapnet::lab::records {
 
-/// How a peer and what stood between it and its motors were made.
+/// The settings of a peer, and of the governor and the mount between it and its motors.
 struct RecordedSettings {
     peer::Settings peer;
     device::GovernorLimits limits;
     device::Mount mount;
 };
 
-/// Of a record with this configuration. The error names the key.
+/// Returns the settings of a record with this configuration. The error names the key.
 [[nodiscard]] base::Result<RecordedSettings> settings_of(const nlohmann::json& config);
 
 } // namespace hapnet::lab::records

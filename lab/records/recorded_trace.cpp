@@ -56,7 +56,7 @@ public:
         std::vector<virtual_time::Pose> further; // bodies after the first
         bool is_bridged = false;                 // there is no row near it
     };
-    /// At a time from begin() to end(), not before the last one asked for.
+    /// Returns the reading at a time from begin() to end(), not before the last one asked for.
     [[nodiscard]] Reading at(base::TimePoint time)
     {
         const base::TimePoint here = clock_.to_b(time);
@@ -97,7 +97,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Of each body the farthest of all these pairs; empty: hands were not off for so long in one.
+/// Returns the largest distance and angle of each body over all these pairs; empty: hands were not
+/// off long enough in one.
 std::vector<virtual_time::Settled> settled_in(std::span<const Session> sessions,
                                               const std::vector<RecordedBody>& bodies)
 {
@@ -123,7 +124,7 @@ struct Party {
     Clock clock{};
 };
 
-/// In the order of their ids.
+/// Returns the parties in the order of their ids.
 std::vector<Party> parties_of(std::span<const Session> sessions)
 {
     std::vector<Party> parties{{&sessions.front().a, {}}};

@@ -10,9 +10,9 @@
 
 namespace hapnet::lab::records {
 
-/// What two records tell of a session, as play() gives it of one in virtual time: both sides at the
-/// same even times, by straight lines between their rows. Side 0 is the one whose seed and clock
-/// count, the lower id; the records may come in either order.
+/// Returns the trace of a session from two records, as play() returns it for a session in virtual
+/// time: both sides at the same even times, by straight lines between their rows. Side 0 is the one
+/// whose seed and clock count, the lower id; the records may come in either order.
 ///
 /// Rows do not hold everything: `on_body` is the reaction to what the scene gave the hand, which
 /// differs from the force on the body where the force on the hand was softened for passivity, or
@@ -20,8 +20,8 @@ namespace hapnet::lab::records {
 /// (more than 10 ms) is bridged by straight lines too, but does not count in `overlap`.
 [[nodiscard]] virtual_time::Trace trace_of(const Session& session);
 
-/// The same of more than two: one side of all these sessions, A, with each of the others. There is
-/// at least one. The sides of the trace are in the order of their ids.
+/// Returns the trace of more than two sides: side A of all these sessions, and the other side of
+/// each. There is at least one session. The sides of the trace are in the order of their ids.
 [[nodiscard]] virtual_time::Trace trace_of(std::span<const Session> sessions);
 
 /// The bodies that all of them share, in the order in which that trace has them.

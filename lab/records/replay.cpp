@@ -67,7 +67,8 @@ private:
     bool was_withheld_ = false;
 };
 
-/// Which of the others has this id; of a pair the only one, and the number of them for nobody.
+/// Returns the index of this id among the others; where there is only one other, its index. Returns
+/// the number of the others when none of them has the id.
 std::size_t index_of(const std::vector<std::uint16_t>& others, std::uint16_t id)
 {
     if (others.size() == 1) return 0;
@@ -116,7 +117,7 @@ public:
         return {row.tick, row.at(), row.contact, side_.tick().force, row.device, side_.told()};
     }
 
-    /// After a tick: how far the bodies of which it has rows are from these.
+    /// The largest differences between the bodies in a tick's rows and those of the replay.
     struct BodyDifference {
         double place_m = 0.0;
         double turn_rad = 0.0;

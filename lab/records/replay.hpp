@@ -17,7 +17,7 @@
 
 namespace hapnet::lab::records {
 
-/// One tick, lived through again.
+/// One tick of the replay.
 struct ReplayedTick {
     std::uint64_t tick = 0;
     base::TimePoint at; // as in the record
@@ -35,11 +35,12 @@ struct Replayed {
     bool is_the_recorded_one = true;       // the algorithm
     double contact_difference_max_n = 0.0; // between recorded and replayed, over all ticks
     double device_difference_max_n = 0.0;  // likewise
-    /// Likewise of the places and orientations of all bodies that the record has rows of; nullopt:
-    /// it has none.
+    /// The largest difference of the places and orientations of all bodies that the record has rows
+    /// of; nullopt: it has none.
     std::optional<double> body_difference_max_m;
     std::optional<double> turn_difference_max_rad;
-    /// Likewise in how many ticks a body has another owner; nullopt: the record does not say any.
+    /// The number of ticks in which a body has another owner than recorded; nullopt: the record
+    /// names no owners.
     std::optional<std::uint64_t> other_owner_ticks;
     /// The first tick with more than the tolerances.
     std::optional<std::uint64_t> differs_from;
@@ -90,15 +91,16 @@ constexpr auto fields_of(base::Tag<Replayed>)
 }
 
 /// Plays one peer again on the cores that the daemon runs: the recorded messages arrive in the
-/// ticks that took them, and the recorded hand moves as it did, whatever force it is given. With
-/// another algorithm than the recorded one: what that would have made of the same messages; the
-/// hand did not know of it. The error says what in the record stands in the way: ticks that are
-/// missing or out of order, or a configuration that is incomplete. Rows have no checksum: that
-/// these forces come out again is the check of all that forces follow from, and of the forces.
+/// ticks that took them, and the recorded hand moves as it did, whatever force it is given. Another
+/// algorithm than the recorded one shows which forces it would have made of the same messages, but
+/// the hand moves as it did with the recorded one. The error says what in the record stands in the
+/// way: ticks that are missing or out of order, or a configuration that is incomplete. Rows have no
+/// checksum. If the same forces come out again, both the recorded forces and their inputs are
+/// intact.
 [[nodiscard]] base::Result<Replayed> replay(const record::Record& record,
                                             const std::optional<peer::Algorithm>& instead);
 
-/// It in a few lines, for a person.
+/// Returns the replay in a few lines, for a person.
 [[nodiscard]] std::string to_table(const Replayed& replayed);
 
 [[nodiscard]] std::string replay_csv_header();

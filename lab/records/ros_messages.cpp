@@ -92,7 +92,7 @@ private:
     std::string bytes_ = std::string{"\0\1\0\0", head};
 };
 
-/// What a side gives to the file. Its clock is converted by `time`.
+/// The data of one side for the file. `time` converts its clock.
 struct Source {
     std::int64_t peer = 0;
     std::span<const record::TickRow> ticks{};

@@ -16,7 +16,7 @@ namespace hapnet::lab::records {
 /// docs/formats/wire.md; times are those of the peer's clock.
 void write_mcap(const record::Record& record, const std::function<void(std::string_view)>& take);
 
-/// Both peers of a session, on A's clock.
+/// Writes both peers of a session, on A's clock.
 void write_mcap(const Session& session, const std::function<void(std::string_view)>& take);
 
 } // namespace hapnet::lab::records

@@ -19,7 +19,7 @@ namespace hapnet::lab::records {
 
 namespace {
 
-/// What the analysis needs of the configuration of a peer.
+/// The part of a peer's configuration that the analysis needs.
 struct Peer {
     std::int64_t id = 0;
     std::string boot_id;

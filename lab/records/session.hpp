@@ -22,7 +22,7 @@ enum class ClockMethod : std::uint8_t {
 
 constexpr auto names_of(base::Tag<ClockMethod>) { return base::names("same-boot", "echo"); }
 
-/// How B's clock stands to A's.
+/// The relation of B's clock to A's.
 struct Clock {
     ClockMethod method = ClockMethod::same_boot;
     /// B's clock minus A's, at the time `when` of A's.
@@ -41,7 +41,7 @@ struct Clock {
         return on_a + offset + drift(skew, on_a);
     }
 
-    /// What the difference has grown by since `when`.
+    /// The growth of the difference since `when`.
     [[nodiscard]] base::Duration drift(double share, base::TimePoint at) const
     {
         if (share == 0.0) return {};
@@ -63,14 +63,14 @@ constexpr auto fields_of(base::Tag<Clock>)
 /// One peer's part of a session. Refers into its record.
 struct Side {
     record::SessionRow terms;
-    /// From the first row of this session up to the next session's.
+    /// The ticks from the first row of this session up to the next session's.
     std::span<const record::TickRow> ticks;
-    /// All that the record holds: what belongs to the session says its messages themselves.
+    /// All messages that the record holds. Each message says to which session it belongs.
     std::span<const record::MessageRow> messages;
-    /// Likewise all that it holds, ascending in tick and number.
+    /// All body rows that the record holds, ascending in tick and number.
     std::span<const record::BodyRow> bodies{};
     std::int64_t peer_id = 0;
-    /// Whether `sent_sequence` of its ticks counts the messages to the other side of this session.
+    /// True if `sent_sequence` of its ticks counts the messages to the other side of this session.
     bool numbers_sent = true;
     /// The record has only the last seconds: messages before them are not lost.
     bool begins_late = false;
@@ -87,7 +87,7 @@ struct RecordedBody {
     bool has_rows = false; // of its own; otherwise the ticks hold it
 };
 
-/// What two records tell of the same session.
+/// A session as the records of two peers have it.
 struct Session {
     Side a;
     Side b;

@@ -29,7 +29,8 @@ struct TextTable {
 /// Lines of text: names to the left, cells to the right.
 [[nodiscard]] std::string to_text(const TextTable& table);
 
-/// A number as a cell, with so many decimals; "-" when there is none or when it is not finite.
+/// Returns a number as a cell, with this number of decimals; "-" when there is none or when it is
+/// not finite.
 [[nodiscard]] std::string number_text(std::optional<double> value, int decimals);
 
 /// A CSV without quoted cells as a table for people: columns of equal width.

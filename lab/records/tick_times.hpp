@@ -9,11 +9,11 @@
 
 namespace hapnet::lab::records {
 
-/// When the ticks of a peer were due, from the start of a session on, counted from that start, on
-/// the clock of the record. One that came a tick late or more counts when it came, and those that
-/// were missed are not there. For a session in virtual time that ticks as this one did. Less
-/// lateness is left out: it delays what is sent as well as what is read, and a session in virtual
-/// time, whose datagrams take no time but the link's, would read some a tick too early.
+/// Returns the times at which the ticks of a peer were due, counted from the start of a session, on
+/// the clock of the record. A session in virtual time can then tick in the same way. A tick that
+/// was late by a tick or more counts when it came, and missed ticks are left out. Smaller lateness
+/// is ignored: it delays sending as well as reading, and datagrams in virtual time take no time but
+/// the link's, so that some would be read a tick too early.
 [[nodiscard]] std::vector<base::Duration> tick_times(const record::Record& record,
                                                      base::TimePoint start);
 

@@ -20,7 +20,7 @@ using Keys = std::vector<std::string_view>;
 
 constexpr page::Size panel{360.0, 240.0};
 
-/// What is drawn against the axis.
+/// A measure that is drawn against the axis.
 struct Measure {
     std::string_view key;
     std::string_view title; // of the figures together
@@ -227,7 +227,8 @@ std::optional<page::Figure> frontier_of(const Rows& rows, const Measure& measure
         .caption = "Each point is a way of sending, the mean of its seeds; dashed: deadbands."};
 }
 
-/// What the rate of the network buys, where ways of sending were compared.
+/// Adds figures of each measure against the rate of the network, where ways of sending were
+/// compared.
 void add_frontiers(const Rows& rows, const std::vector<std::string>& sources, FigureGroups& groups)
 {
     if (rows.front().text("parameter") != "send") return;

@@ -40,7 +40,7 @@ std::vector<page::Point> points_of(const Rows& rows, std::string_view key)
     return page::thinned(points, points_max);
 }
 
-/// What is drawn of both sides over time.
+/// A value that is drawn of both sides over time.
 struct BothSides {
     std::string_view id;
     std::string_view title; // after the algorithm's name
@@ -80,7 +80,7 @@ page::Figure both_sides_figure(const Rows& rows, const BothSides& both)
     return figure;
 }
 
-/// Where two curves that lie on each other cannot be told apart.
+/// Draws the difference of two curves that lie on each other.
 page::Figure difference_figure(const Rows& rows)
 {
     const std::string algorithm = rows.front().text("algorithm");
@@ -94,7 +94,7 @@ page::Figure difference_figure(const Rows& rows)
     return figure;
 }
 
-/// What one sees: how far copies are apart, and how a copy moves that follows.
+/// Describes the visible result: how far copies are apart, and how a copy moves that follows.
 std::string apart_text(const Rows& rows)
 {
     constexpr double step_mm = 5.0; // no hand moves a cube so far between two rows
@@ -137,7 +137,7 @@ std::size_t index_of(const std::vector<double>& values, std::optional<double> va
     return static_cast<std::size_t>(found - values.begin());
 }
 
-/// From the worst on, and what stands for it in a field.
+/// The tiers from the worst on, and their symbols in a field.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> tiers{
     {{"unusable", "×"}, {"usable", "○"}, {"good", "●"}}};
 
@@ -161,7 +161,7 @@ page::HeatCell heat_cell(const Rows& rows)
                              row);
         if (row.number("turned_apart_deg"))
             cell.tip += in_words(", copies turned apart {turned_apart_deg:.2} deg", row);
-        // What keeps it from the next tier: each metric with its value and its limit.
+        // The reason why it misses the next tier: each metric with its value and its limit.
         if (const auto reason = row.text("limited_by"); !reason.empty())
             cell.tip += fmt::format("; {}", reason);
     }
@@ -196,11 +196,12 @@ page::Figure plane_map(const Rows& rows, const std::vector<double>& delays,
 
 // --- Errors against cost
 
-/// Of the finest value first.
+/// The colours, that of the finest value first.
 constexpr std::array<std::string_view, 6> colours{"base",  "sep",    "dead-reckoning",
                                                   "other", "missed", "muted"};
 
-/// Of each value a curve over the number of seeds, or of one seed a curve over the values.
+/// Draws for each value a curve over the number of seeds; for a single number of seeds a curve over
+/// the values.
 void add_precision_figure(const Rows& rows, FigureGroup& group)
 {
     auto values = distinct(rows, "value");
@@ -236,7 +237,7 @@ void add_precision_figure(const Rows& rows, FigureGroup& group)
          .caption = in_words("{algorithm} in {task}: ", rows.front()) + words});
 }
 
-/// Of 100 points, how many an algorithm bears in all these rows.
+/// Returns the percentage of points that an algorithm bears in all these rows.
 double borne_percent(const Rows& rows)
 {
     const auto points = split(rows, Keys{"point"});

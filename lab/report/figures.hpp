@@ -22,7 +22,7 @@ using FigureGroups = std::vector<FigureGroup>;
 // The figures of each section; none where the folder lacks their tables.
 
 [[nodiscard]] FigureGroups table1_figures(const results::Results& results);
-/// Each seed of the closed-loop tasks.
+/// The results of each seed of the closed-loop tasks.
 [[nodiscard]] FigureGroups tasks_figures(const results::Results& results);
 /// Limits of delay and jitter.
 [[nodiscard]] FigureGroups fig6a_figures(const results::Results& results);
@@ -33,11 +33,11 @@ using FigureGroups = std::vector<FigureGroup>;
 [[nodiscard]] FigureGroups requirements_figures(const results::Results& results);
 /// Limits by filter and hands.
 [[nodiscard]] FigureGroups trust_figures(const results::Results& results);
-/// What came out against the values of a parameter: limits, and each measure in each task.
+/// The results against the values of a parameter: limits, and each measure in each task.
 [[nodiscard]] FigureGroups axis_figures(const results::Results& results);
 /// Errors against cost: a group for each parameter and algorithm.
 [[nodiscard]] FigureGroups precision_figures(const results::Results& results);
-/// How much of what several parameters were varied over each algorithm bears.
+/// The share of points, over several parameters, that each algorithm bears.
 [[nodiscard]] FigureGroups points_figures(const results::Results& results);
 [[nodiscard]] FigureGroups fig7_figures(const results::Results& results);
 [[nodiscard]] FigureGroups qos_figures(const results::Results& results);

@@ -89,7 +89,7 @@ page::Figure by_task_figure(const Rows& rows)
     return figure;
 }
 
-/// Of the rows that these columns tell apart, that with the least limit.
+/// Returns the row with the least limit from each group of rows that these columns tell apart.
 Rows least_limits(const Rows& rows, const Keys& keys)
 {
     Rows least;
@@ -134,7 +134,8 @@ page::Curve failing_curve(const TableRow& limit, const Rows& sessions)
     return curve;
 }
 
-/// At each level the share of the seeds that fail, in the task that bears least.
+/// Draws for each algorithm the share of the seeds that fail at each level, in the task that bears
+/// least.
 std::optional<page::Figure> failing_figure(const Rows& limits, const Rows& curves)
 {
     std::vector<page::Curve> drawn;

@@ -11,9 +11,9 @@
 
 namespace hapnet::lab::report {
 
-/// Of figures of a session over time, one below the other.
+/// The size of figures of a session over time, one below the other.
 inline constexpr page::Size plot_size{900.0, 230.0};
-/// Of the points of a curve of shares.
+/// The greatest number of points in a curve of shares.
 inline constexpr std::size_t share_points_max = 1000;
 
 /// The delay and the loss of both directions of a session over time; none where no message came.
@@ -21,7 +21,8 @@ inline constexpr std::size_t share_points_max = 1000;
 [[nodiscard]] std::vector<page::Figure> path_figures(const records::PathsOverTime& paths,
                                                      std::string_view arrival);
 
-/// The share of the messages of each direction that took at most so long; likewise.
+/// The share of the messages of each direction that took at most a given time; none where no
+/// message came.
 [[nodiscard]] std::vector<page::Figure> delay_distribution(const records::PathsOverTime& paths);
 
 } // namespace hapnet::lab::report

@@ -16,7 +16,7 @@ namespace hapnet::lab::report {
 
 namespace {
 
-/// What programs call so, and people otherwise.
+/// Names that programs use, and those that people use.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 9> names_for_people{
     {{"percent", "%"},
      {"of_100", "of 100"},

@@ -33,31 +33,31 @@ using results::TableRow;
 [[nodiscard]] Table with_column(Table table, std::string key,
                                 const std::function<results::Cell(const TableRow&)>& cell_of);
 
-/// With so many decimals; "–" for none.
+/// Returns a number with this number of decimals as a text; "–" for none.
 [[nodiscard]] std::string shown(std::optional<double> value, int decimals);
 
-/// Whether a value has an interval in the columns ci_low and ci_high: of one seed there is none.
+/// True if a value has an interval in the columns ci_low and ci_high: of one seed there is none.
 [[nodiscard]] bool has_interval(const TableRow& row);
-/// How wide the curve of an algorithm is, in pixels: sep often lies under base, and is to be seen
+/// The width of an algorithm's curve, in pixels. sep often lies under base and must stay visible
 /// there.
 [[nodiscard]] double curve_width(std::string_view algorithm);
-/// What a line about the result of so many seeds is: "its 95 % interval"; "from the least to the
-/// most of the 3 seeds" of fewer than can give one; "" of one seed, which has no line.
+/// The meaning of the line about a result of `seeds` seeds: "its 95 % interval"; "from the least to
+/// the most of the 3 seeds" of fewer than can give one; "" of one seed, which has no line.
 [[nodiscard]] std::string about_spread(double seeds);
 
-/// What programs call otherwise than people, in people's words: "burst loss", "%".
+/// Translates a program's name for something into people's words: "burst loss", "%".
 [[nodiscard]] std::string people_say(std::string_view name);
 
 /// A text in which {key} stands for a cell: {key:.2} for a number with two decimals, {key:g} for
 /// one with as many digits as it takes, {key:limit} for one with as many digits as a limit is
-/// worth. What programs call otherwise than people is in people's words: "burst loss", "%".
+/// worth. Names that programs use are replaced by people's words: "burst loss", "%".
 [[nodiscard]] std::string in_words(std::string_view pattern, const TableRow& row);
 
 /// The colour of an algorithm, the same on every page; all that are not built in share one.
 [[nodiscard]] std::string_view colour_of(std::string_view algorithm);
 
-/// One bar of each row: its value stands in a column, the rest are patterns. The columns bound,
-/// missed, ci_low and ci_high say more about a bar that is not outlined.
+/// The pattern of one bar for each row. Its value stands in a column, the rest are patterns. The
+/// columns bound, missed, ci_low and ci_high say more about a bar that is not outlined.
 struct BarPattern {
     std::string series;
     std::string value; // a key; a row without this number has no such bar
@@ -69,8 +69,8 @@ struct BarPattern {
 [[nodiscard]] page::Bars bars_of(const Rows& rows, std::string_view group,
                                  std::span<const BarPattern> bars);
 
-/// What of several values at one x belongs to a curve: each; the median, beside which all are dots;
-/// or the mean, with its interval as a band where there are several.
+/// The way in which several values at one x become points of a curve: each; the median, beside
+/// which all are dots; or the mean, with its interval as a band where there are several.
 enum class Together : std::uint8_t { each, median, mean };
 
 /// A curve of each algorithm through what stands in two columns.

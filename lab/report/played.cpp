@@ -49,7 +49,7 @@ std::string tasks_of(const Experiment& experiment)
     return fmt::format("task{} {}", names.size() == 1 ? "" : "s", listed(names));
 }
 
-/// Whether an axis varies one of these keys, or one below it.
+/// True if an axis varies one of these keys, or one below it.
 bool varies(const Experiment& experiment, std::initializer_list<std::string_view> keys)
 {
     return std::ranges::any_of(experiment.axes, [&](const experiment::Axis& axis) {
@@ -86,7 +86,7 @@ std::string network_of(const Experiment& experiment)
     return network_in_words(profile);
 }
 
-/// What was varied, or under what all was played.
+/// Describes what a kind of experiment varies, or the conditions of all sessions.
 struct Circumstances {
     const Experiment& experiment;
 
@@ -169,7 +169,7 @@ std::string people_of(const results::Run& run)
                        subjects == 1 ? "1 subject" : fmt::format("{} subjects", subjects));
 }
 
-/// Whose hands played: "Simulated hands (nominal)".
+/// Names the hands that played: "Simulated hands (nominal)".
 std::string hands_of(const Experiment& experiment, const std::string& people)
 {
     const bool is_varied = varies(experiment, {"hands"});
@@ -202,8 +202,8 @@ std::string words_of(const Experiment& experiment, const std::string& people)
                   "that follow their recordings give way to a force as the simulated hand does.";
 }
 
-/// A scene, the ways of hands and people are told by their names alone: any that can be read will
-/// do.
+/// Returns content that can be read as a file of this name, whatever the file holds. The sentence
+/// has only the names of scenes, of the ways of hands and of people.
 base::Result<std::string> any_file(const std::string& name)
 {
     if (name.ends_with(".csv")) return std::string{"time_s,x_m,y_m,z_m\n0,0,0,0\n1,0,0,0\n"};

@@ -13,14 +13,15 @@ namespace hapnet::lab::report {
 /// Empty when the manifest has no experiment that this version understands.
 [[nodiscard]] std::string sentence_of(const results::Run& run);
 
-/// What a network is asked to do: "delay 160 ms", "A to B: ..." where the directions differ, and
-/// that it changes where it does. Empty of a perfect one.
+/// The network's conditions in words: "delay 160 ms", "A to B: ..." where the directions differ,
+/// and that it changes where it does. Empty for a perfect network.
 [[nodiscard]] std::string network_in_words(const emulator::Profile& profile);
 
-/// How much was played, and how much is meant to be: `played` and `meant`, each with `seeds` and
-/// `duration_s`. Meant is what the built-in experiment of the same title plays, which `built_in`
-/// says is there, or that which settles a limit or a claim of one's own. null where the
-/// configuration cannot be read; without `meant` of other experiments.
+/// The amount that was played, and the amount that is meant to be: `played` and `meant`, each with
+/// `seeds` and `duration_s`. `meant` is the amount that the built-in experiment of the same title
+/// plays; `built_in` is true if there is one. For limits or claims of a user's own, `meant` is the
+/// amount that settles them; other experiments have none. The result is null where the
+/// configuration cannot be read.
 [[nodiscard]] page::Json amounts_of(const results::Run& run);
 
 /// The title of an experiment. Empty where it has none, and where an axis of one's own makes

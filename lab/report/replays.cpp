@@ -21,8 +21,8 @@ using page::Json;
 
 constexpr double mm_per_m = 1e3;
 
-/// A column as 16 bits a value, low byte first, and what one of them is worth; one number when
-/// nothing moves.
+/// Packs a column as 16 bits a value, low byte first, with the value of one step. A column that
+/// does not change becomes one number.
 Json packed(const std::vector<double>& column)
 {
     double most = 0.0;
@@ -46,7 +46,8 @@ Json packed(const std::vector<double>& column)
 Json json_of(const glm::dvec3& mm) { return {mm.x, mm.y, mm.z}; }
 Json json_of(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
 
-/// Its parts, in the frame of its mass, in mm. Of a rounded one `half` is the box within it.
+/// Describes the parts of a body, in the frame of its mass, in mm. For a rounded part `half` is the
+/// box within it.
 Json parts_of_body(const scene::BodyDescription& body)
 {
     Json parts = Json::array();
@@ -61,7 +62,7 @@ Json parts_of_body(const scene::BodyDescription& body)
     return parts;
 }
 
-/// What stands in a scene.
+/// Returns the bodies of a scene.
 Json bodies_of(const scene::Description& scene)
 {
     Json list = Json::array();

@@ -34,7 +34,7 @@ bool is_of_sessions(const Results& results)
     return !results.sessions.empty() && results.runs.empty() && !results.demo;
 }
 
-/// Whether anything stands against the paper.
+/// True if anything stands against the paper.
 bool has_verdicts(const Results& results)
 {
     const auto has = [](std::string_view key) {
@@ -144,7 +144,8 @@ std::string_view source_of(const SectionKind& kind)
     return kind.id == "tasks" ? "sessions" : kind.table;
 }
 
-/// What a page is about. A page about one thing does not replace one about another unnoticed.
+/// Returns the subject of a page. A page about one subject does not silently replace one about
+/// another.
 std::string subject_of(const Results& results)
 {
     if (results.demo) return "demo";

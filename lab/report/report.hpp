@@ -14,7 +14,7 @@ namespace hapnet::lab::report {
 /// numbers of a figure. Equal results give equal bytes.
 [[nodiscard]] std::vector<results::File> report_of(const results::Results& results);
 
-/// What a report.html is about: "experiments", "demo" or "session"; empty when it does not say.
+/// The subject of a report.html: "experiments", "demo" or "session"; empty when it does not say.
 [[nodiscard]] std::string_view page_subject(std::string_view page);
 
 } // namespace hapnet::lab::report

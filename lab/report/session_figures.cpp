@@ -20,7 +20,7 @@ namespace {
 using Values = std::vector<records::TimedValue>;
 
 constexpr std::size_t curve_points_max = 4000; // a curve: finer than pixels, and no peak is lost
-/// Of the bodies of a session, in their order; there are eight at most.
+/// The colours of the bodies of a session, in their order; there are eight at most.
 constexpr std::array<std::string_view, 8> body_colours{"left",   "right", "sep",        "other",
                                                        "missed", "met",   "calibrated", "muted"};
 
@@ -117,7 +117,7 @@ std::vector<page::Figure> figures_of_bodies(const results::RecordedSession& sess
     add("forces", "Force on each hand", {"force", "N"},
         of_both("on hand", curves.force_a_n, curves.force_b_n),
         "Magnitude of the force that each device was told to apply, after its governor.");
-    // Where |x_A - x_B| does not say it all.
+    // The distances and angles of sessions that |x_A - x_B| alone does not describe.
     add("bodies", "Distance of the two copies of each body", {"distance", "mm"},
         curves_of_bodies(curves.bodies, &records::BodyCurves::apart_mm),
         fmt::format("Distance in space at equal times; on average while both hands were on: {}.",
@@ -131,7 +131,7 @@ std::vector<page::Figure> figures_of_bodies(const results::RecordedSession& sess
     return figures;
 }
 
-/// How late the ticks of both loops were; none in virtual time, where no tick is late.
+/// Figures of the lateness of both loops' ticks; none in virtual time, where no tick is late.
 std::vector<page::Figure> lateness_figures(const records::SessionCurves& curves)
 {
     std::vector<page::Curve> drawn;

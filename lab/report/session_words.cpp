@@ -18,7 +18,7 @@ namespace {
 using results::RecordedPeer;
 using results::RecordedSession;
 
-/// Of `boot_id` in records that no machine has made.
+/// The `boot_id` in records that no machine has made.
 constexpr std::string_view virtual_boot = "virtual time";
 
 /// A value of a configuration as text; empty where there is none.
@@ -65,7 +65,8 @@ std::string word(const std::string& text)
     return quoted + "'";
 }
 
-/// How the command of a peer names the others: one by its place alone, several by their ids, too.
+/// Returns the others as the command of a peer names them: a single one by its place alone, several
+/// by their ids, too.
 std::string others_of(const RecordedPeer& peer)
 {
     const auto others = peer.config.value("peers", nlohmann::json::array());

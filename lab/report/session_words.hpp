@@ -10,19 +10,20 @@
 
 namespace hapnet::lab::report {
 
-/// What was played, in one sentence.
+/// Describes the session in one sentence.
 [[nodiscard]] std::string sentence_of(const results::RecordedSession& session);
 
-/// Whether the session was played in virtual time.
+/// True if the session was played in virtual time.
 [[nodiscard]] bool is_virtual(const results::RecordedSession& session);
 
-/// What the network was asked to do; where the records do not hold it, which file does.
+/// Describes the network's conditions; where the records do not hold them, names the file that
+/// does.
 [[nodiscard]] std::string about_network(const results::RecordedSession& session);
 
-/// How the delays of one direction were measured between two peers, and how far to trust them.
+/// Says how the delays of one direction were measured between two peers, and how reliable they are.
 [[nodiscard]] std::string about_clocks(const results::RecordedSession& session);
 
-/// What the configurations of both peers say, with a column for each.
+/// The settings of both peers, with a column for each.
 [[nodiscard]] records::TextTable settings_table(const results::RecordedSession& session);
 
 /// Commands below a line that says what they do.
@@ -31,7 +32,7 @@ struct Repeat {
     std::vector<std::string> commands;
 };
 
-/// How to have the numbers again, and the session.
+/// The commands that repeat the numbers, and the session.
 [[nodiscard]] std::vector<Repeat> repeats_of(const results::RecordedSession& session);
 
 } // namespace hapnet::lab::report

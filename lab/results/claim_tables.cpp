@@ -26,12 +26,13 @@ using Measure = std::function<std::optional<double>(const metrics::Scores&)>;
 const Tasks pressed{Task::t1, Task::t2, Task::t3};
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// By what a number is judged: nine of ten sessions are to keep it, or their mean, or each of them.
+/// The way in which a number is judged: nine of ten sessions have to keep it, or their mean, or
+/// each of them.
 enum class JudgedBy : std::uint8_t { quantile, mean, each };
 constexpr auto names_of(base::Tag<JudgedBy>) { return base::names("quantile", "mean", "worst"); }
 constexpr double kept_share = 0.9;
 
-/// What a number has to keep.
+/// The bounds that a number has to keep.
 struct Wanted {
     double least = -unbounded;
     double most = unbounded;
@@ -51,7 +52,7 @@ double mean_of(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// What is held against one or both bounds of a number, with its interval.
+/// A value that is compared with one or both bounds of a number, with its interval.
 struct HeldValue {
     double value = 0.0;
     metrics::Interval interval{};
@@ -60,7 +61,7 @@ struct HeldValue {
 
     [[nodiscard]] bool is_met() const { return interval.low >= least && interval.high <= most; }
     [[nodiscard]] bool is_missed() const { return interval.high < least || interval.low > most; }
-    /// How far the value is beyond its bounds.
+    /// The distance of the value beyond its bounds; negative within them.
     [[nodiscard]] double shortfall() const { return std::max(least - value, value - most); }
 };
 
@@ -89,7 +90,8 @@ std::vector<HeldValue> held_values(const Number& number)
     return judged;
 }
 
-/// nullopt: it was not measured, or an interval lies across a bound.
+/// Returns true if the number is kept; nullopt: it was not measured, or an interval lies across a
+/// bound.
 std::optional<bool> is_kept(const Number& number)
 {
     const auto judged = held_values(number);
@@ -107,7 +109,7 @@ std::string with_unit(std::string text, const Number& number)
     return number.name.empty() ? text : fmt::format("{}: {}", number.name, text);
 }
 
-/// What is judged.
+/// Returns the judged values of a number as a text.
 std::string said(const Number& number)
 {
     const auto judged = held_values(number);
@@ -138,7 +140,7 @@ std::string joined(const std::vector<Number>& numbers, Say say)
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-// What the claims are about.
+// The measures that the claims are about.
 
 std::optional<double> mean_mm(const metrics::Scores& scores)
 {
@@ -170,8 +172,9 @@ std::optional<double> energy_mj(const metrics::Scores& scores)
     return 1e3 * *scores.energy_taken_j;
 }
 
-/// What a copy lends, stores in its contacts and in the cube's motion, and gives in a tick; of each
-/// further copy what it stores. docs/design/remote-proxy.md derives it.
+/// Returns the bound of the energy, in millijoules: the energy that a copy lends, stores in its
+/// contacts and in the cube's motion, and gives in a tick. Each further copy adds the energy that
+/// it stores. docs/design/remote-proxy.md derives the bound.
 double energy_bound_mj(const experiment::ClaimCell& cell)
 {
     const peer::RemoteProxyOptions proxy;
@@ -209,7 +212,7 @@ public:
 private:
     using Cells = std::vector<std::string_view>;
 
-    /// Of the first algorithm, in these conditions and tasks.
+    /// Returns a number of the first algorithm, in these conditions and tasks.
     [[nodiscard]] Number
     number(std::string name, const Cells& cells, const Tasks& tasks,
            const std::function<std::optional<double>(const ClaimSession&)>& measure) const
@@ -378,8 +381,9 @@ private:
 
 using Stiffness = decltype(metrics::Metrics::stiffness_n_per_m);
 
-/// What each side feels in one shared world, the median of the seeds: in one session a hand that
-/// holds against the press is kept by the friction of its device, or slips as it wavers.
+/// Returns the stiffness that each side feels in one shared world, the median of the seeds. In one
+/// session a hand that holds against the press is kept by the friction of its device, or slips as
+/// it wavers.
 Stiffness usual_stiffness(std::span<const experiment::JobResult> of_seeds,
                           Stiffness metrics::Metrics::*part)
 {

@@ -14,7 +14,7 @@
 
 namespace hapnet::lab::results {
 
-/// A session of a claim's conditions, and what came of it.
+/// A session of a claim's conditions, and its outcome.
 struct ClaimSession {
     const experiment::ClaimCell* cell = nullptr;
     std::string algorithm;

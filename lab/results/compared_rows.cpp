@@ -16,7 +16,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// By which a session is measured; all other columns say which session it is.
+/// The columns that measure a session. All other columns say which session it is.
 constexpr std::array<std::string_view, 15> measures{"mean_mm",
                                                     "std_mm",
                                                     "max_mm",
@@ -73,7 +73,7 @@ std::size_t place_of(const std::vector<std::string>& columns, std::string_view c
     return static_cast<std::size_t>(std::ranges::find(columns, column) - columns.begin());
 }
 
-/// Names sessions by what differs among them, but for algorithm, task and seed.
+/// Names sessions by the conditions that differ among them, except algorithm, task and seed.
 class ConditionNames {
 public:
     explicit ConditionNames(const Sessions& sessions) : columns_{sessions.conditions}
@@ -110,7 +110,7 @@ private:
     std::vector<std::size_t> telling_;
 };
 
-/// The sessions of both tables that a row is of.
+/// The sessions of both tables that belong to a row.
 using CommonSessions = std::vector<std::pair<TableRow, TableRow>>;
 
 /// Sessions that are compared together.

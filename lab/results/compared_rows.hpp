@@ -8,7 +8,7 @@
 
 namespace hapnet::lab::results {
 
-/// What stands under `conditions` in a row over all of them.
+/// The cell under `conditions` in a row over all of them.
 inline constexpr const char* all_conditions = "all";
 
 /// The sessions of a folder.
@@ -18,10 +18,10 @@ struct SessionsTable {
 };
 
 /// The table compared: measures of the sessions that two folders have in common. It pairs the
-/// sessions of two tables that are alike in every column but those that a session is measured by.
-/// `conditions` is what else differs among the sessions, "delay_ms=40"; conditions together have a
-/// row all_conditions where there are several. `difference` is the median of B - A, with its 95 %
-/// interval. The error: a table has no sessions, or they have no session in common.
+/// sessions of two tables that are equal in every column except the measures. `conditions` is what
+/// else differs among the sessions, "delay_ms=40"; conditions together have a row all_conditions
+/// where there are several. `difference` is the median of B - A, with its 95 % interval. The error:
+/// a table has no sessions, or they have no session in common.
 [[nodiscard]] base::Result<Table> compare_sessions(const SessionsTable& a, const SessionsTable& b);
 
 } // namespace hapnet::lab::results

@@ -159,7 +159,7 @@ records::TextTable both_tasks(const DemoRun& run)
     return table;
 }
 
-/// Why the run does not count; empty: it does.
+/// Returns the reasons why the run does not count; empty: it does.
 std::vector<std::string> invalid_because(const DemoRun& run)
 {
     std::vector<std::string> reasons;

@@ -18,10 +18,10 @@ struct DemoRun {
     SessionFiles t3;
 };
 
-/// What the demo measured: beside the paper's Table 1, and of both tasks.
+/// The measurements of the demo: beside the paper's Table 1, and of both tasks.
 [[nodiscard]] std::vector<records::TextTable> demo_tables(const DemoRun& run);
 
-/// The same as lines of text, and whether the run counts.
+/// The tables as lines of text, and whether the run counts.
 [[nodiscard]] std::string demo_table(const DemoRun& run);
 
 /// True if no row of the tables is missed: P1's mean discrepancy is within 15 % of the paper's

@@ -26,7 +26,8 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// What the sessions of one algorithm and task found, in the order of the trials and the seeds.
+/// The findings of the sessions of one algorithm and task, in the order of the trials and the
+/// seeds.
 struct Group {
     std::string_view algorithm;
     device::Task task{};
@@ -37,7 +38,8 @@ struct Group {
     std::vector<std::string> subjects{}; // of each session; of simulated hands none
 };
 
-/// The results of single sessions, by algorithm and task; each point of a grid begins anew.
+/// Returns the results of single sessions, by algorithm and task. Each point of a grid starts a new
+/// group.
 std::vector<Group> groups_of(const experiment::Experiment& experiment,
                              std::span<const experiment::JobResult> results)
 {
@@ -113,7 +115,8 @@ void add_table1_row(const Group& group, const Summary& summary,
               end(&Table1Bands::max_mm, &Band::high));
 }
 
-/// As in the paper's table: the built-in algorithm of that name, under the built-in conditions.
+/// True if a row was played as in the paper's table: by the built-in algorithm of that name, under
+/// the built-in conditions.
 bool is_papers_row(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
                    std::string_view algorithm)
 {
@@ -148,7 +151,7 @@ void add_task_row(const Group& group, const Summary& summary, const metrics::Cri
         in_thousands(summary.worst.rate_bit_per_s), party.subjects, party.trials);
 }
 
-/// Which command wrote the criteria.
+/// Returns a comment of TOML that names the command which wrote the criteria.
 std::string origin_of(const experiment::Experiment& experiment)
 {
     std::vector<std::string_view> tasks;
@@ -222,7 +225,7 @@ struct ResultsOf {
 
     base::Result<Found> operator()(const experiment::Trajectories&) const
     {
-        // What lies along x.
+        // The quantities along x.
         constexpr std::array<std::pair<std::string_view, std::string_view>, 7> columns{
             {{"time_s", "time_s"},
              {"cube_l_mm", "lx"},

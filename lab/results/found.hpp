@@ -11,7 +11,7 @@
 
 namespace hapnet::lab::results {
 
-/// What an experiment found.
+/// The findings of an experiment.
 struct Found {
     std::vector<Table> tables;
     std::vector<File> files{}; // besides: criteria.toml

@@ -32,7 +32,7 @@ const TaskLimit* limit_of(const std::vector<TaskLimit>& limits, const TaskLimit&
     return nullptr;
 }
 
-/// What the paper says of a limit: it says it of two people and of no task in particular.
+/// The paper's statement on a limit: it is about two people and no task in particular.
 struct PaperCells {
     std::optional<double> limit{};
     LimitStatus status{};

@@ -18,7 +18,7 @@ namespace hapnet::lab::results {
                                  const metrics::Criteria& criteria,
                                  std::span<const experiment::JobResult> results);
 
-/// How p50 of each algorithm differs from that of the first.
+/// The differences of each algorithm's p50 from that of the first.
 [[nodiscard]] Table paired_limits_table(const experiment::Experiment& experiment,
                                         const metrics::Criteria& criteria,
                                         std::span<const experiment::JobResult> results);

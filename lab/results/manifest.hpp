@@ -13,7 +13,7 @@
 
 namespace hapnet::lab::results {
 
-/// What happened around a run. Its results do not depend on it.
+/// The circumstances of a run. Its results do not depend on them.
 struct Circumstances {
     std::string command; // what was typed
     std::string start;   // ISO 8601, UTC
@@ -26,10 +26,10 @@ struct Circumstances {
 /// ISO 8601, UTC, whole seconds.
 [[nodiscard]] std::string utc_text(double since_1970_s);
 
-/// What every manifest.json begins with: command, version, commit, compiler, host, time.
+/// The beginning of every manifest.json: command, version, commit, compiler, host, time.
 [[nodiscard]] nlohmann::ordered_json manifest_head(const Circumstances& circumstances);
 
-/// How the run of an experiment ended.
+/// The outcome of the run of an experiment.
 struct RunOutcome {
     std::string criteria;   // TOML
     std::size_t played = 0; // sessions

@@ -41,10 +41,10 @@ Band around(double centre, double share)
     return {(1.0 - share) * centre, (1.0 + share) * centre};
 }
 
-/// How a limit stands to that of base.
+/// The relation of a limit to that of base.
 enum class ToBase : std::uint8_t { any, near, at_least, more, less };
 
-/// Where a limit agrees.
+/// The range in which a limit agrees, and its relation to that of base.
 struct LimitRule {
     std::string_view algorithm;
     experiment::Impairment impairment;
@@ -93,7 +93,7 @@ const LimitRule* rule_of(std::string_view algorithm, std::string_view impairment
     return known == limit_rules.end() ? nullptr : &*known;
 }
 
-/// Where a whole interval lies.
+/// The position of a whole interval relative to a band.
 enum class Lies : std::uint8_t { within, outside, across };
 
 Lies lies(const metrics::Interval& interval, const Band& band)
@@ -119,7 +119,7 @@ Lies stands_to_base(const LimitRule& rule, const metrics::Threshold& found,
     return Lies::within;
 }
 
-/// By all that a rule says.
+/// Judges a limit by all parts of a rule.
 Lies agrees(const LimitRule& rule, const metrics::Threshold& found, const metrics::Threshold* base)
 {
     const Lies in_band = lies({found.low, found.high.value_or(no_end)}, rule.band);

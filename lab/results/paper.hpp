@@ -13,7 +13,8 @@
 
 namespace hapnet::lab::results {
 
-// What the paper says, and what counts as agreeing with it. Algorithms go by their names.
+// The paper's results, and the ranges that count as agreeing with them. Algorithms go by their
+// names.
 
 /// Table 1: |x_L - x_R| at 160 ms, in mm.
 struct PaperRow {
@@ -22,31 +23,33 @@ struct PaperRow {
     double max_mm = 0.0;
 };
 
-/// nullopt: the paper has no such algorithm.
+/// Returns nullopt when the paper has no such algorithm.
 [[nodiscard]] std::optional<PaperRow> paper_table1(std::string_view algorithm);
 
-/// The number in the paper's Fig. 6, in the impairment's unit. nullopt: it states none. Of jitter
-/// it states dead reckoning's alone; at the 15 ms of its Fig. 7 base and TiDeC were still usable.
+/// The number in the paper's Fig. 6, in the impairment's unit. nullopt: it states none. For jitter
+/// it states only that of dead reckoning; at the 15 ms of its Fig. 7 base and TiDeC were still
+/// usable.
 [[nodiscard]] std::optional<double> paper_limit(std::string_view algorithm,
                                                 experiment::Impairment impairment);
 
-/// How a limit came about, of one task or of the worst of them (worst_task). The thresholds were
+/// The origin of a limit, of one task or of the worst of them (worst_task). The thresholds were
 /// calibrated on base's delay, which shows in T2, and its random loss, which shows in T1; readings
 /// of the paper were chosen with a look at dead reckoning's jitter and random loss and at base's
-/// bursts, in T1; in T1, where one hand pushes at a time, sep is base by construction, and so
-/// are its limits but that of delay. Provenance::none: the paper has no such algorithm.
+/// bursts, in T1; in T1, where one hand pushes at a time, sep is base by construction, and so are
+/// its limits, except that of delay. Provenance::none: the paper has no such algorithm.
 [[nodiscard]] Provenance limit_provenance(std::string_view algorithm,
                                           experiment::Impairment impairment, std::string_view task);
 
-/// The same of a row of Table 1: of its mean and standard deviation, and of its maximum. P1's path
-/// was fitted to base's row; its frequencies also saw the ratio of dead reckoning's mean to base's.
+/// The provenance of a row of Table 1: of its mean and standard deviation, and of its maximum. P1's
+/// path was fitted to base's row; its frequencies were chosen with a look at the ratio of dead
+/// reckoning's mean to base's, too.
 struct Table1Provenance {
     Provenance typical{};
     Provenance max{};
 };
 [[nodiscard]] Table1Provenance table1_provenance(std::string_view algorithm);
 
-/// From low to high, ends included.
+/// A range from low to high, ends included.
 struct Band {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -54,7 +57,7 @@ struct Band {
     [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
 };
 
-/// Where the numbers of Table 1 agree:
+/// The ranges in which the numbers of Table 1 agree:
 /// - base: mean, std and max within 10 % of the paper's;
 /// - dead-reckoning: mean and std within 15 % of the paper's, max from 40 to 65 mm;
 /// - sep: mean, std and max within 3 % of base's, which was measured in the same run.
@@ -64,23 +67,23 @@ struct Table1Bands {
     Band max_mm{};
 };
 
-/// nullopt when there is nothing to hold the algorithm against.
+/// Returns nullopt when there is nothing to compare the algorithm with.
 [[nodiscard]] std::optional<Table1Bands>
 table1_bands(std::string_view algorithm, const std::optional<metrics::Spread>& base_mm);
 
-/// Claim::none: the paper has no such algorithm. `mm` is what was measured of the algorithm,
-/// `base_mm` of base. The paper's row of base was calibrated on.
+/// Claim::none: the paper has no such algorithm. `mm` was measured with the algorithm, `base_mm`
+/// with base. The paper's row of base was used for calibration.
 [[nodiscard]] Claim table1_verdict(std::string_view algorithm, const metrics::Spread& mm,
                                    const std::optional<metrics::Spread>& base_mm);
 
-/// Where a limit agrees, for people to read: "130 to 155, less than base"; empty for what the paper
-/// does not know.
+/// The range in which a limit agrees, for people to read: "130 to 155, less than base"; empty where
+/// the paper makes no claim.
 [[nodiscard]] std::string_view limit_band(std::string_view algorithm, std::string_view impairment);
 
-/// How the limit of the worst of the tasks stands to the paper's. `base` is base's. Decided by
-/// 95 % intervals: met where that of p50 lies within the band and that of the paired difference to
-/// base where it should; missed where one of them lies outside; undecided else.
-/// LimitStatus::none: the paper states no number, or base is needed and was not played.
+/// Compares the limit of the worst task with the paper's. `base` is base's limit. 95 % intervals
+/// decide. Met: that of p50 lies within the band, and that of the paired difference to base where
+/// it should. Missed: one of them lies outside. Otherwise undecided. LimitStatus::none: the paper
+/// states no number, or base is needed and was not played.
 [[nodiscard]] LimitStatus limit_status(std::string_view algorithm,
                                        experiment::Impairment impairment,
                                        const metrics::Threshold& found,

@@ -12,8 +12,8 @@
 
 namespace hapnet::lab::results {
 
-/// How many played, and where: the last columns of a table in which that is not two in the task's
-/// own scene.
+/// The number of players and their scene: the last columns of a table in which not all sessions are
+/// of two players in the task's own scene.
 struct PartyCells {
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};

@@ -54,7 +54,7 @@ constexpr std::array session_figures{
     SessionFigure{"stiffness_ratio", &SessionRow::stiffness_ratio, false, true},
     SessionFigure{"force_vibration_n", &SessionRow::force_vibration_n, false, true}};
 
-/// Of all players in so many sessions.
+/// Returns the number of ticks of all players in `sessions` sessions.
 std::uint64_t ticks_of(const experiment::Experiment& experiment, std::size_t sessions)
 {
     const auto each = static_cast<std::uint64_t>(experiment.duration / experiment.tick);
@@ -73,7 +73,7 @@ std::vector<double> values_of(std::span<const SessionRow> sessions,
     return values;
 }
 
-/// Of the sessions of one algorithm and task.
+/// Adds the figures of the sessions of one algorithm and task.
 void add_session_figures(const experiment::Experiment& experiment,
                          std::span<const SessionRow> sessions, std::vector<Figure>& figures)
 {
@@ -142,7 +142,7 @@ std::vector<Figure> figures_of(const AxisFindings& findings, const metrics::Crit
     return figures;
 }
 
-/// 1, 2, 5, 10, 20, ... below so many, and all.
+/// Returns 1, 2, 5, 10, 20, ... below `all`, and `all` itself.
 std::vector<std::uint32_t> numbers_of_seeds(std::uint32_t all)
 {
     std::vector<std::uint32_t> numbers;

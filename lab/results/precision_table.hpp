@@ -14,17 +14,17 @@
 
 namespace hapnet::lab::results {
 
-/// What came of all jobs of an experiment at one value of its axis.
+/// The results of all jobs of an experiment at one value of its axis.
 struct AxisFindings {
     std::string value;
     const experiment::Experiment* experiment = nullptr;
     std::vector<experiment::JobResult> results;
 };
 
-/// What figures by so many seeds, at one value of a parameter, are off from the same figures by all
-/// seeds at the reference, and what they cost: the table precision, of every figure that all seeds
-/// have at the reference, at each value, by 1, 2, 5, 10, ... and all seeds. The axis has a
-/// reference, which is among the values.
+/// Returns the table precision: the error and the cost of figures by fewer seeds and at other
+/// values of a parameter, compared with the same figures by all seeds at the reference. It has
+/// every figure that all seeds have at the reference, at each value, by 1, 2, 5, 10, ... and all
+/// seeds. The axis has a reference, which is among the values.
 ///
 /// `figure` has its unit: "mean_mm", a mean over the seeds; "p50 of delay, ms". `ticks` are of all
 /// players, in the whole length of the sessions behind the figure, those on perfect networks

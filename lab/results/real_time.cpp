@@ -92,7 +92,7 @@ std::vector<std::string> objections_to(const RealTimeSession& session)
     return objections;
 }
 
-/// What a peer says that it played with, and whose hand.
+/// Returns the algorithm and the simulated person with which a peer played, from its report.
 base::Result<virtual_time::PlayerSetting> player_of(const Json& report, Parts& parts)
 {
     Written peer{report, "hapnet-peer"};

@@ -26,12 +26,12 @@ namespace hapnet::lab::results {
 struct RealTimeSession {
     std::string where; // "loopback" or "namespaces"
     SessionFiles files{};
-    /// When the peers ticked, in the order of their ids, counted from the start, as their records
-    /// say; empty: evenly, all at once.
+    /// The times of the peers' ticks, in the order of their ids, counted from the start, as their
+    /// records say; empty: they tick evenly and all at once.
     std::vector<std::vector<base::Duration>> ticks{};
 };
 
-/// How a loop kept its time, by the times of its ticks.
+/// The punctuality of a loop, by the times of its ticks.
 struct KeptTime {
     std::uint64_t missed = 0;     // ticks
     base::Duration longest_gap{}; // between two of them
@@ -58,8 +58,9 @@ struct RealTimeResult {
     std::vector<std::string> invalid_because;
 
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
-    /// How far real time is from virtual time in mean or std, whichever is farther; negative: below
-    /// it. nullopt when the session does not count or there is nothing to compare.
+    /// The difference of real time from virtual time in mean or std, whichever differs more;
+    /// negative: real time is below. nullopt when the session does not count or there is nothing to
+    /// compare.
     [[nodiscard]] std::optional<double> difference_percent() const;
 };
 
@@ -69,10 +70,10 @@ struct RealTimeResult {
 
 /// The table real_time.
 [[nodiscard]] Table real_time_rows(std::span<const RealTimeResult> results);
-/// The same as lines of text for a person, who also learns which results agree within 5 %.
+/// The results as lines of text for a person. They also say which results agree within 5 %.
 [[nodiscard]] std::string real_time_table(std::span<const RealTimeResult> results);
 
-/// What manifest.json says of them under "real_time".
+/// The entry of manifest.json under "real_time".
 [[nodiscard]] nlohmann::ordered_json real_time_manifest(std::span<const RealTimeResult> results,
                                                         const Circumstances& circumstances);
 

@@ -22,7 +22,8 @@ constexpr double m_per_mm = 1e-3;
 constexpr std::size_t plain_columns = 15;
 constexpr std::size_t turn_columns = 4, pose_columns = 7; // of a body on one side
 
-/// What is written where a body turns or several are shared: the number of further bodies.
+/// Returns the columns of a replay. `further` is the number of further bodies where a body turns or
+/// several are shared; nullopt: there are the plain columns only.
 std::vector<Column> replay_columns(std::optional<std::size_t> further)
 {
     std::string line = "time_s:4,lx:3,ly:3,lz:3,lhx:3,lhy:3,lhz:3,lfx:4,"
@@ -37,7 +38,8 @@ std::vector<Column> replay_columns(std::optional<std::size_t> further)
     return columns_in(line);
 }
 
-/// The number of further bodies of a table with so many columns; nullopt: it has the plain ones.
+/// Returns the number of further bodies of a table with this number of columns; nullopt: it has the
+/// plain ones.
 std::optional<std::size_t> further_in(std::size_t columns)
 {
     if (columns <= plain_columns) return std::nullopt;

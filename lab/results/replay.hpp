@@ -16,7 +16,7 @@
 
 namespace hapnet::lab::results {
 
-// What sides did over time.
+// The motion and the forces of the sides over time.
 
 /// Samples of a trace of two, `rows_per_s` a second or all when there are fewer: the table
 /// replay/ALGORITHM-TASK. It has of each side, A as `l` and B as `r`, the places of the first
@@ -34,11 +34,11 @@ struct ReplaySide {
     bool is_left = true;
     std::vector<glm::dvec3> hand_mm{};
     std::vector<glm::dvec3> force_n{}; // on the hand
-    /// Of each shared body the steps.
+    /// The poses of each shared body, one for each step.
     std::vector<std::vector<virtual_time::Pose>> bodies{};
 };
 
-/// What all sides did, in equal steps of time.
+/// The motion and the forces of all sides, in equal steps of time.
 struct Replay {
     std::string algorithm;
     std::string task;
@@ -54,12 +54,13 @@ struct Replay {
 /// The number of the first movable body.
 [[nodiscard]] std::size_t first_movable(const scene::Description& scene);
 
-/// Every so many ticks of a trace; `names` are those of its sides.
+/// Returns the sides of a trace with every `every`-th tick; `names` are those of the sides.
 [[nodiscard]] std::vector<ReplaySide> replay_sides(const virtual_time::Trace& trace,
                                                    std::span<const std::string> names,
                                                    std::size_t every);
 
-/// Of the table replay/ALGORITHM-TASK, in the paper's scene. The error: it has not two rows.
+/// Reads a replay from the table replay/ALGORITHM-TASK, in the paper's scene. The error: the table
+/// has fewer than two rows.
 [[nodiscard]] base::Result<Replay> replay_of(const Table& table);
 
 /// The table replay_scenes, empty: a row for each replay in another scene than the paper's, with

@@ -43,7 +43,7 @@ void put(Borne borne, std::optional<double>& level, Bound& bound)
     bound = borne.bound;
 }
 
-/// A message in each of so many whole ticks: at least one.
+/// Writes the interval that the limit allows, rounded down to whole ticks, but at least one tick.
 void put_interval(const TaskLimit& limit, base::Duration tick, Requirement& row)
 {
     Borne interval = borne(limit);

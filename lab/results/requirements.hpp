@@ -17,8 +17,8 @@
 
 namespace hapnet::lab::results {
 
-// What a network must offer: what each algorithm bears, in each task and for each tier, beside the
-// classes of networks of ITU-T Y.1541.
+// Requirements on a network: the impairments that each algorithm bears, in each task and for each
+// tier, beside the classes of networks of ITU-T Y.1541.
 
 /// The promises of a class of networks by ITU-T Recommendation Y.1541 (12/2011), Network
 /// performance objectives for IP-based services, table 1.

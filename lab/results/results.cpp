@@ -32,7 +32,8 @@ std::string folder_of(std::string_view path)
 
 Outcome add_run(const File& file, Results& results)
 {
-    // What nests deeper than anything that we write is left out: it could exhaust the stack.
+    // Parts that nest deeper than in any file of this program are left out: they could exhaust the
+    // stack.
     constexpr int depth_max = 16;
     auto json = Json::parse(
         file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
@@ -52,7 +53,7 @@ Outcome add_run(const File& file, Results& results)
     return {};
 }
 
-/// What is done with a table of some name.
+/// The rules for the tables of one name.
 struct TableRule {
     std::string_view name;
     std::vector<std::string_view> keys{}; // what no two rows may have alike; none: anything
@@ -76,7 +77,8 @@ const std::vector<TableRule>& table_rules()
     return rules;
 }
 
-/// Of Table 1, which plays P1 and all else on one network; others are not shown one by one.
+/// True for the sessions of Table 1, which plays P1 and everything else on one network. Other
+/// sessions are not shown one by one.
 bool are_of_table1(const Table& sessions)
 {
     const Rows rows = rows_of(sessions);
@@ -183,7 +185,7 @@ Outcome put_in_order(Results& results)
 
 constexpr std::uint32_t replay_rows_per_s = 100;
 
-/// What a record's configuration says under a key; empty when it says nothing.
+/// Returns the text of a record's configuration under a key; empty when it has none.
 std::string text_in(const nlohmann::json& config, const char* key)
 {
     const auto found = config.find(key);
@@ -225,7 +227,8 @@ base::Result<RecordedSession> recorded_session(const std::string& name, const Re
                            .curves = curves_of(*session)};
 }
 
-/// Without algorithm and task. nullopt: they were hardly ever in session at the same time.
+/// Returns a replay without algorithm and task. nullopt: the peers were hardly ever in session at
+/// the same time.
 std::optional<Replay> replay_of(std::span<const records::Session> sessions,
                                 const std::string& scene_toml)
 {

@@ -20,7 +20,7 @@
 
 namespace hapnet::lab::results {
 
-/// How some of the results came about: a manifest.json.
+/// The origin of some of the results: a manifest.json.
 struct Run {
     std::string folder; // where it stands, as the path of the file says
     nlohmann::ordered_json manifest;
@@ -29,7 +29,7 @@ struct Run {
     [[nodiscard]] bool is_valid() const;
 };
 
-/// What one of the peers of a session has recorded.
+/// The record of one of the peers of a session.
 struct RecordedPeer {
     std::int64_t id = 0;
     nlohmann::json config; // the configuration in its record
@@ -68,7 +68,7 @@ struct Results {
     [[nodiscard]] Rows rows(std::string_view name) const { return rows_of(table(name)); }
     /// The CSV files of a table, as paths from the page.
     [[nodiscard]] std::vector<std::string> files_of(std::string_view name) const;
-    /// By which all runs judged; nullopt when they do not say, or differ.
+    /// The criteria by which all runs judged; nullopt when the runs do not say, or differ.
     [[nodiscard]] std::optional<metrics::Criteria> criteria() const;
 };
 
@@ -79,16 +79,16 @@ struct RecordFile {
 };
 
 /// Adds the session that two or more records share: every two of them, and one replay of all sides
-/// as the player shows them. Of every two the one with the lower id is A. The error says which two,
-/// by their ids in order, cannot be compared.
+/// as the player shows them. In every pair the one with the lower id is A. The error says which
+/// two, by their ids in order, cannot be compared.
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              std::span<const RecordFile> records);
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              const record::Record& a, const record::Record& b);
 
 /// Reads the manifests and tables of a result folder and of its subfolders; their order does not
-/// matter. Errors begin with "FILE:". Of two results that exclude each other, such as two rows of
-/// Table 1 for one algorithm, it is an error that both are there.
+/// matter. Errors begin with "FILE:". Two results that exclude each other, such as two rows of
+/// Table 1 for one algorithm, are an error.
 [[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
 
 } // namespace hapnet::lab::results

@@ -99,7 +99,7 @@ void note_scores(const metrics::Scores& scores, const metrics::Criteria& criteri
     row.rate_kbit_s = times(1e-3, scores.rate_bit_per_s);
 }
 
-/// What is known of the sessions of an algorithm before one is played.
+/// Returns the cells of a row that are known before a session of an algorithm is played.
 SessionRow started(const experiment::Experiment& experiment, std::size_t algorithm,
                    device::Task task, const experiment::Party& party)
 {
@@ -148,7 +148,7 @@ private:
     std::vector<SessionRow> rows_;
 };
 
-/// What two algorithms have to share to be compared.
+/// The conditions that two algorithms have to share to be compared.
 using SharedCondition =
     std::tuple<std::string, std::string, std::uint32_t, std::string, std::string>;
 

@@ -13,9 +13,9 @@
 
 namespace hapnet::lab::results {
 
-/// Of sessions.csv: a session with all its conditions, and what came of it. Delay, jitter and loss
-/// are empty where the network is not so simple, or not the same both ways; `network` has all of it
-/// as a profile.
+/// A row of sessions.csv: a session with all its conditions, and its outcome. Delay, jitter and
+/// loss are each empty where their columns cannot describe them, or where the directions differ;
+/// `network` has the whole profile.
 struct SessionRow {
     std::string algorithm;
     std::string task;
@@ -81,7 +81,7 @@ constexpr auto fields_of(base::Tag<SessionRow>)
         base::field("trial", &Row::trial, text_or_none));
 }
 
-/// Of one session of an experiment, whoever has played it.
+/// Returns the row of one session of an experiment, whichever program played it.
 [[nodiscard]] SessionRow make_session_row(const experiment::Experiment& experiment,
                                           const experiment::SessionJob& job,
                                           const metrics::Scores& scores,
@@ -94,12 +94,12 @@ make_session_rows(const experiment::Experiment& experiment, const metrics::Crite
                   std::span<const experiment::JobResult> results);
 
 /// The columns of the table paired: `algorithm` - `reference` of a measure, seed by seed, or
-/// subject by subject: the mean of all sessions of a subject counts once. Of limits the difference
+/// subject by subject: the mean of all sessions of a subject counts once. For limits the difference
 /// is that of p50, and there is none where one of the two was not reached; else it is the median of
 /// the seeds.
 inline constexpr std::string_view paired_columns =
     "algorithm,reference,task,measure,seeds,difference:4,ci_low:4,ci_high:4,sign_test_p";
-/// Each algorithm against the first, in each task and condition that both played.
+/// Compares each algorithm with the first, in each task and condition that both played.
 [[nodiscard]] Table paired_table(const std::vector<SessionRow>& sessions);
 
 } // namespace hapnet::lab::results

@@ -9,7 +9,7 @@
 
 namespace hapnet::lab::results {
 
-/// Whether it is the manifest of a folder whose subfolders hold the results: see below.
+/// True if it is the manifest of a folder whose subfolders hold the results: see below.
 [[nodiscard]] bool is_of_several(const nlohmann::ordered_json& manifest);
 
 /// manifest.json of such a folder, `root`: what the manifest of each subfolder says of itself. It

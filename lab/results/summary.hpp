@@ -13,8 +13,8 @@
 
 namespace hapnet::lab::results {
 
-/// What the sessions of all seeds say together. Means and their interval are over the seeds, or of
-/// recorded people over the subjects, each with the mean of its sessions.
+/// The results of all seeds together. Means and intervals are over the seeds; with recorded people
+/// they are over the subjects, each with the mean of its sessions.
 struct Summary {
     std::optional<metrics::Spread> typical_m{}; // the means of the discrepancy's figures
     std::optional<metrics::Interval> mean_m{};  // 95 % of the mean of the mean
@@ -33,7 +33,7 @@ struct Summary {
                                 const metrics::Criteria& criteria,
                                 std::span<const std::string> subjects = {});
 
-/// By what a session is judged.
+/// The figures by which a session is judged.
 struct Judged {
     std::optional<double> mean_mm{};
     std::optional<double> vibration_mm{};
@@ -44,14 +44,15 @@ struct Judged {
     std::optional<double> stiffness_error{};
     std::optional<double> slow_stiffness_error{};
 };
-/// The columns of its members, in their order, but for stiffness errors.
+/// The columns of its members, in their order, except stiffness errors.
 inline constexpr std::string_view judged_columns =
     "mean_mm:3,vibration_mm:3,stiffness_ratio:4,force_vibration_n:4,tier,turned_apart_deg:3?";
-/// Those of stiffness errors, which stand behind the columns of the parties.
+/// The columns of stiffness errors. They come after the columns of the parties.
 inline constexpr std::string_view stiffness_error_columns =
     "stiffness_error:4?,slow_stiffness_error:4?";
 
-/// What is judged of the worst, by the filter that the criteria judge by; the mean is the typical.
+/// Returns the figures that are judged: the worst ones, by the filter that the criteria use. The
+/// mean is the typical one.
 [[nodiscard]] Judged make_judged(const Summary& summary, const metrics::Criteria& criteria);
 
 } // namespace hapnet::lab::results

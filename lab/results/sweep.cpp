@@ -55,7 +55,7 @@ std::vector<Cell> condition_cells(const SweepRow& row)
             one.seed};
 }
 
-/// What both are measured by, and compared.
+/// A measure by which real time and virtual time are compared.
 struct SweepMeasure {
     std::string_view name;
     std::optional<double> SessionRow::*value;
@@ -88,7 +88,7 @@ struct Condition {
     std::uint32_t left_out = 0;
 };
 
-/// Of the attempts of a seed a valid one counts.
+/// Keeps one attempt of each seed, a valid one if there is any.
 void note(const SweepRow& row, std::map<std::uint64_t, const SweepRow*>& by_seed)
 {
     const SweepRow*& kept = by_seed[row.real.seed];

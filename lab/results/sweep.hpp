@@ -19,7 +19,7 @@ namespace hapnet::lab::results {
 
 // An experiment that the daemons have played, beside the same sessions in virtual time.
 
-/// What came of a session that was played once.
+/// The outcome of a session that was played once.
 struct PlayedCell {
     metrics::Metrics real{};
     metrics::Metrics simulated{}; // in virtual time, with the ticks of the daemons
@@ -34,7 +34,7 @@ struct PlayedCell {
 /// Reads an object. The error names the key that is missing or has another type.
 [[nodiscard]] base::Result<PlayedCell> played_cell_from(const nlohmann::json& json);
 
-/// Of the table real_time_sessions: a session as it was played once.
+/// A row of the table real_time_sessions: a session as it was played once.
 struct SweepRow {
     std::string point; // of the axes: "hands.stiffness=100N/m"
     SessionRow real{};
@@ -46,7 +46,7 @@ struct SweepRow {
     std::string invalid_because{};
 };
 
-/// Of which session of an experiment.
+/// The session of an experiment that a cell of the sweep plays.
 struct SweepCell {
     const experiment::Experiment& experiment;
     const experiment::SessionJob& job;
@@ -58,7 +58,7 @@ struct SweepCell {
 /// The table real_time_sessions.
 [[nodiscard]] Table sweep_table(std::span<const SweepRow> rows);
 
-/// Of the table real_time_conditions: a measure of all valid sessions of one condition.
+/// A row of the table real_time_conditions: a measure of all valid sessions of one condition.
 struct ConditionRow {
     std::string point;
     std::string algorithm;
@@ -95,7 +95,7 @@ constexpr auto fields_of(base::Tag<ConditionRow>)
         base::field("ci_high_percent", &Row::ci_high_percent, two));
 }
 [[nodiscard]] std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows);
-/// The same for a person.
+/// The rows as lines of text for a person.
 [[nodiscard]] std::string conditions_table(std::span<const ConditionRow> rows);
 
 } // namespace hapnet::lab::results

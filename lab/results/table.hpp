@@ -26,7 +26,7 @@ namespace hapnet::lab::results {
 /// A flag, a whole number, a number or a text; std::monostate: there is none.
 using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
 
-/// Where a column stands: in each file; only where a row has something in it; in JSON and not in
+/// The files in which a column stands: each file; only where a row has a value; in JSON and not in
 /// CSV.
 enum class Stands : std::uint8_t { always, if_filled, in_json };
 
@@ -45,8 +45,8 @@ struct Column {
 /// The words of a key without its unit: "paper mean" of "paper_mean_mm".
 [[nodiscard]] std::string label_of(std::string_view key);
 
-/// The cell of a value: of an optional, of a name of an enum, of a number. What is not finite is
-/// none.
+/// Returns the cell of a value: of an optional, of a name of an enum, or of a number. A number that
+/// is not finite gives an empty cell.
 template <typename Value>
 [[nodiscard]] Cell to_cell(const Value& value)
 {
@@ -76,7 +76,7 @@ struct Table {
     {
         rows.push_back({to_cell(values)...});
     }
-    /// Where a column stands; nullopt: there is none.
+    /// The place of a column; nullopt: there is none.
     [[nodiscard]] std::optional<std::size_t> place_of(std::string_view key) const;
     [[nodiscard]] bool is_empty() const { return rows.empty(); }
 };
@@ -89,7 +89,7 @@ public:
     /// std::monostate where there is no such column.
     [[nodiscard]] const Cell& operator[](std::string_view key) const;
     [[nodiscard]] std::optional<double> number(std::string_view key) const;
-    /// With as many digits as a number takes; empty for nothing.
+    /// The cell's text: a number with as many digits as it takes, empty for no value.
     [[nodiscard]] std::string text(std::string_view key) const;
 
 private:
@@ -103,15 +103,15 @@ using Rows = std::vector<TableRow>;
 /// A cell as a text: a number with as many digits as it takes, nothing as "".
 [[nodiscard]] std::string to_text(const Cell& cell);
 
-/// What all rows of a part of a table have before their own cells.
+/// A cell that all rows of a part of a table have before their own cells.
 struct LeadingCell {
     std::string key;
     Cell cell;
 };
 [[nodiscard]] Table with_leading(const std::vector<LeadingCell>& leading, Table table);
 
-/// Appends the rows of a part. Columns that the table has not yet are added, but for those
-/// that stand only where a row fills them and none does; a row has nothing in those that it lacks.
+/// Appends the rows of a part. Missing columns are added, except those that stand only where a row
+/// fills them and no row does. A row has empty cells in columns that it lacks.
 void append(Table& table, const Table& part);
 /// The table without the columns that stand only where a row fills them and none does.
 [[nodiscard]] Table filled(const Table& table);

@@ -18,7 +18,7 @@ namespace hapnet::lab::results {
 inline constexpr const char* tables_name = "results.json";
 /// The sessions of an experiment one by one: there can be a million of them.
 inline constexpr const char* sessions_name = "sessions.json";
-/// What was played in real time beside the results of an experiment.
+/// The file of the sessions in real time beside the results of an experiment.
 inline constexpr const char* real_time_name = "real_time.json";
 
 // The parts of the texts, which come one after the other.

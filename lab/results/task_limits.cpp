@@ -20,7 +20,7 @@ bool is_worse(const TaskLimit& a, const TaskLimit& b)
     return rank(a) < rank(b);
 }
 
-/// By what a session is not of the tier.
+/// Returns the metrics by which a session misses the tier.
 std::vector<std::string_view> failed_metrics(const metrics::Scores& scores, metrics::Tier tier,
                                              const metrics::Criteria& criteria)
 {

@@ -9,17 +9,17 @@
 
 namespace hapnet::lab::results {
 
-// What is said of results in words: cells of their tables.
+// Verdicts on results in words: cells of their tables.
 
-/// How a result stands to what the paper says; undecided: its interval lies across the edge of what
-/// would agree.
+/// The comparison of a result with the paper's claim. Undecided: its interval contains an edge of
+/// the range that would agree.
 enum class Claim : std::uint8_t { none, calibrated, met, missed, undecided };
 constexpr auto names_of(base::Tag<Claim>)
 {
     return base::names("", "calibrated", "met", "missed", "undecided");
 }
 
-/// How a number that stands beside one of the paper's came about.
+/// The origin of a number that stands beside one of the paper's.
 enum class Provenance : std::uint8_t {
     none,            // the paper has nothing that it stands beside
     calibrated,      // fitted to it
@@ -32,7 +32,7 @@ constexpr auto names_of(base::Tag<Provenance>)
     return base::names("", "calibrated", "selected", "by-construction", "predicted");
 }
 
-/// Of a limit: both at once.
+/// The status of a limit: its provenance and its verdict at once.
 enum class LimitStatus : std::uint8_t {
     none,
     calibrated,
@@ -51,11 +51,12 @@ constexpr auto names_of(base::Tag<LimitStatus>)
                        "by-construction-met", "by-construction-missed", "predicted-met",
                        "predicted-missed", "undecided");
 }
-/// Whether a limit was found, nothing failed as far as was tried, or half fail without anything.
+/// The kind of a limit. found: there is a limit; open: less than half fail at the highest level
+/// that was tried; none: half fail without any impairment.
 enum class Bound : std::uint8_t { found, open, none };
 constexpr auto names_of(base::Tag<Bound>) { return base::names("=", ">", "none"); }
 
-/// In limits.csv, where the limit of the worst of the tasks stands.
+/// The row of limits.csv with the limit of the worst task.
 inline constexpr std::string_view worst_task = "worst";
 
 } // namespace hapnet::lab::results

@@ -19,7 +19,7 @@ inline constexpr const char* checksums_name = "B2SUMS";
 [[nodiscard]] std::string checksums_of(const std::filesystem::path& folder,
                                        std::vector<std::string> names);
 
-/// The same of a text: 64 digits.
+/// Returns the checksum of a text: 64 digits.
 [[nodiscard]] std::string checksum_of(const std::string& text);
 
 /// Compares the files of a folder with its B2SUMS, and that with the digest in its manifest.json,

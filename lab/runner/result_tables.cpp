@@ -32,7 +32,7 @@ public:
         length_ = getline(&text_, &size_, file);
         return length_ > 0;
     }
-    /// Without its end.
+    /// The line without its end.
     [[nodiscard]] std::string_view text() const
     {
         return {text_, static_cast<std::size_t>(length_ - 1)};

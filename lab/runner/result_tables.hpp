@@ -41,7 +41,8 @@ private:
         WaitingLines csv;
         WaitingLines json;
         std::vector<results::Column> columns{};
-        /// From which row on rows have how many cells.
+        /// The first row of each run of rows with equally many cells, and the number of these
+        /// cells.
         std::vector<std::pair<std::size_t, std::size_t>> widths{};
         std::size_t rows = 0;
     };
@@ -54,8 +55,9 @@ private:
     void wait(const WaitingLines& lines, const std::string& text, const std::string& name) const;
     void for_each_line(const Table& table, const WaitingLines& lines, const TakeLine& take) const;
     void commit_csv(const Table& table) const;
-    /// Of the tables that are, or are not, of sessions. False: there are none of sessions. Each
-    /// folder of results has a file of the others.
+    /// Writes the JSON file of the tables of sessions, or that of all others. Returns false,
+    /// without a file, when it is to write tables of sessions and there are none. Each folder of
+    /// results has a file of the others.
     [[nodiscard]] bool commit_json(const char* name, bool of_sessions) const;
     [[noreturn]] void refuse(const std::string& name) const;
 

@@ -23,7 +23,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How often the caller's thread looks after the others.
+/// The interval at which the caller's thread checks the others.
 constexpr base::Duration look_interval = 20ms;
 
 /// The threads of a run and what they share.
@@ -48,7 +48,7 @@ public:
         return {jobs_.size(), jobs_done_, runner_.store.counts()};
     }
 
-    /// nullopt when it was stopped.
+    /// Returns nullopt when it was stopped.
     base::Result<std::optional<std::vector<experiment::JobResult>>> results()
     {
         join();

@@ -27,14 +27,14 @@ struct Assignment {
     experiment::Job job{};
 };
 
-/// How far a run has come.
+/// The progress of a run.
 struct RunProgress {
     std::size_t jobs = 0;
     std::size_t jobs_done = 0;
     SessionStore::Counts sessions;
 };
 
-/// What carries out an experiment: threads, one job each at a time.
+/// The means to carry out an experiment: threads, one job each at a time.
 struct Runner {
     SessionStore& store;
     StoppablePlay play;

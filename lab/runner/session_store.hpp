@@ -21,7 +21,8 @@
 
 namespace hapnet::lab::runner {
 
-/// What an experiment's folder of results is about. Another experiment's sessions would mix.
+/// The identity of an experiment's folder of results. The folder refuses sessions of another
+/// experiment.
 struct FolderIdentity {
     std::string kind;
     std::string title;
@@ -46,8 +47,8 @@ public:
     SessionStore(const SessionStore&) = delete;
     SessionStore& operator=(const SessionStore&) = delete;
 
-    /// What is known of a session, or else what comes of `play`. Throws std::system_error when it
-    /// cannot be read or kept.
+    /// Returns the stored session of a spec, or plays it with `play`. Throws std::system_error when
+    /// it cannot be read or kept.
     [[nodiscard]] base::Result<experiment::PlayedSession>
     played(const experiment::SessionSpec& spec, const experiment::PlaySession& play);
 
@@ -57,13 +58,13 @@ public:
     };
     [[nodiscard]] Counts counts() const;
 
-    /// How many lines of the files are no session with the right checksum, and where the first of
-    /// them is; nullopt: none. A line is cut off when something ends its writer.
+    /// The number of lines of the files that are no session with the right checksum, and the place
+    /// of the first; nullopt: none. A line is cut off when something ends its writer.
     [[nodiscard]] std::optional<std::string> damage() const;
     [[nodiscard]] std::size_t damaged_lines() const { return damaged_; }
 
 private:
-    /// Where a session stands.
+    /// The place where a session is stored.
     struct Place {
         std::size_t file = 0;
         std::uint64_t offset = 0;
@@ -77,12 +78,12 @@ private:
     };
 
     explicit SessionStore(std::string program);
-    /// Of the files the last.
+    /// Reads the last of the files.
     [[nodiscard]] base::Result<void> read_last(const FolderIdentity& identity);
-    /// False: the line is damaged.
+    /// Takes a line into the index. Returns false when the line is damaged.
     [[nodiscard]] bool take_line(std::string_view text, const Place& place);
     void append(const std::string& line);
-    /// nullopt: it is not known.
+    /// Returns where the session of a key is stored; nullopt: it is not known.
     [[nodiscard]] std::optional<Place> place_of(const std::string& key);
     [[nodiscard]] experiment::PlayedSession read_at(const Place& place,
                                                     const std::string& key) const;

@@ -17,7 +17,7 @@
 
 namespace hapnet::lab::scenes {
 
-/// What a tick may have to do, and why the scene needs it, or not.
+/// A feature that a tick may have to support, and why the scene needs it, or not.
 struct FeatureReport {
     scene::Requirement of;
 };
@@ -97,10 +97,11 @@ constexpr auto fields_of(base::Tag<HandsReport>)
             "Of one contact; null: not limited."));
 }
 
-/// As peers and pages tell it.
+/// The hash as peers and pages print it.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
 
-/// What a scene is, what it needs of a tick and why, and which tick it therefore gets.
+/// A scene's properties, the features that it needs of a tick, the reasons, and the tick that it
+/// gets.
 struct Explanation {
     std::string name;
     std::uint64_t hash = 0; // peers compare it

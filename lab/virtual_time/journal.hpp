@@ -12,8 +12,9 @@
 
 namespace hapnet::lab::virtual_time {
 
-/// What a daemon would record of a player in virtual time: a row for each of its ticks, for each
-/// message that reaches it, and, once a second, for what it has agreed on with each of the others.
+/// The record that a daemon would make of a player in virtual time: a row for each of its ticks,
+/// for each message that reaches it, and, once a second, for what it has agreed on with each of the
+/// others.
 class Journal {
 public:
     using Sink = std::function<void(const record::Row& row)>;
@@ -23,12 +24,12 @@ public:
 
     /// The message of the player in that seat, before it is handed over.
     void on_message(std::size_t from_seat, const VirtualWorld::Arrival& arrival);
-    /// After each of its ticks.
+    /// Notes a tick. Call it after each tick of the player.
     void on_tick();
 
-    /// Its ticks so far.
+    /// The number of ticks so far.
     [[nodiscard]] std::uint64_t ticks() const { return tick_; }
-    /// Whether its bodies have rows of their own.
+    /// True if its bodies have rows of their own.
     [[nodiscard]] bool has_bodies() const { return has_bodies_; }
 
 private:

@@ -48,7 +48,7 @@ public:
         for (std::size_t seat = 0; seat < setting.players.size(); ++seat) seat_player(seat);
     }
 
-    /// False when `stop` became true meanwhile.
+    /// Returns false when `stop` became true meanwhile.
     bool play(const std::atomic<bool>* stop)
     {
         const base::TimePoint start = VirtualWorld::start + countdown;
@@ -146,7 +146,7 @@ private:
         }
     }
 
-    /// Whether another hand touches.
+    /// True if another hand touches.
     [[nodiscard]] bool is_touched_beside(std::size_t seat) const
     {
         for (std::uint32_t other = 0; other < hands_.size(); ++other)

@@ -29,7 +29,7 @@ struct Track {
     std::vector<base::TimePoint> times; // of the samples, where some side does not tick evenly
 };
 
-/// Whether a link was full, so that a datagram was lost which the emulator would have kept.
+/// True if a link was full, so that a datagram was lost which the emulator would have kept.
 bool has_overflowed(const VirtualWorld& world)
 {
     const std::size_t players = world.setting().players.size();
@@ -90,7 +90,7 @@ public:
           are_even_{std::ranges::none_of(world.setting().players, has_own_ticks)}
     {}
 
-    /// Until it is over; false when `stop` became true before.
+    /// Plays until it is over. Returns false when `stop` became true before.
     [[nodiscard]] bool run(const std::atomic<bool>* stop)
     {
         for (std::int64_t step = 0; !over_; ++step) {
@@ -190,7 +190,7 @@ void Play::note_settled()
     }
 }
 
-/// From where on a track is read: `tick` samples into it, and `share` of a tick more.
+/// The point from which a track is read: `tick` samples into it, and `share` of a tick more.
 struct Offset {
     base::Duration::rep tick = 0;
     double share = 0.0;
@@ -198,7 +198,7 @@ struct Offset {
     [[nodiscard]] base::Duration::rep beyond() const { return share > 0.0 ? 1 : 0; }
 };
 
-/// What a track has from there on, `count` ticks of it with `each` values.
+/// Keeps `count` ticks of a track from `from` on, each of `each` values, and drops the others.
 template <typename Value>
 void take(std::vector<Value>& values, const Offset& from, base::Duration::rep count,
           std::size_t each = 1)
@@ -220,7 +220,8 @@ public:
         : track_{track}, bodies_{further_bodies}
     {}
 
-    /// Not before the time asked for last, and within the track.
+    /// Adds what the track has at a time. It is within the track, and not before that of the last
+    /// call.
     void add_at(base::TimePoint time, std::vector<Sample>& samples, std::vector<Pose>& further)
     {
         while (at_ + 1 < track_.times.size() && track_.times[at_ + 1] <= time) ++at_;
@@ -242,7 +243,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// How many even ticks all sides have, from `begin` on; they are moved into the trace.
+/// Moves the even ticks that all sides have into the trace. Sets `begin` to the time of the first
+/// of them, and returns their number.
 base::Duration::rep Play::take_even(base::TimePoint& begin, Trace& trace)
 {
     // The first side's samples before the last began are left out; the others' are taken at its
@@ -272,7 +274,7 @@ base::Duration::rep Play::take_even(base::TimePoint& begin, Trace& trace)
     return common;
 }
 
-/// Likewise at even times between ticks that are not.
+/// As take_even(), at even times between ticks that are not even.
 base::Duration::rep Play::take_uneven(base::TimePoint& begin, Trace& trace) const
 {
     begin = std::ranges::max(tracks_, {}, &Track::first).first;

@@ -13,7 +13,7 @@
 
 namespace hapnet::lab::virtual_time {
 
-/// Which sessions are played on with hands off, for how far apart the copies settle: those whose
+/// The sessions that go on with hands off, to measure how far apart the copies settle: those whose
 /// copies take their time to agree again (several bodies, or one that turns), or all.
 enum class PlaysOn : std::uint8_t { where_it_takes_time, always };
 

@@ -23,7 +23,7 @@ std::uint16_t tick_rate_hz(base::Duration tick)
     return static_cast<std::uint16_t>(std::min<base::Duration::rep>(rate, UINT16_MAX));
 }
 
-/// Of two, each takes whoever answers.
+/// In a pair, each accepts any peer that answers.
 peer::Roster roster_of(const Setting& setting, const PlayerId& id)
 {
     peer::Roster roster;
@@ -70,7 +70,7 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId
                           .way = player.way});
 }
 
-/// A secret that follows from two numbers: in virtual time nothing has to be kept from anybody.
+/// Returns a secret that follows from two numbers: virtual time has nothing to keep from anybody.
 secure::Secret secret_of(std::uint64_t circle, std::uint64_t run)
 {
     std::array<std::byte, 2 * sizeof(std::uint64_t)> text{};

@@ -16,13 +16,13 @@
 
 namespace hapnet::lab::virtual_time {
 
-/// Which of the players of a session one is, and in which run of its program.
+/// The seat of a player in a session, and the number of the run of its program.
 struct PlayerId {
     std::size_t seat = 0; // its id is one more
     std::uint32_t nonce = 1;
 };
 
-/// Where a player is on the network.
+/// The place of a player on the network.
 [[nodiscard]] inline secure::Place place_of(std::size_t seat)
 {
     secure::Place place{};
@@ -48,16 +48,16 @@ public:
         if (const auto message = lines[other].open(datagram, place, at))
             side->on_datagram(*message, at, other);
     }
-    /// The same from where that one is.
+    /// Receives a datagram from the usual place of that player.
     void receive(std::size_t other, std::span<const std::byte> datagram, base::TimePoint arrived)
     {
         receive(other, place_of(other < own_seat ? other : other + 1), datagram, arrived);
     }
 
-    /// One tick of its loop, except for sending.
+    /// Plays one tick of its loop, except for sending.
     void step(base::TimePoint now);
-    /// What it sends in that tick: calls send(other, bytes, place) for each datagram, `other` being
-    /// the number of the line.
+    /// Sends the messages of that tick: calls send(other, bytes, place) for each datagram, `other`
+    /// being the number of the line.
     template <typename Send>
     void send_all(Send send)
     {
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] base::Force told() const { return side->told(); }
     /// Its last tick, for the metrics.
     [[nodiscard]] Sample sample() const;
-    /// Likewise where the shared bodies after the first are.
+    /// Adds the poses that the shared bodies after the first have after its last tick.
     void add_further_bodies(std::vector<Pose>& poses) const;
 
     // Open to tests and benches, which change them.

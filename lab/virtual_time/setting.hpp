@@ -38,18 +38,19 @@ struct PlayerSetting {
     std::shared_ptr<const device::HandTrace> way{};
     base::Duration clock_ahead{}; // of the world's time
     base::Duration phase{};       // of its ticks, 0 to less than a tick
-    /// When it ticks, counted from the session's start, ascending: as a loop did that woke late and
-    /// missed ticks. Before the first and after the last, and without any, it ticks evenly.
+    /// The times of its ticks, counted from the session's start, ascending, as in a loop that woke
+    /// late and missed ticks. It ticks evenly before the first and after the last of them, or
+    /// without any.
     std::shared_ptr<const std::vector<base::Duration>> ticks{};
     /// The seed that it offers for the hands, as `hapnet-peer --seed` does; that of the lowest id
     /// counts. nullopt: the setting's.
     std::optional<base::Seed> seed{};
-    /// It seals its messages with the keys of this circle, which follow from the seed; with another
-    /// circle's nobody is met. nullopt: without a key.
+    /// The circle whose keys, which follow from this seed, seal its messages. Players meet only
+    /// within a circle. nullopt: without a key.
     std::optional<base::Seed> circle{};
 };
 
-/// All that a session in virtual time follows from: equal settings, equal bits.
+/// All inputs of a session in virtual time: equal settings, equal bits.
 struct Setting {
     device::Task task = device::Task::p1;
     device::TaskOptions task_options{};
@@ -57,25 +58,27 @@ struct Setting {
     base::Seed seed{42}; // of the links, whatever the profile says, and of the hands
     base::Duration length{std::chrono::seconds{30}}; // hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
-    /// Conditions both ways between any two; its timeline counts from the first hello. What it has
-    /// for link "1-2" holds between the players with these ids, who are more than two.
+    /// Conditions both ways between any two; its timeline counts from the first hello. Among more
+    /// than two players, its conditions for link "1-2" hold between the players with these ids.
     emulator::Profile profile{};
-    /// All hands play in one scene, without a network: what the profile and the algorithms would
-    /// spoil. See in_one_world().
+    /// True if all hands play in one scene, without a network, which excludes all effects of the
+    /// profile and the algorithms. See in_one_world().
     bool is_one_world = false;
     bool energy_limit = false; // the energy into the hands is limited as the daemons do it
     /// Two to eight, with the ids 1, 2, ...; the 1st, 3rd, ... acts as A, the others as B. Up is
     /// from the lower id to the higher.
     std::vector<PlayerSetting> players = std::vector<PlayerSetting>(2);
-    /// So many of more than two must hear each other before they start; 0: all. Others join.
+    /// The number of players, of more than two, that must hear each other before they start; 0:
+    /// all. Others join.
     std::size_t wait_for = 0;
 };
 
-/// The same hands in one scene, without a network: equal for all algorithms, networks and clocks.
+/// Returns the setting of these hands in one scene, without a network. It is equal for all
+/// algorithms, networks and clocks.
 [[nodiscard]] Setting in_one_world(Setting setting);
 
-/// The links of a session between so many, as `hapnet-emulator --link` calls them: "1-2", "1-3",
-/// "2-3". Of two only: "", the only path.
+/// The links of a session between this number of players, as `hapnet-emulator --link` calls them:
+/// "1-2", "1-3", "2-3". With two players only "", the only path.
 [[nodiscard]] std::vector<std::string> links_between(std::size_t players);
 
 /// An error when no session can be played with this setting; its message says what to do.

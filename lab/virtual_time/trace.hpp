@@ -27,13 +27,14 @@ struct Sample {
     bool remote_touching = false; // as this side believes
 };
 
-/// Where a body is.
+/// The place and the orientation of a body.
 struct Pose {
     base::Position position;
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
-/// How far copies of a body are apart at most once they have had time to agree again.
+/// The greatest distance and the greatest angle between copies of a body, once they have had time
+/// to agree again.
 struct Settled {
     double metres = 0.0;
     double radians = 0.0;
@@ -48,12 +49,12 @@ struct Trace {
     /// Two or more, equally long, in the order of their ids: the 1st, 3rd, ... acts as A, the
     /// others as B.
     std::vector<std::vector<Sample>> sides = std::vector<std::vector<Sample>>(2);
-    /// Of each side where the further shared bodies are, `further_bodies` after each tick in the
-    /// order of their ids; empty where there is one body.
+    /// The poses of the further shared bodies on each side: `further_bodies` entries after each
+    /// tick, in the order of their ids. Empty where there is one body.
     std::vector<std::vector<Pose>> further{};
     std::size_t further_bodies = 0;
-    /// Of each shared body, from 2 s after hands off to the end, where several are shared or one
-    /// that can turn; empty: not played so far.
+    /// The greatest differences between the copies of each shared body, from 2 s after hands off to
+    /// the end, where several are shared or one that can turn; empty: not played so far.
     std::vector<Settled> settled{};
     /// The share of the session, 0 to 1, in which all were running; hands off not counted.
     double overlap = 0.0;
@@ -66,7 +67,7 @@ struct Trace {
 /// A side between two of its samples, `share` (0 to 1) of the way, on a straight line. Its flags
 /// are the earlier sample's; with share 0 all of it is the earlier sample.
 [[nodiscard]] Sample between(const Sample& earlier, const Sample& later, double share);
-/// Likewise a body.
+/// A body between two of its samples, in the same way.
 [[nodiscard]] Pose between(const Pose& earlier, const Pose& later, double share);
 
 } // namespace hapnet::lab::virtual_time

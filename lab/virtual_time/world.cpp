@@ -46,7 +46,7 @@ void VirtualWorld::add_ways(Group& group)
     for (const std::string& name : links_between(group.size)) std::ignore = group.paths.add(name);
     const auto& paths = group.paths.all();
     const auto path_between = [&](std::size_t low, std::size_t high) {
-        // Those from the seats below come first: size - 1 from the first, then one less each.
+        // The paths from the seats below come first: size - 1 from the first, then one less each.
         const std::size_t before = low * (2 * group.size - low - 1) / 2;
         return paths[before + high - low - 1].path.get();
     };

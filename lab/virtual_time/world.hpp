@@ -28,15 +28,15 @@ namespace hapnet::lab::virtual_time {
 /// see links_between().
 class VirtualWorld {
 public:
-    /// When every world begins, and the timelines of its profiles.
+    /// The time when every world and the timelines of its profiles begin.
     static constexpr base::TimePoint start{std::chrono::seconds{1000}};
     /// The default bound on the datagrams in a link: 1 s of them, which fit into a processor's
     /// cache. Memory for the emulator's own bound would take longer to set up than a session takes.
     static constexpr emulator::QueueLimits few{.datagrams_max = 1024, .bytes_max = 4U << 20};
 
-    /// One group. The setting must be valid: see validate().
+    /// A world of one group. The setting must be valid: see validate().
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
-    /// One group for each setting.
+    /// A world with one group for each setting.
     explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
     // Defined in world.cpp, so that not every file that uses a VirtualWorld compiles them.
     ~VirtualWorld();
@@ -45,11 +45,11 @@ public:
     VirtualWorld(const VirtualWorld&) = delete;
     VirtualWorld& operator=(const VirtualWorld&) = delete;
 
-    /// To the next deadline, and all that happens then.
+    /// Goes on to the next deadline, and does all that happens then.
     void step();
-    /// When step() would do something.
+    /// The time when step() will do something.
     [[nodiscard]] base::TimePoint next_deadline() const;
-    /// All that happens within `duration` from now, its end included.
+    /// Plays all that happens within `duration` from now, its end included.
     void run_for(base::Duration duration);
 
     /// Kills a side on the spot; nothing is said.
@@ -57,9 +57,9 @@ public:
     /// Starts it again as a new run.
     void revive(std::size_t side);
     [[nodiscard]] bool is_alive(std::size_t side) const { return sides_[side].player.has_value(); }
-    /// Nothing passes between two sides of a group while it is true.
+    /// Lets nothing pass between two sides of a group while `is_cut` is true.
     void cut(std::size_t a, std::size_t b, bool is_cut);
-    /// The same between a side and all others of its group.
+    /// Cuts a side off from all others of its group while `is_cut` is true.
     void isolate(std::size_t side, bool is_cut);
 
     /// A datagram that a link has carried from one side to another.
@@ -69,8 +69,8 @@ public:
         std::span<const std::byte> datagram;
         base::TimePoint at;
     };
-    /// Somebody between the links and the sides, who is called with each datagram in the place of
-    /// the side that it is for, and gives that side what he wants: VirtualPlayer::receive().
+    /// A function between the links and the sides. It is called with each datagram instead of the
+    /// side that the datagram is for. It may pass any bytes to that side: VirtualPlayer::receive().
     using Interceptor = std::function<void(const Arrival& arrival)>;
     void intercept(Interceptor interceptor) { interceptor_ = std::move(interceptor); }
 
@@ -94,7 +94,7 @@ public:
     }
     [[nodiscard]] base::TimePoint now() const { return now_; }
     [[nodiscard]] std::size_t sides() const { return sides_.size(); }
-    /// From a side to another one of its group.
+    /// The link from a side to another one of its group.
     [[nodiscard]] const emulator::Link& link(std::size_t from, std::size_t to) const
     {
         const Way& way = ways_[way_between(from, to)];
@@ -118,7 +118,7 @@ private:
         std::shared_ptr<const std::vector<base::Duration>> ticks{}; // PlayerSetting::ticks
         std::size_t ticks_begun = 0;                                // of these
     };
-    /// From one side of a group to another.
+    /// The way from one side of a group to another.
     struct Way {
         emulator::EmulatedPath* path;
         emulator::Direction direction;

@@ -22,15 +22,15 @@ open_chosen(const DeviceChoice& choice, device::Task task);
 [[nodiscard]] std::string describe_open_error(const DeviceChoice& choice,
                                               const device::DeviceError& error);
 
-/// What is kept of the device over the end of the program; nullopt for one that is not real or has
-/// no motors.
+/// Returns the state of the device that is kept after the program ends; nullopt for a device that
+/// is not real or has no motors.
 [[nodiscard]] std::optional<device_state::KeptDevice> kept_of(const DeviceChoice& choice,
                                                               const device::Device& device);
 
-/// Where the device stands in the scene: as the options say. Without them a simulated or replayed
-/// hand is in the scene already. A real device is magnified, never shrunk, until it covers on each
-/// of its axes what an Omni does (160 x 120 x 70 mm), and the centre of its workspace is put to the
-/// origin, where the paper's cube starts.
+/// Returns the device's place in the scene, as --mount-scale and --mount-offset say. Without them a
+/// simulated or replayed hand is in the scene already. A real device is then magnified, never
+/// shrunk, until it covers on each of its axes what an Omni does (160 x 120 x 70 mm), and the
+/// centre of its workspace is put to the origin, where the paper's cube starts.
 [[nodiscard]] device::Mount mount_of(const DeviceChoice& choice,
                                      const device::Capabilities& capabilities);
 
@@ -43,7 +43,7 @@ open_chosen(const DeviceChoice& choice, device::Task task);
 /// A note for a --force-limit above what the device allows: which limit holds. "" for others.
 [[nodiscard]] std::string note_on_force_limit(double asked_n, double allowed_n);
 
-/// What each side does in a task, for a person at a real device.
+/// Describes the part of each side in a task, for a person at a real device.
 [[nodiscard]] std::string_view parts_in(device::Task task);
 
 /// The device, its mount, and the part of the person who holds it.

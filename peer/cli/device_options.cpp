@@ -235,8 +235,8 @@ void add_finding_options(cli::Command& command, device::DeviceOptions& options)
     add_hid_force(command, options.hid_force_n);
 }
 
-/// What would be passed over in silence is a mistake that a person should hear of: a measured
-/// force that does not count is no detail.
+/// Refuses options that would be silently ignored: a person should know that a measured force does
+/// not count.
 base::Result<void> check_device_options(const cli::Command& command, const DeviceChoice& choice)
 {
     struct OptionOfDevice {

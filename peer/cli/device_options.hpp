@@ -15,7 +15,7 @@
 
 namespace hapnet::peer {
 
-/// Which device a person wants, and how.
+/// The device that a person wants, and its settings.
 struct DeviceChoice {
     std::string name = "sim";
     std::optional<device::HandTrace> replay; // where it is replay:FILE
@@ -32,14 +32,15 @@ struct DeviceChoice {
     [[nodiscard]] bool is_real() const { return !is_simulated() && !replay && !page; }
 };
 
-/// Adds --device and what belongs to it, bound to `choice`. What is wrong with one of them, or with
-/// a file that it names, is bad usage and found before a device is touched. Gives --device.
+/// Adds --device and the options that belong to it, bound to `choice`. A wrong value, or an error
+/// in a file that an option names, is bad usage and is found before a device is touched. Returns
+/// the option --device.
 cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice);
 
-/// Of these, what matters to a command that only lists the real devices.
+/// Adds only those of these options that matter to a command which lists the real devices.
 void add_finding_options(cli::Command& command, device::DeviceOptions& options);
 
-/// After the command line was read: an option of another device than the chosen one is refused.
+/// Refuses options of another device than the chosen one. Call it after the command line was read.
 [[nodiscard]] base::Result<void> check_device_options(const cli::Command& command,
                                                       const DeviceChoice& choice);
 

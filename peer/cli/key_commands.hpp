@@ -74,7 +74,7 @@ private:
     KeyAddCommand adding_;
 };
 
-// Each gives its exit code.
+// The commands. Each returns its exit code.
 
 [[nodiscard]] base::Result<int> run(const KeygenCircleCommand& command);
 [[nodiscard]] base::Result<int> run(const KeygenOwnCommand& command);

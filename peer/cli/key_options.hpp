@@ -24,7 +24,7 @@ struct KeyChoice {
     [[nodiscard]] bool is_given() const { return file != nullptr; }
 };
 
-/// Another peer, and where it is, as `--peer ID=HOST:PORT` says it.
+/// Another peer and its place, as `--peer ID=HOST:PORT` gives them.
 struct NamedPeer {
     std::uint8_t id = 0; // 0: whoever answers there
     net::HostPort place;
@@ -35,14 +35,14 @@ struct NamedPeer {
 /// leaves no core dump.
 void add_key_options(cli::Command& program, KeyChoice& choice);
 
-/// What the command line says of the others.
+/// The places of the other peers, as far as the command line gives them.
 struct KeyedPlaces {
     std::vector<NamedPeer> named;       // --peer
     std::optional<net::HostPort> place; // --remote
 };
-/// After the command line was read: the others by their ids, ascending. Those that are named play,
-/// and nobody else; where none is, all of the key file, which then has to say where they are. Says
-/// what is missing or does not fit.
+/// Returns the other peers by their ids, ascending. Call it after the command line was read. If
+/// peers are named there, only these play. Otherwise all peers of the key file play, and it must
+/// give their places. The error says what is missing or does not fit.
 [[nodiscard]] base::Result<std::vector<NamedPeer>> find_others(const KeyChoice& choice,
                                                                const KeyedPlaces& places);
 

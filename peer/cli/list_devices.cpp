@@ -10,7 +10,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// As --device takes it.
+/// Returns the name as --device takes it.
 std::string name_of(const device::Identity& identity)
 {
     if (identity.serial.empty()) return identity.backend;

@@ -12,7 +12,7 @@ namespace hapnet::peer {
 /// A table for a person, with what to do about those that cannot be used.
 [[nodiscard]] std::string device_table(const std::vector<device::Found>& found);
 
-/// The same as one JSON object.
+/// The list as one JSON object.
 [[nodiscard]] std::string device_json(const std::vector<device::Found>& found);
 
 } // namespace hapnet::peer

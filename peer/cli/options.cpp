@@ -129,7 +129,7 @@ base::Result<std::string> parse_dead_man(const std::string& text)
                                   text));
 }
 
-/// Whether two names are of one regular file, also of one that does not exist yet.
+/// True if two names are of one regular file, also of one that does not exist yet.
 bool is_one_file(const std::string& a, const std::string& b)
 {
     std::error_code trouble;
@@ -158,7 +158,7 @@ base::Result<void> check_results(const Options& options)
     return {};
 }
 
-/// Who the peers are, and where the others are.
+/// Completes the ids of the peers, and the places of the others.
 base::Result<void> complete_peers(Options& options, const Asked& asked, const cli::Command& program)
 {
     KeyedPlaces places{.named = asked.named, .place = {}};
@@ -181,7 +181,8 @@ base::Result<void> complete_peers(Options& options, const Asked& asked, const cl
     return {};
 }
 
-/// Whether the scene has a hand for each; of two, one is enough where the other is but a force.
+/// Refuses a scene without a hand for each peer. In a pair one hand is enough where the other peer
+/// is only a force.
 base::Result<void> check_room(const Options& options)
 {
     const std::size_t all = options.others.size() + 1;
@@ -192,7 +193,7 @@ base::Result<void> check_room(const Options& options)
                                   options.scene_name, options.scene.hands.count, all));
 }
 
-/// Whether the algorithm can play with so many.
+/// Refuses an algorithm that cannot play with this number of peers.
 base::Result<void> check_company(const Options& options)
 {
     if (options.is_pair() || plays_with_many(options.algorithm)) return {};
@@ -201,7 +202,7 @@ base::Result<void> check_company(const Options& options)
                                   name_of(options.algorithm)));
 }
 
-/// Whether so many can play, and can play so.
+/// Refuses a number of peers that cannot play together, and options that this number rules out.
 base::Result<void> check_circle(const Options& options)
 {
     const std::size_t all = options.others.size() + 1;
@@ -261,7 +262,7 @@ void add_results(cli::Command& program, Options& options)
 
 } // namespace
 
-/// What bounds the force on the hand.
+/// Adds the options that limit the force on the hand.
 void add_force_options(cli::Command& program, Options& options)
 {
     program.option(
@@ -279,7 +280,7 @@ void add_force_options(cli::Command& program, Options& options)
                    cli::into(options.dead_man, parse_dead_man));
 }
 
-/// Who plays, and where they are.
+/// Adds the options for the peers and their places.
 void add_peer_options(cli::Command& program, Options& options, Asked& asked)
 {
     constexpr std::uint64_t id_max = 65535;

@@ -24,7 +24,7 @@
 
 namespace hapnet::peer {
 
-/// What the command line asks for. Names of hosts are not looked up yet; the scene has been read.
+/// The options of the command line. Names of hosts are not looked up yet; the scene has been read.
 struct Options {
     std::uint16_t id = 1;
     net::HostPort listen{"127.0.0.1", 0};
@@ -53,7 +53,7 @@ struct Options {
     cli::KeepOptions keep{};            // the last seconds of a record
 
     [[nodiscard]] bool is_pair() const { return others.size() <= 1; }
-    /// Of a pair, whoever answers there.
+    /// The peers of the session. A pair accepts any peer that answers at the other place.
     [[nodiscard]] Roster roster() const
     {
         Roster roster{.others = {}, .wait_for = wait_for};
@@ -64,7 +64,7 @@ struct Options {
     }
 };
 
-/// What is read beside the options and not kept.
+/// Values that are read beside the options and not kept.
 struct Asked {
     std::string printed_algorithm; // what --print-algorithm prints
     net::HostPort remote;          // --remote
@@ -74,8 +74,8 @@ struct Asked {
 /// Adds the options of a session, bound to `options` and `asked`.
 void add_session_options(cli::Command& program, Options& options, Asked& asked);
 
-/// After the command line was read: the other peers, the scene of the task where none was named,
-/// and options that contradict each other.
+/// Completes the options after the command line was read: the other peers, and the task's scene
+/// where none was named. Refuses options that contradict each other.
 [[nodiscard]] base::Result<void> complete(Options& options, const Asked& asked,
                                           const cli::Command& program);
 

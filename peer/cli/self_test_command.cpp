@@ -56,7 +56,7 @@ public:
         if (rig_.device().capabilities().pacing == device::Pacing::device) {
             rig_.device().pace([this] { return tick(), !is_over(); });
         }
-        // At our own pace; also after a device that has stopped to set one.
+        // The loop runs at its own pace, also after a device that has stopped setting one.
         base::TimePoint due = net::monotonic_now();
         while (!is_over()) {
             due = std::max(due + test_tick, net::monotonic_now());
@@ -126,7 +126,7 @@ void note_result(device_state::KeptDevice& kept, const SelfTest& test, double he
                             "--untested-device");
 }
 
-/// What a session with the paper's scene would say of its contacts.
+/// Returns the remarks that a session with the paper's scene would make on its contacts.
 std::string stiffness_of_a_session(const DeviceChoice& choice,
                                    const device::Capabilities& capabilities)
 {
@@ -156,7 +156,7 @@ base::Result<int> run(const SelfTestCommand& command)
                    .is_real = command.device.is_real(),
                    .read_for = command.read_for,
                    .skip = command.skip}};
-    // In the device's own frame: nothing of a scene is felt here.
+    // The rig is in the device's own frame, without a mount: no scene is felt here.
     auto kept = kept_of(command.device, **opened);
     device::GovernorLimits limits{.checks_motion = command.device.is_real()};
     if (kept) {

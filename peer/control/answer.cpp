@@ -26,7 +26,7 @@ bool is_for_an_emulator(std::string_view command)
     return std::find(commands.begin(), commands.end(), command) != commands.end();
 }
 
-/// How often frames may be had at most: as often as clients are served.
+/// The shortest interval between frames: the one at which clients are served.
 constexpr base::Duration frames_least = std::chrono::milliseconds{10};
 
 std::string fine(const Json& members)
@@ -90,7 +90,7 @@ bool is_true(Members& members, const char* key)
     return value != nullptr && *value == true;
 }
 
-/// What is asked of the hand; nullopt: to be let go.
+/// Returns the wish for the hand; nullopt: the hand is to be released.
 base::Result<std::optional<device::HandWish>> wish_in(Members& members)
 {
     if (is_true(members, "let_go")) return std::optional<device::HandWish>{};

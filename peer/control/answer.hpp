@@ -19,17 +19,17 @@ namespace hapnet::peer {
 struct PeerControl {
     std::function<nlohmann::ordered_json()> show; // an object
     std::function<nlohmann::ordered_json()> statistics;
-    /// What describes the statistics, with the names of metrics.
+    /// Describes the statistics, with the names of metrics.
     const base::FieldTable& statistics_fields;
-    /// As SIGTERM does.
+    /// Asks for a stop, as SIGTERM does.
     std::function<void()> stop;
-    /// Zero force from now on, until the program is started anew; the session goes on without.
+    /// Commands zero force until the program is started again; the session goes on without force.
     std::function<void()> stop_in_emergency;
-    /// What is in the scene, for whoever draws it; an object.
+    /// Describes the scene to programs that draw it; an object.
     std::function<nlohmann::ordered_json()> scene;
     /// Begins a watch of frames.
     std::function<control::FrameSource()> frames;
-    /// How much of the last rows is held in memory; nullopt: none.
+    /// The time span of the last rows that memory holds; nullopt: none.
     std::optional<base::Duration> held{};
     /// Orders a record of them since a time; gives its path.
     std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};
@@ -38,7 +38,7 @@ struct PeerControl {
 };
 
 /// The answer to a request line; docs/formats/control.md describes the requests. A request that
-/// would change the peer is refused, but for one that moves the hand of a page.
+/// would change the peer is refused, except one that moves the hand of a page.
 [[nodiscard]] control::Answer answer_to(std::string_view line, const PeerControl& peer,
                                         base::TimePoint now);
 

@@ -14,13 +14,14 @@
 
 namespace hapnet::peer {
 
-/// Makes frames for those who watch, from the rows of a peer's record: the loop does nothing for
-/// it. While nobody watches it keeps only what the sessions agreed on, a row a second.
+/// Makes frames for watching clients from the rows of a peer's record. The loop does no work for
+/// them. While no client watches it keeps only what the sessions agreed on, a row a second.
 class FrameTap {
 public:
     explicit FrameTap(std::uint16_t peer_id) : peer_id_{peer_id} {}
 
-    /// Begins a watch; it ends when the source is destroyed. Of this thread, as all here.
+    /// Begins a watch; it ends when the source is destroyed. All functions here, and the source,
+    /// belong to one thread.
     [[nodiscard]] control::FrameSource watch();
 
     void take(const record::Row& row);

@@ -8,8 +8,8 @@
 
 namespace hapnet::peer {
 
-/// What whoever draws a session needs to know of its scene: docs/formats/live.md. A scene of more
-/// than `bodies_shown_max` bodies is cut there, and says so.
+/// Describes a scene to programs that draw a session: docs/formats/live.md. A scene of more than
+/// `bodies_shown_max` bodies is cut there, and says so.
 [[nodiscard]] nlohmann::ordered_json scene_json(const scene::Description& scene);
 inline constexpr std::size_t bodies_shown_max = 1000;
 

@@ -15,7 +15,7 @@ namespace hapnet::peer {
 
 // The parts of a peer's statistics that it has in real and in virtual time.
 
-/// How punctual a loop was.
+/// The punctuality of a loop.
 struct TickReport {
     std::uint64_t count = 0;
     std::uint64_t missed = 0;
@@ -76,7 +76,7 @@ constexpr auto fields_of(base::Tag<Counters>)
                      "of their own stamp, stamps ahead of their arrival."));
 }
 
-/// What is counted and held between the loop and the motors.
+/// Counters and states of the governor, which stands between the loop and the motors.
 struct GovernorFigures {
     device::GovernorState state = device::GovernorState::off;
     device::Latched fault{};
@@ -103,7 +103,7 @@ constexpr auto fields_of(base::Tag<GovernorFigures>)
         base::part(&F::counters), base::member("device", &F::device, "Reports of the device."));
 }
 
-/// How a peer acts.
+/// The role of a peer.
 enum class Role : std::uint8_t { left, right };
 constexpr auto names_of(base::Tag<Role>) { return base::names("L", "R"); }
 

@@ -17,7 +17,7 @@ constexpr base::Duration offset_max{std::chrono::hours{10 * 365 * 24}};
 // A round trip that is longer than the shortest by less than this met hardly any queue.
 constexpr base::Duration longer_least{std::chrono::microseconds{100}};
 constexpr std::int64_t longer_share = 10; // or by less than a tenth of it
-// What a queue of no length still does to an offset, by timers and interrupts.
+// The noise that timers and interrupts add to an offset without any queue.
 constexpr double offset_noise_ns = 1e6;
 
 base::Duration rounded(double ns) { return base::Duration{std::llround(ns)}; }
@@ -46,7 +46,7 @@ void ClockSync::add(const ClockSample& s)
     follow(s.answer_heard);
 }
 
-/// Whether the clocks are one as far as is known with this sample.
+/// True if the clocks are one as far as is known with this sample.
 bool ClockSync::shows_same_clock(const Window& sample)
 {
     if (same_clock_ == SameClock::no) return false;
@@ -65,8 +65,8 @@ bool ClockSync::shows_same_clock(const Window& sample)
     return false;
 }
 
-/// How far the sample lies beyond what is said, after all that queues and asymmetry can explain:
-/// above 0, or below it when it is behind; 0 where they agree.
+/// Returns the distance of a sample from the estimate beyond all that queues and asymmetry can
+/// explain: above 0, or below it when the sample is behind; 0 where they agree.
 base::Duration ClockSync::unexplained(const Window& sample) const
 {
     const base::Duration apart = sample.offset - said_;
@@ -108,7 +108,7 @@ void ClockSync::close_window()
     said_ = fit(said_at_).offset;
 }
 
-/// Whether the last windows all say that the clock is elsewhere, on the same side.
+/// True if the last windows all say that the clock is elsewhere, on the same side.
 bool ClockSync::has_jumped() const
 {
     if (count_ < windows_for_jump) return false;
@@ -134,8 +134,9 @@ ClockSync::Fit ClockSync::fit(base::TimePoint now) const
     });
     const base::Duration longest =
         best.round_trip + std::max(longer_least, best.round_trip / longer_share);
-    // Sums about the best one: equal offsets differ by exactly 0. What a round trip is longer than
-    // the best may have spoilt its offset by half as much, so each weighs by the square of that.
+    // Sums about the best one: equal offsets differ by exactly 0. The part of a round trip beyond
+    // the best one may have spoilt its offset by half of that part. Each sample's weight is the
+    // square of the precision that this leaves.
     double n = 0.0, w = 0.0, t = 0.0, tt = 0.0, x = 0.0, tx = 0.0, xx = 0.0;
     each_window([&](const Window& each) {
         if (each.round_trip > longest) return;
@@ -183,7 +184,7 @@ std::optional<ClockEstimate> ClockSync::estimate() const
 {
     if (same_clock_ == SameClock::seen) return ClockEstimate{};
     if (!first_) return std::nullopt;
-    // What slewing has not reached yet is uncertain, too.
+    // The part that slewing has not reached yet is uncertain, too.
     const base::Duration behind = std::chrono::abs(fit_.at_time(said_at_) - said_);
     return ClockEstimate{said_, fit_.uncertainty + behind, 1e6 * fit_.skew};
 }

@@ -19,7 +19,7 @@ struct ClockSample {
     base::TimePoint answer_heard; // by us, our clock
 };
 
-/// How the remote's clock stands to ours.
+/// The relation of the remote's clock to ours.
 struct ClockEstimate {
     base::Duration offset{};      // their clock minus ours, now
     base::Duration uncertainty{}; // half the least round trip, which bounds what asymmetry can
@@ -57,12 +57,12 @@ public:
     /// The two name the same boot: their clocks are one, unless samples rule that out.
     void set_same_clock() { same_clock_ = SameClock::claimed; }
 
-    /// nullopt before the first sample.
+    /// Returns nullopt before the first sample.
     [[nodiscard]] std::optional<ClockEstimate> estimate() const;
-    /// How often the remote's clock has jumped.
+    /// The number of jumps of the remote's clock.
     [[nodiscard]] std::uint32_t jumps() const { return jumps_; }
-    /// From a sample that no queue explains, or a jump, until enough samples agree: nothing should
-    /// be predicted from the estimate.
+    /// True from a sample that no queue explains, or a jump, until enough samples agree. Do not
+    /// predict from the estimate in this time.
     [[nodiscard]] bool is_in_doubt() const { return agreeing_left_ > 0; }
     /// The estimate to predict from: nullopt before the first sample, and while in doubt.
     [[nodiscard]] std::optional<ClockEstimate> trusted() const
@@ -92,7 +92,7 @@ private:
         }
     };
 
-    /// Whether both sides have one clock.
+    /// Says if both sides have one clock: they do not, they claim to, or a sample has shown it.
     enum class SameClock : std::uint8_t { no, claimed, seen };
 
     [[nodiscard]] bool shows_same_clock(const Window& sample);

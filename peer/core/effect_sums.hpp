@@ -16,18 +16,18 @@ class EffectSums {
 public:
     void add(base::Displacement moved) { displacement_ += moved; }
     void add(base::Impulse given) { impulse_ += given; }
-    /// By so many radians about the axis of `turned`.
+    /// Adds a rotation by |turned| radians about the axis of `turned`.
     void add_rotation(const glm::dvec3& turned) { rotation_ += turned; }
-    /// In N m s, about the body's centre.
+    /// Adds an angular impulse in N m s, about the body's centre.
     void add_angular(const glm::dvec3& given) { angular_impulse_ += given; }
 
-    /// In micrometres, as the wire has it.
+    /// The displacement in micrometres, as the wire has it.
     [[nodiscard]] wire::Sums displacement_um() const { return millionths(displacement_.value); }
-    /// In micronewton seconds.
+    /// The impulse in micronewton seconds.
     [[nodiscard]] wire::Sums impulse_uns() const { return millionths(impulse_.value); }
-    /// In microradians.
+    /// The rotation in microradians.
     [[nodiscard]] wire::Sums rotation_urad() const { return millionths(rotation_); }
-    /// In millionths of N m s.
+    /// The angular impulse in millionths of N m s.
     [[nodiscard]] wire::Sums angular_impulse_unms() const { return millionths(angular_impulse_); }
 
 private:

@@ -9,9 +9,9 @@
 namespace hapnet::peer {
 
 /// The energy that a session may bring into a hand at this device: above what the tasks need with
-/// this algorithm at delays up to 160 ms, in proportion to the device's force up to an Omni's. What
-/// is in a shared object is not known: it has that of `base`. docs/design/governor.md has the
-/// figures.
+/// this algorithm at delays up to 160 ms, in proportion to the device's force up to an Omni's. The
+/// needs of a shared object are not known: it has the budget of `base`. docs/design/governor.md has
+/// the figures.
 [[nodiscard]] device::EnergyLimits energy_budget(const device::Capabilities& capabilities,
                                                  const Algorithm& algorithm);
 

@@ -11,7 +11,7 @@
 
 namespace hapnet::peer {
 
-/// How a peer leaves: with goodbyes, because its session is over, because it is asked to, or
+/// Ends a peer's session with goodbyes: because it is over, because the peer is asked to leave, or
 /// because it cannot play with another.
 class Farewell {
 public:
@@ -29,7 +29,7 @@ public:
 
         friend bool operator==(const Refusal&, const Refusal&) = default;
     };
-    /// Another reason for it. True when it has now come often enough.
+    /// Notes another reason for a refusal. Returns true when it has now come often enough.
     [[nodiscard]] bool refuse(const Refusal& refusal, base::TimePoint now);
     /// The two can play together after all.
     void forget_refusals() { times_ = 0; }
@@ -38,14 +38,14 @@ public:
     /// Goodbyes follow, if there is a peer to hear them. The first reason counts.
     void leave(wire::ByeReason reason, bool has_audience);
     [[nodiscard]] bool is_leaving() const { return because_.has_value(); }
-    /// Whether a goodbye is due; it then counts as said.
+    /// True if a goodbye is due; it then counts as said.
     [[nodiscard]] bool says_bye(base::TimePoint now);
-    /// What it says.
+    /// The reason that the message gives.
     [[nodiscard]] wire::ByeReason because() const
     {
         return because_.value_or(wire::ByeReason::finished);
     }
-    /// All goodbyes are said.
+    /// True if all goodbyes are said.
     [[nodiscard]] bool is_finished() const { return is_leaving() && byes_left_ == 0; }
 
 private:

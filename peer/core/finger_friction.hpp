@@ -19,7 +19,8 @@ class FingerFriction {
 public:
     explicit FingerFriction(const scene::HandDescription& hips) : hips_{hips} {}
 
-    /// On the body, to be held for the coming tick: of a hand that is there and moves so now.
+    /// Returns the force on the body, to be held for the coming tick. `hand` and `body` are as they
+    /// are now.
     [[nodiscard]] base::Force on_body(const scene::HandInput& hand, const scene::BodyState& body);
     /// The world's contact in the tick for whose start on_body() was called.
     void on_touch(const scene::HandTouch& touch);

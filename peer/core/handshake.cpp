@@ -14,9 +14,10 @@ namespace {
 // No session is longer than a program can be asked for (10^6 s): a start farther away is nonsense.
 constexpr base::Duration start_away_max{std::chrono::seconds{1'000'001}};
 
-// By how much a message may overtake the one before.
+// The most by which a message may overtake the one before.
 constexpr base::Duration ahead_max{std::chrono::seconds{10}};
-// When none was the newest for so long, the next is, whatever its stamp: a clock has jumped.
+// After this time without a newer message the next one counts as the newest, whatever its stamp: a
+// clock has jumped.
 constexpr base::Duration newest_for{std::chrono::seconds{1}};
 
 /// Rounded up, and 0 never: that says nothing.
@@ -134,8 +135,8 @@ void Handshake::compare_starts(const wire::Hello& hello, base::TimePoint arrived
     if (!is_over) earlier_ = Session{number(), start, hello.seed, length(), is_left(), true};
 }
 
-/// By how much the start that the remote tells is later than the one known here; nullopt when
-/// they are the same, or cannot be compared.
+/// Returns the time by which the remote's start is later than the one known here; nullopt when they
+/// are the same, or cannot be compared.
 std::optional<base::Duration> Handshake::later_there() const
 {
     const auto there = clock();
@@ -190,7 +191,7 @@ bool Handshake::may_replace_start(base::TimePoint start, base::TimePoint arrived
     return !has_begun && has_come_often(start);
 }
 
-/// Whether the remote has told this start so often, one time after the other.
+/// True if the remote has told this start `starts_needed` times in a row.
 bool Handshake::has_come_often(base::TimePoint start)
 {
     if (other_start_ != start) {

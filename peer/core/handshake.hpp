@@ -45,22 +45,22 @@ class Handshake {
 public:
     static constexpr base::Duration hello_every{std::chrono::milliseconds{20}};
     static constexpr base::Duration start_after{std::chrono::seconds{1}};
-    /// A side that is in session and was not answered for so long says hello ten times as often: at
+    /// The time without an answer after which a side in session says hello ten times as often: at
     /// 97 % loss one in five would otherwise learn of the start more than a second late.
     static constexpr base::Duration answer_within{std::chrono::milliseconds{500}};
     static constexpr base::Duration hello_every_unanswered{std::chrono::milliseconds{2}};
 
-    /// Who sets the start: the lower id of the two, or all of the session by tell().
+    /// The peer that sets the start: the lower id of the two, or all of the session by tell().
     enum class StartSetBy : std::uint8_t { lower_id, session };
     explicit Handshake(const Introduction& introduction, StartSetBy by = StartSetBy::lower_id)
         : self_{introduction}, set_by_{by}
     {}
 
-    /// While the run that was met is heard, nobody else's hello is believed: it may be forged. A
-    /// run that was started anew keeps saying hello until the former one has fallen silent.
+    /// While the run that was met is heard, the hello of any other run is ignored: it may be
+    /// forged. A new run keeps saying hello until the former one has fallen silent.
     enum class Known : std::uint8_t { silent, heard };
-    /// A start that differs from the one agreed on counts when it came so often before the session
-    /// has begun, as the first may have been damaged; never once it has.
+    /// The number of times in a row that another start must come to replace the one agreed on: the
+    /// first may have been damaged. In a pair it can do so only before the session has begun.
     static constexpr int starts_needed = 3;
 
     /// Takes a hello in. Returns why the two cannot play together, if so.
@@ -94,7 +94,7 @@ public:
     /// Among more than two: the session that the remote is in, when it has told `starts_needed`
     /// times that this began earlier than the one known here, and it is not over. See `is_same()`.
     [[nodiscard]] const std::optional<Session>& earlier() const { return earlier_; }
-    /// Two starts are one when they are at most so far apart on clocks of such an uncertainty: a
+    /// True if two starts count as one, by their distance and the uncertainty of the clocks: a
     /// start that came by way of another peer was converted three times, and each clock has moved.
     [[nodiscard]] static bool is_same(base::Duration apart, base::Duration uncertainty)
     {
@@ -107,20 +107,20 @@ public:
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
     /// The remote's clock, to predict from: nullopt before the first echo, and while in doubt.
     [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.trusted(); }
-    /// How it was found.
+    /// The measurements behind clock().
     [[nodiscard]] const ClockSync& clock_sync() const { return clock_; }
-    /// Whether the remote has been heard in this run of it.
+    /// True if the remote has been heard in this run of it.
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
-    /// Its id; 0 before it was met.
+    /// The remote's id; 0 before it was met.
     [[nodiscard]] std::uint16_t id() const { return remote_ ? remote_->id : std::uint16_t{0}; }
-    /// Its hand, as far as it has said.
+    /// The remote's hand, as far as it has described it.
     [[nodiscard]] wire::HandModel hand() const
     {
         return remote_ ? remote_->hand : wire::HandModel{};
     }
-    /// Whether it has heard this run of us.
+    /// True if it has heard this run of us.
     [[nodiscard]] bool is_heard_there() const { return remote_ && remote_->hears_us; }
-    /// Those that it hears, bit i for id i.
+    /// The peers that the remote hears, bit i for id i.
     [[nodiscard]] std::uint32_t heard_there() const { return remote_ ? remote_->heard : 0; }
     /// The session's length as far as the two are concerned: the shorter one.
     [[nodiscard]] base::Duration length() const;
@@ -136,7 +136,7 @@ private:
     };
 
     [[nodiscard]] std::optional<wire::ByeReason> refusal_of(const wire::Hello& hello) const;
-    /// Whether the remote should long have known the start, and does not seem to.
+    /// True if the remote should long have known the start, and does not seem to.
     [[nodiscard]] bool is_unanswered(base::TimePoint now) const
     {
         return session_ && owns_start_ && !acknowledged_ &&

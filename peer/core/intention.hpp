@@ -23,17 +23,17 @@ struct HandDynamics {
     friend bool operator==(const HandDynamics&, const HandDynamics&) = default;
 };
 
-/// A hand as it was said to be; what was left out is as usual.
+/// Returns the dynamics of a hand as its model describes it. Missing values take the usual ones.
 [[nodiscard]] HandDynamics dynamics_of(const wire::HandModel& said);
 
-/// What a peer says of its hand in the hello: that of its device which is known. Of the person
-/// nothing is.
+/// Returns the hand model that a peer sends in its hello. It has the known properties of the
+/// device. Those of the person are unknown.
 [[nodiscard]] wire::HandModel hand_model_of(const device::Capabilities& capabilities);
 
-/// Where a hand means to be, as its own peer estimates it from its motion and from the force on it:
-/// partners predict each other's goal, not each other's place (Takagi et al., Nature Human
-/// Behaviour 2017). It is found here, where every sample is known, since a receiver at 97 % loss
-/// has too few to filter.
+/// The place where a hand means to be, as its own peer estimates it from its motion and from the
+/// force on it: partners predict each other's goal, not each other's place (Takagi et al., Nature
+/// Human Behaviour 2017). It is found here, where every sample is known, since a receiver at 97 %
+/// loss has too few to filter.
 class Intention {
 public:
     explicit Intention(const HandDynamics& hand) : hand_{hand} {}
@@ -51,7 +51,7 @@ public:
     [[nodiscard]] bool is_known() const { return is_known_; }
     [[nodiscard]] base::Position place() const { return {filter_.value()}; }
     [[nodiscard]] base::Velocity velocity() const { return {filter_.slope()}; }
-    /// What a state says of the hand and of what it means.
+    /// Writes the hand's position, its intention and the velocities of both into a state message.
     void say(wire::State& state, base::Position hip, base::Velocity hip_velocity) const;
 
 private:

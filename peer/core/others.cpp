@@ -55,7 +55,7 @@ bool Others::hear_each_other(const Remote& a, const Remote& b) const
            (b.handshake().heard_there() & bit_of(a.id())) != 0;
 }
 
-/// Whether this peer is to set the start: those that it waits for hear each other, and it has the
+/// True if this peer is to set the start: those that it waits for hear each other, and it has the
 /// lowest id of them.
 bool Others::can_start(base::TimePoint now) const
 {

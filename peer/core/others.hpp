@@ -14,11 +14,12 @@ namespace hapnet::peer {
 /// Peers of one session, this one among them, at most.
 inline constexpr std::size_t peers_max = 8;
 
-/// With which peers a peer plays.
+/// The peers with which a peer plays.
 struct Roster {
-    /// The others' ids, ascending; 0 stands for whoever answers, and then for the only one.
+    /// The others' ids, ascending; 0 stands for any peer that answers, and then for the only one.
     std::vector<std::uint16_t> others{0};
-    /// So many peers, this one counted, must hear each other before they start; 0: all of them.
+    /// The number of peers, this one counted, that must hear each other before they start; 0: all
+    /// of them.
     std::size_t wait_for = 0;
 };
 
@@ -28,10 +29,10 @@ struct Roster {
 /// they began apart, the earlier one counts and the others join it.
 class Others {
 public:
-    /// With more than two peers, one whose hellos stopped so long ago is not heard any more.
+    /// With more than two peers, the time after its last hello for which a peer counts as heard.
     static constexpr base::Duration hello_lasts{std::chrono::seconds{1}};
-    /// With more than two peers, one that was silent for so long counts as gone until it is heard
-    /// again: the others play on. Until then its hand may be on the body.
+    /// With more than two peers, the silence after which a peer counts as gone until it is heard
+    /// again, and the others play on. During the silence its hand may still be on the body.
     static constexpr base::Duration gone_after{std::chrono::seconds{1}};
 
     /// The introduction's id must not be one of the others'.
@@ -44,8 +45,8 @@ public:
     /// This peer plays with one other.
     [[nodiscard]] bool is_pair() const { return all_.size() == 1; }
 
-    /// After a hello of the remote `of`: looks whether all can start, and tells a start that is
-    /// known to those who do not know it.
+    /// Call it after a hello of the remote `of`. Checks if all can start, and tells a known start
+    /// to those who do not know it.
     void after_hello(std::size_t of, base::TimePoint now);
     /// Says hello to those to whom it is due.
     void say_hello(base::TimePoint now);
@@ -54,10 +55,10 @@ public:
     double look(base::TimePoint now);
     /// The one with the lowest id of those that are heard; where none is, of those that were.
     [[nodiscard]] const Remote& leader() const;
-    /// Whether what they do is known well enough for a hand to feel it: one of them is fresh, and
+    /// True if what they do is known well enough for a hand to feel it: one of them is fresh, and
     /// so are all whose hands may be on the body.
     [[nodiscard]] bool are_fresh(base::TimePoint now) const;
-    /// All of them said goodbye.
+    /// True if all of them said goodbye.
     [[nodiscard]] bool are_gone() const { return std::ranges::all_of(all_, &Remote::is_gone); }
 
     /// The start, seed and length that all have in common. Its number and side are of use in a pair

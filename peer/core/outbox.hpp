@@ -20,7 +20,7 @@ public:
     {
         put([&value] { return value; });
     }
-    /// The same for what make() returns, which is made in its place.
+    /// Puts the value that make() returns. It is made in place.
     template <std::invocable Make>
     void put(Make make)
     {

@@ -27,7 +27,7 @@ struct VirtualWall {
 [[nodiscard]] double share_within(double stiffness_max_n_per_m, const VirtualWall& wall);
 
 /// The share, 0 to 1, of a wall's force that may be rendered through a port with this damping:
-/// stiffness and damping are softened alike, so that the force is the scene's times this share.
+/// stiffness and damping are softened equally, so that the force is the scene's times this share.
 [[nodiscard]] double passive_share(const VirtualWall& wall, double tick_s,
                                    double port_damping_ns_per_m);
 

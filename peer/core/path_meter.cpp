@@ -27,7 +27,7 @@ void PathMeter::on_state(const wire::State& state, base::TimePoint arrived,
 
 void PathMeter::on_newest(const wire::State& state, base::TimePoint arrived, base::Duration ahead)
 {
-    // Of states that arrive at the same time only the newest has an age.
+    // Among states that arrive at the same time only the newest has an age.
     if (age_.newest_arrived() >= arrived) age_.pause();
     age_.add(arrived, (arrived - state.sent) - ahead);
 }

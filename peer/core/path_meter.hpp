@@ -17,7 +17,7 @@
 
 namespace hapnet::peer {
 
-/// What the path did to the states of one direction. Delays and ages need the remote's clock:
+/// The effect of the path on the states of one direction. Delays and ages need the remote's clock:
 /// while it is unknown or in doubt nothing is added to them. nullopt: nothing was measured.
 struct PathReport {
     std::optional<base::Quantiles> delay;
@@ -39,7 +39,7 @@ struct PathsReport {
 /// in 80 KiB: adding never allocates.
 class PathMeter {
 public:
-    /// A duplicate that comes after so many newer ones counts as received.
+    /// The number of newer states after which a duplicate counts as received.
     static constexpr std::size_t looks_back = 1024;
 
     /// A state of the session arrived, whether it is used or not. `clock`: the remote's, as far

@@ -95,7 +95,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
         scene_.await_bodies(session()->joined_late);
         tell(Event::agreed);
     } else if (greeting.in_session && greeting.had_session) {
-        // Nobody else would tell where the body is.
+        // No other peer would tell where the body is.
         if (others_.is_pair()) scene_.await_bodies(session()->joined_late);
         tell(Event::restarted, &other);
     }
@@ -278,7 +278,8 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     say_states(tick, now, usable ? hand : none);
 }
 
-/// The same to each of the others, but for what belongs to the two of them: number and clock.
+/// Sends the same state to each of the others, except for what belongs to the two of them: numbers
+/// and clock echo.
 void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
 {
     wire::State state;

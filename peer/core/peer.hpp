@@ -75,25 +75,25 @@ public:
                      std::size_t from = 0);
     /// The result stays until the next call.
     const Tick& tick(base::TimePoint now, const Hand& hand);
-    /// That of the last call.
+    /// The outcome of the last tick().
     [[nodiscard]] const Tick& last() const { return tick_; }
 
     /// The next datagram for one of the others, valid until on_datagram() or tick(); nullptr: there
     /// is none.
     [[nodiscard]] const wire::Datagram* poll(std::size_t to = 0) { return others_[to].poll(); }
-    /// Likewise what a person should be told.
+    /// Takes the next notice for a person; nullptr: there is none.
     [[nodiscard]] const Notice* notice() { return notices_.take(); }
 
     /// Ends the session: byes follow, then finished() holds.
     void leave(wire::ByeReason reason);
-    /// Nothing more will come of this peer.
+    /// True if all byes are said: nothing more will come of this peer.
     [[nodiscard]] bool finished() const { return farewell_.is_finished(); }
 
     [[nodiscard]] const scene::World& world() const { return scene_.world(); }
-    /// All of them: every movable body of the scene, by their ids.
+    /// The shared bodies: every movable body of the scene, by their ids.
     [[nodiscard]] std::span<const SharedBody> shared() const { return scene_.shared(); }
-    /// Whose copy of the i-th of them counts: SharedPoses::owner(); 0 where one is shared that does
-    /// not turn.
+    /// The owner of the i-th shared body, whose copy counts: see SharedPoses::owner(). 0 where only
+    /// one body is shared and does not turn.
     [[nodiscard]] std::uint16_t owner(std::size_t body) const
     {
         const SharedPoses* const poses = scene_.poses();
@@ -119,7 +119,7 @@ public:
     /// others as B.
     [[nodiscard]] std::size_t rank() const { return others_.rank(); }
     [[nodiscard]] bool is_left() const { return rank() % 2 == 0; }
-    /// One of so many that act on its side.
+    /// This peer's share of its side: one divided by the number of peers that act there.
     [[nodiscard]] double share_of_side() const
     {
         const std::size_t all = others().size() + 1;
@@ -128,12 +128,12 @@ public:
     [[nodiscard]] std::optional<wire::ByeReason> refusal() const { return farewell_.refusal(); }
     /// Time from the start until the hands let go.
     [[nodiscard]] base::Duration hands_on() const { return hands_on_of(length()); }
-    /// The same of a session of this length.
+    /// Time from the start until the hands let go in a session of this length.
     [[nodiscard]] static base::Duration hands_on_of(base::Duration length)
     {
         return length - std::min(hands_off_length, length / 2);
     }
-    /// What was agreed on; before that what this peer was asked for.
+    /// The length that was agreed on. Before that, the length that this peer was asked for.
     [[nodiscard]] base::Duration length() const
     {
         return session() ? session()->length : settings_.length;

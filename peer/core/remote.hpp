@@ -33,20 +33,22 @@ constexpr auto names_of(base::Tag<Stale> /*enum*/) { return base::names("drop", 
 
 /// Another peer of the session, as this one knows it: the handshake with it, its newest state (or
 /// the last to arrive when stale ones are taken), what was heard of its leaving, and the datagrams
-/// that wait to be sent to it. Between states everything is held. Between any two peers the
-/// messages are numbered anew.
+/// that wait to be sent to it. Between states everything is held. Messages are numbered separately
+/// between any two peers.
 class Remote {
 public:
-    /// It counts as silent when no state came for this long after the start.
+    /// The time after the start without a state after which it counts as silent.
     static constexpr base::Duration first_word_within{std::chrono::seconds{1}};
-    /// In ticks. A path that is slower one way than the other shifts the two starts by half the
-    /// difference, which nobody can see: as much as the slowest path that is believed.
+    /// The slack of sequences, in ticks. A path that is slower one way than the other shifts the
+    /// two starts by half the difference, which no peer can measure. The slack is as long as the
+    /// delay of the slowest path that is accepted.
     static constexpr base::Duration::rep sequence_slack = 5000;
     static constexpr std::uint32_t body_every = 64; // messages
-    /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
-    /// damaged. Those that it overtook on its way do not count.
+    /// States that were sent longer than this after a goodbye take it back: it was forged, or
+    /// damaged. States that it overtook on its way do not count.
     static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
-    /// So many states without a body, and for a second, are no chance: every 64th has it.
+    /// The number of states without a body, over at least a second, that is no accident: every 64th
+    /// state has the body.
     static constexpr std::uint32_t states_without_body_max = 10 * body_every;
     static constexpr base::Duration body_missed_after{std::chrono::seconds{1}};
 
@@ -62,7 +64,7 @@ public:
     };
     explicit Remote(const Config& config);
 
-    /// What a hello has changed.
+    /// The changes that a hello has made.
     struct Greeting {
         std::optional<wire::ByeReason> refused;
         bool met = false;         // heard for the first time
@@ -70,12 +72,12 @@ public:
         bool had_session = false; // with another run, until now
     };
     [[nodiscard]] Greeting on_hello(const wire::Hello& hello, base::TimePoint arrived);
-    /// Whether its hello may be listened to: the one that is expected here.
+    /// True if its hello may be listened to: the one that is expected here.
     [[nodiscard]] bool is_expected(std::uint16_t id) const { return id_ == 0 || id == id_; }
 
-    /// A state that is plausible in itself: whether its number can be true.
+    /// True if the number of a state can be right. The state must be plausible in itself.
     [[nodiscard]] bool can_be_numbered(const wire::State& state, base::TimePoint arrived) const;
-    /// Whether it goes on although it has said goodbye; then the goodbye is forgotten.
+    /// True if it goes on although it has said goodbye; then the goodbye is forgotten.
     [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
     struct Heard {
         bool taken = false;       // newer than what was known
@@ -105,29 +107,30 @@ public:
 
     /// Begins the session that all have agreed on; see Handshake::tell().
     void join(const Session& agreed, bool late, base::TimePoint now);
-    /// Its newest state counts no more, as between two sessions.
+    /// Makes its newest state count no more, as between two sessions.
     void forget_state();
 
     /// Begins a tick, in which freshness() stays what it is now.
     void look(base::TimePoint now) { freshness_ = freshness_at(now); }
-    /// Of its state in this tick: 1 while fresh, falling to 0 over the fade, 0 when stale or
-    /// unknown, or when it is gone.
+    /// The weight of its state in this tick: 1 while fresh, falling to 0 over the fade, and 0 when
+    /// stale or unknown, or when the remote is gone.
     [[nodiscard]] double freshness() const { return freshness_; }
     [[nodiscard]] double freshness_at(base::TimePoint now) const;
-    /// Whether its forces have just faded to zero, or it is heard again. To be asked once a tick.
+    /// A change of its forces: they have just faded to zero, or the remote is heard again. Call
+    /// change() once a tick.
     enum class Change : std::uint8_t { none, lost, back };
     [[nodiscard]] Change change(base::TimePoint now);
 
-    /// nullopt before the first state of the session.
+    /// The newest state; nullopt before the first one of the session.
     [[nodiscard]] const std::optional<wire::State>& state() const { return state_; }
     /// A body's state, from the newest message that had it; nullptr: there was none.
     [[nodiscard]] const wire::BodyState* body(std::uint16_t id) const;
-    /// The same where there is but one.
+    /// The body's state in a scene with only one body; see body(id).
     [[nodiscard]] const wire::BodyState* body() const
     {
         return count_ == 0 ? nullptr : &bodies_[0];
     }
-    /// How many bodies it has told of.
+    /// The number of bodies that it has told of.
     [[nodiscard]] std::size_t bodies_known() const { return count_; }
     /// The body that the newest state's hand pushes, by the impulse that it has given last.
     [[nodiscard]] const wire::BodyState* touched() const;
@@ -136,10 +139,10 @@ public:
     [[nodiscard]] const Handshake& handshake() const { return handshake_; }
     [[nodiscard]] Handshake& handshake() { return handshake_; }
     [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
-    /// What the path to it and back has done since the session with it began; nothing was measured
-    /// where that was not asked for.
+    /// The effect of the path to the remote and back since the session with it began. Nothing was
+    /// measured where that was not asked for.
     [[nodiscard]] PathsReport paths() const { return meter_ ? meter_->report() : PathsReport{}; }
-    /// Its id: as it was named, or as it has said; 0: neither.
+    /// The remote's id: as it was named, or as it has said; 0: neither.
     [[nodiscard]] std::uint16_t id() const { return id_ != 0 ? id_ : handshake_.id(); }
     [[nodiscard]] bool is_gone() const { return gone_; } // it said goodbye
     /// Heard by hellos or states within `length` before now.
@@ -147,7 +150,8 @@ public:
     {
         return last_heard_ && now - *last_heard_ <= length;
     }
-    /// So long silent, or gone: it does not hold the others up any more.
+    /// True if the remote was silent for longer than `silence`, or is gone. It then does not delay
+    /// the others any more.
     [[nodiscard]] bool counts_as_gone(base::Duration silence, base::TimePoint now) const;
 
     /// The number of the pair's session and of the last state to it.
@@ -184,7 +188,7 @@ private:
         return std::max(session()->start, agreed_at_);
     }
 
-    // What algorithms ask for in each tick stands first.
+    // Members that algorithms read in each tick come first.
     std::optional<wire::State> state_;
     std::array<wire::BodyState, wire::bodies_max> bodies_; // the first count_, as they were told of
     std::size_t count_ = 0;

@@ -15,8 +15,8 @@ namespace hapnet::peer {
 
 namespace {
 
-// Of the others: so many times the distance of the scene's farthest body from the origin, and
-// through all of that in so much time.
+// The limits of places and velocities that the others tell: this many times the distance of the
+// scene's farthest body from the origin, and the least time in which all of that can be crossed.
 constexpr double reach_of_scene = 8.0;
 constexpr double reach_least_m = 1.0;
 constexpr double crossing_s = 0.1;
@@ -172,8 +172,8 @@ void SceneCopy::move(Tick& tick, Algorithm& algorithm, const Situation& situatio
     tick.force = (is_late ? rendered_share(outcome.late) : share_) * on_hand;
 }
 
-/// Where a body has come to. A remote that lies can drag it to where the other copy would not
-/// believe it to be any more; then the two would never agree again.
+/// Keeps a body within reach and returns its place. A lying remote can otherwise drag it so far
+/// that the other copy rejects its place, and the two would never agree again.
 inline base::Position SceneCopy::keep_within_reach(scene::BodyId body)
 {
     const base::Position place = world_.position(body);
@@ -222,7 +222,7 @@ inline void SceneCopy::account_for(std::size_t body, SharedPoses::Mover mover, c
     if (stirs) effect.last_stir = now;
 }
 
-/// Of this hand on a body, in the tick.
+/// Adds the push of this hand on a body in the tick.
 void SceneCopy::add_push(std::size_t body, const scene::HandTouch& touch)
 {
     Effect& effect = effects_[body];

@@ -22,26 +22,26 @@ namespace hapnet::peer {
 class SceneCopy {
 public:
     static constexpr double reach_max_m = 10.0; // no hand of any scene is ever farther out
-    /// For this long after a body has moved the others hear of it.
+    /// The time for which the others hear of a body after it has moved.
     static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
-    /// For this long after its last touch, a hand is taken to have caused the body's motion.
+    /// The time after its last touch for which a hand counts as the cause of the body's motion.
     static constexpr base::Duration push_lasts{std::chrono::milliseconds{200}};
 
     /// The scene must be one that shared_bodies() and World::freeze() accept.
     explicit SceneCopy(const Settings& settings);
 
     [[nodiscard]] const scene::World& world() const { return world_; }
-    /// All of them: every movable body of the scene, by their ids.
+    /// The shared bodies: every movable body of the scene, by their ids.
     [[nodiscard]] std::span<const SharedBody> shared() const { return shared_; }
-    /// The first of them.
+    /// The first shared body.
     [[nodiscard]] scene::BodyId body() const { return body_; }
-    /// Whose copies count; nullptr: one is shared that does not turn.
+    /// Decides whose copies count; nullptr: only one body is shared, and it does not turn.
     [[nodiscard]] SharedPoses* poses() { return poses_ ? &*poses_ : nullptr; }
     [[nodiscard]] const SharedPoses* poses() const { return poses_ ? &*poses_ : nullptr; }
     /// The greatest force of another hand, N.
     [[nodiscard]] double force_max_n() const { return force_max_n_; }
 
-    /// Whether a state of another peer can be true here.
+    /// True if a state of another peer can be true here.
     [[nodiscard]] bool is_plausible(const wire::State& state) const;
 
     /// A peer that joins late starts with the bodies where one of the others has them. Until it
@@ -69,7 +69,7 @@ public:
     void say(wire::State& state, BodySet bodies) const;
 
 private:
-    /// What this hand does to one of the shared bodies.
+    /// The effect of this hand on one of the shared bodies.
     struct Effect {
         EffectSums sums;
         std::optional<base::TimePoint> last_touch; // by this hand

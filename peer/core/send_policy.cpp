@@ -47,7 +47,7 @@ base::Result<SendPolicy> parse_deadband(std::string_view text, std::string_view 
     return policy;
 }
 
-/// Whether what a receiver predicts is off by more than a share of the signal, and by more than
+/// True if what a receiver predicts is off by more than a share of the signal, and by more than
 /// the floor.
 bool is_beyond(double error, double share, double signal, double floor)
 {

@@ -18,8 +18,8 @@
 
 namespace hapnet::peer {
 
-/// When a peer tells the others its state: every so many ticks, or, with a deadband, when what the
-/// others can predict from the last message is too far off. A perceptual deadband as in P.
+/// The rule by which a peer sends its state: every so many ticks, or, with a deadband, when the
+/// others' prediction from the last message is too far off. A perceptual deadband as in P.
 /// Hinterseer et al., Perception-based data reduction and transmission of haptic data in
 /// telepresence and teleaction systems, IEEE Trans. Signal Processing 56 (2008), and IEEE 1918.1.1.
 struct SendPolicy {

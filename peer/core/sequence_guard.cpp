@@ -8,8 +8,8 @@ namespace hapnet::peer {
 
 namespace {
 
-// By so much a state moves what is usual. A device may set a pace 1.4 % above the nominal one
-// (DeviceTimer), and a queue may empty at almost a millisecond a state.
+// The step by which a state moves the usual value. A device may set a pace 1.4 % above the nominal
+// one (DeviceTimer), and a queue may empty at almost a millisecond a state.
 constexpr base::Duration lead_step{std::chrono::microseconds{125}};
 constexpr base::Duration transit_step{std::chrono::milliseconds{1}};
 
@@ -42,7 +42,7 @@ void SequenceGuard::on_taken(const wire::State& state, base::TimePoint arrived)
         usual_ = now;
         return;
     }
-    // Who sends in fewer ticks falls behind its stamps by the time between two messages.
+    // A peer that sends in fewer ticks falls behind its stamps by the time between two messages.
     const base::Duration pause = std::max(lead_step, arrived - usual_->last);
     usual_->lead = stepped(usual_->lead, now.lead, pause, lead_step);
     usual_->transit = stepped(usual_->transit, now.transit, transit_step, transit_step);

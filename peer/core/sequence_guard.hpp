@@ -16,11 +16,13 @@ namespace hapnet::peer {
 /// leads are followed by small steps, as medians are: a few forged states do not move them.
 class SequenceGuard {
 public:
-    /// By how much a sequence may be ahead of its stamp: ticks that were made up for.
+    /// The most by which a sequence may be ahead of its stamp: ticks that were made up for.
     static constexpr base::Duration numbered_ahead_max{std::chrono::milliseconds{50}};
-    /// By how much a state may be faster than those before: what a path's delay may drop at once.
+    /// The most by which a state may be faster than those before: the greatest sudden drop of a
+    /// path's delay.
     static constexpr base::Duration faster_max{std::chrono::milliseconds{500}};
-    /// After a silence so long the next state is believed, as nothing is held any more.
+    /// The silence after which the next state is accepted, whatever it claims, because no state is
+    /// held any more.
     static constexpr base::Duration forgotten_after{std::chrono::milliseconds{300}};
 
     /// One state is numbered per `tick`.

@@ -18,7 +18,7 @@ class SessionNotes {
 public:
     static constexpr base::Duration noted_every{std::chrono::seconds{1}};
 
-    /// After a tick: calls put(row) for each row that is due.
+    /// Calls put(row) for each row that is due. Call it after a tick.
     template <typename Put>
     void after_tick(const Peer& peer, base::TimePoint now, const Put& put)
     {

@@ -13,7 +13,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// As a person knows it.
+/// Returns the body's name for a person.
 std::string named(const scene::BodyDescription& body, std::size_t index)
 {
     return body.name.empty() ? fmt::format("body {}", index + 1)

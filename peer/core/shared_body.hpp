@@ -26,7 +26,8 @@ struct SharedBody {
 /// The first of them, which stands for all in the ticks of a record.
 [[nodiscard]] base::Result<scene::BodyId> shared_body(const scene::Description& scene);
 
-/// One body that does not turn, as the paper has it: every algorithm can play it.
+/// True if only one body is shared and it does not turn, as in the paper. Every algorithm can play
+/// it.
 [[nodiscard]] bool is_one_without_turning(std::span<const SharedBody> bodies);
 
 } // namespace hapnet::peer

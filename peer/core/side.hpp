@@ -50,7 +50,7 @@ public:
         peer_.on_datagram(datagram, arrived, from);
     }
 
-    /// One tick, in this order: reads the device, moves session and scene on, has the force
+    /// Plays one tick, in this order: reads the device, moves session and scene on, has the force
     /// governed and applied, and tells the device of a new start.
     template <RigLike Rig>
     const Tick& step(base::TimePoint now, Rig& rig)
@@ -75,14 +75,14 @@ public:
     [[nodiscard]] Peer& peer() { return peer_; }
     [[nodiscard]] const Peer& peer() const { return peer_; }
 
-    // Of the last step.
+    // Values of the last step.
     [[nodiscard]] const device::Sample& sample() const { return sample_; }
     [[nodiscard]] const Tick& tick() const { return peer_.last(); }
-    /// The force that the device was told, at the hand, after the governor.
+    /// The force that the device was told at the hand, after the governor.
     [[nodiscard]] base::Force told() const { return told_; }
-    /// All of it for a record; its number and time are the loop's to know.
+    /// The last step as a row of a record. The loop knows its number and time.
     [[nodiscard]] record::TickRow row(std::uint64_t number, const TickTime& time) const;
-    /// Likewise one of peer().shared().
+    /// One of peer().shared() after the last step, as a row of a record.
     [[nodiscard]] record::BodyRow body_row(std::uint64_t number, const SharedBody& body) const;
 
 private:
@@ -92,7 +92,8 @@ private:
         return session && cued_ != session->start;
     }
     [[nodiscard]] device::Cue take_cue();
-    /// What the hand did against the force that it was told last, J, coming from `before`.
+    /// The work of the hand against the last force that it was given, J. The hand comes from
+    /// `before`.
     [[nodiscard]] double work_since(base::Position before) const
     {
         return -glm::dot(told_.value, (sample_.hip - before).value) / mount_scale_;

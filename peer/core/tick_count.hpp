@@ -15,8 +15,8 @@ namespace hapnet::peer {
 /// tick.
 class TickCount {
 public:
-    /// So many ticks, and a tenth of all, may have no message although every tick is to have one:
-    /// the loop stood still, or missed ticks.
+    /// The number of ticks, beside a tenth of all, that may have no message although every tick
+    /// should have one: the loop stood still, or missed ticks.
     static constexpr std::int64_t missed_max = 50;
 
     struct Counted {

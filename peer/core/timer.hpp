@@ -9,15 +9,15 @@
 
 namespace hapnet::peer {
 
-/// When a tick of the loop was due, how much later it began, and how many ticks were skipped before
-/// it because it was too late for them.
+/// The due time of a tick, how much later it began, and how many ticks were skipped before it
+/// because it was too late for them.
 struct TickTime {
     base::TimePoint due;
     base::Duration late{};
     std::uint32_t missed_before = 0;
 };
 
-/// When ticks are due at the host's own pace: at a fixed rate, by absolute time.
+/// Sets the due times of ticks at the host's own pace: at a fixed rate, by absolute time.
 class FixedRateTimer {
 public:
     /// The first tick is due one period after `now`.
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] base::TimePoint next() const { return due_; }
     /// A tick that begins at `now`, after next().
     [[nodiscard]] TickTime begin(base::TimePoint now) const { return {due_, now - due_, missed_}; }
-    /// It ended at `now`: ticks whose whole period has passed by then are skipped.
+    /// Ends a tick at `now`: ticks whose whole period has passed by then are skipped.
     void end(base::TimePoint now);
 
 private:
@@ -35,10 +35,10 @@ private:
     std::uint32_t missed_ = 0;
 };
 
-/// When ticks are due at the pace of a device: at its cycles. A device that is faster than the
-/// session has some of its cycles skipped. Lateness is measured against the device's own rhythm:
-/// the due times follow its cycles slowly (by a 32nd of the difference), so that the drift of
-/// another clock does not count as lateness, and jitter does.
+/// Sets the due times of ticks at the pace of a device: at its cycles. A device that is faster than
+/// the session has some of its cycles skipped. Lateness is measured against the device's own
+/// rhythm: the due times follow its cycles slowly (by a 32nd of the difference), so that the drift
+/// of another clock does not count as lateness, and jitter does.
 class DeviceTimer {
 public:
     explicit DeviceTimer(base::Duration tick) : tick_{tick} {}

@@ -17,7 +17,7 @@ class KeptDevice {
 public:
     KeptDevice(const device::Identity& identity, std::string_view place);
 
-    /// As above, for now.
+    /// The result of device_state::why_untested() for its state, for now.
     [[nodiscard]] std::string_view why_untested() const;
     [[nodiscard]] double heat_at_start(base::Duration heat_time) const;
 

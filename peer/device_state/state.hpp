@@ -12,7 +12,8 @@
 
 namespace hapnet::peer::device_state {
 
-/// What outlives a program that drove a real device. Times are seconds of the wall clock.
+/// The state that outlives a program which drove a real device. Times are seconds of the wall
+/// clock.
 struct DeviceState {
     struct Heat {
         double heat = 0.0; // of the motors, as device::MotorHeat counts it
@@ -30,15 +31,16 @@ struct Moment {
 };
 
 inline constexpr double self_test_valid_s = 30.0 * 24 * 3600;
-/// Of motors of which nothing is known: the limit starts at the force that they bear for ever.
+/// The heat of motors about which nothing is known. The limit then starts at the force that they
+/// bear for ever.
 inline constexpr double unknown_heat = 1.1;
 
 /// Why no session may begin without being asked for: the device has passed no self-test, or not
 /// within 30 days, or one in the future. "" when it may.
 [[nodiscard]] std::string_view why_untested(const DeviceState& state, double now_s);
 
-/// The heat with which the motors start, cooled down since it was noted. What was noted before the
-/// machine started or in the future is not believed.
+/// The heat with which the motors start, cooled down since it was noted. A note from before the
+/// machine's start or from the future is not believed: the heat is then unknown.
 [[nodiscard]] double heat_at_start(const DeviceState& state, const Moment& moment,
                                    base::Duration heat_time);
 

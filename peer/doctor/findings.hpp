@@ -38,7 +38,7 @@ constexpr auto fields_of(base::Tag<Finding>)
         base::member("text", &Finding::text, "What was found, in a sentence."));
 }
 
-/// What the kernel grants to a loop at 1 kHz.
+/// The timing that the kernel grants to a loop at 1 kHz.
 struct Timing {
     bool fifo = false;
     bool locked_memory = false;
@@ -61,7 +61,7 @@ struct KeyFact {
     std::string trouble{}; // why a session would refuse it, with the cure; "": it would not
 };
 
-/// What the system was found to be.
+/// The facts that were found about the system.
 struct Facts {
     Timing timing;
     std::vector<std::string> cpu_governors; // the different ones; none: it cannot be set
@@ -78,7 +78,7 @@ struct Facts {
     std::optional<KeyFact> key;
 };
 
-/// What to think of it.
+/// Judges the facts.
 [[nodiscard]] std::vector<Finding> judge(const Facts& facts);
 
 /// The udev rules of this version.

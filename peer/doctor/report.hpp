@@ -9,7 +9,7 @@
 
 namespace hapnet::peer::doctor {
 
-/// What `hapnet-peer doctor --json` prints.
+/// The output of `hapnet-peer doctor --json`.
 struct Examination {
     bool has_bad = false;
     std::vector<Finding> findings;

@@ -94,7 +94,7 @@ void find_firewire(const fs::path& root, std::vector<Node>& nodes)
     }
 }
 
-/// Whether what it says of itself has force feedback (USB HID PID) in it.
+/// True if this descriptor, in which a device describes itself, has force feedback (USB HID PID).
 bool has_force(const fs::path& report_descriptor)
 {
     const auto text = text_in(report_descriptor);

@@ -55,17 +55,17 @@ private:
 /// clock: feed with open() and tick(), drain with send_all() and news().
 class Line {
 public:
-    /// Without a key.
+    /// A line without a key.
     explicit Line(const secure::Place& other) : kind_{Plain{other}} {}
     explicit Line(std::unique_ptr<Sealed> sealed) : kind_{std::move(sealed)} {}
 
-    /// Whether a datagram says that it is for this line and not for another one of the same peer:
+    /// True if a datagram says that it is for this line and not for another one of the same peer:
     /// by the key or the handshake that it names. A seal is not looked at.
     [[nodiscard]] bool is_named_by(std::span<const std::byte> datagram) const
     {
         return is_sealed() && sealed()->is_named_by(datagram);
     }
-    /// Whether the other side is at this place, as far as is known.
+    /// True if the other side is at this place, as far as is known.
     [[nodiscard]] bool leads_to(const secure::Place& place) const
     {
         const auto* plain = std::get_if<Plain>(&kind_);
@@ -81,15 +81,15 @@ public:
         return own_sealed()->open(datagram, from, now);
     }
 
-    /// Goes on with keys: once a tick, after what is urgent. At most one multiplication on the
-    /// curve.
+    /// Advances handshakes and keys. Call it once a tick, after urgent work. Takes at most one
+    /// multiplication on the curve.
     void tick(secure::Moment moment)
     {
         if (is_sealed()) own_sealed()->tick(moment);
     }
 
-    /// Calls send(bytes, place) for all that has to leave: what keys need, then the messages that
-    /// `poll` gives. Those for which there is no key yet are left out.
+    /// Calls send(bytes, place) for everything to be sent: first the datagrams of handshakes, then
+    /// the messages that `poll` gives. Messages for which there is no key yet are left out.
     template <typename Poll, typename Send>
     void send_all(Poll poll, Send send, base::TimePoint now)
     {
@@ -105,7 +105,7 @@ public:
         }
     }
 
-    /// What a person should be told.
+    /// Takes the next news for a person; nullopt: there is none.
     [[nodiscard]] std::optional<News> news()
     {
         if (auto* plain = std::get_if<Plain>(&kind_)) return plain->news();

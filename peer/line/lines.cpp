@@ -29,7 +29,7 @@ std::optional<Lines::Opened> Lines::open(std::span<const std::byte> datagram,
     if (is_named) return std::nullopt;
     const auto from_there =
         std::ranges::find_if(lines_, [&from](const Line& line) { return line.leads_to(from); });
-    // What is for none is counted by the first.
+    // A datagram for no line is counted by the first.
     return open_by(
         from_there == lines_.end() ? 0 : static_cast<std::size_t>(from_there - lines_.begin()));
 }

@@ -16,7 +16,7 @@ namespace hapnet::peer::line {
 /// datagram came by, and lets them go on with their keys in turn. Either all have keys or none.
 class Lines {
 public:
-    /// At least one.
+    /// `lines` has at least one line.
     explicit Lines(std::vector<Line> lines);
 
     struct Opened {
@@ -27,8 +27,8 @@ public:
     /// call, and no longer than the datagram.
     [[nodiscard]] std::optional<Opened> open(std::span<const std::byte> datagram,
                                              const secure::Place& from, base::TimePoint now);
-    /// One of them goes on with its keys: call it once a tick. At most one multiplication on the
-    /// curve, however many there are.
+    /// Advances the keys of one line, each in turn. Call it once a tick. It takes at most one
+    /// multiplication on the curve, however many lines there are.
     void tick(secure::Moment moment);
 
     [[nodiscard]] Line& operator[](std::size_t of) { return lines_[of]; }

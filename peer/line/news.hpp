@@ -11,7 +11,7 @@
 
 namespace hapnet::peer::line {
 
-/// What a person should be told of the line to the other peer.
+/// News of the line to the other peer, for a person.
 enum class News : std::uint8_t {
     sealed,          // the two have agreed on a key: from now on messages go
     other_is_plain,  // the other side plays without a key
@@ -23,14 +23,14 @@ enum class News : std::uint8_t {
 };
 inline constexpr std::size_t kinds_of_news = 7;
 
-/// In what --events writes.
+/// The names in the output of --events.
 constexpr auto names_of(base::Tag<News> /*enum*/)
 {
     return base::names("sealed", "other_is_plain", "other_is_sealed", "other_circle", "moved",
                        "same_id", "rekeyed");
 }
 
-/// News that nobody has taken yet, each once.
+/// News that was not taken yet, each once.
 class PendingNews {
 public:
     void put(News news) { waiting_.set(static_cast<std::size_t>(news)); }

@@ -34,7 +34,7 @@ Sealed::open(std::span<const std::byte> datagram, const secure::Place& from, bas
         ++misnamed_;
         return std::nullopt;
     }
-    // Only until there is a key: a person wants to know why there is none.
+    // Plain hellos count only until there is a key: a person wants to know why there is none.
     if (plain_hellos_ >= trouble_needed || association_.has_key(now)) return std::nullopt;
     if (wire::is_hello(datagram) && ++plain_hellos_ == trouble_needed)
         news_.put(News::other_is_plain);

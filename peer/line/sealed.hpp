@@ -19,17 +19,18 @@ namespace hapnet::peer::line {
 /// Messages go sealed, to where the other side was heard last. See Line, which it is a kind of.
 class Sealed {
 public:
-    /// Of a kind of trouble: told when it came so often. One may be damage, or an attack.
+    /// The number of events of one kind of trouble after which it is reported. A single one may be
+    /// damage, or an attack.
     static constexpr std::uint64_t trouble_needed = 3;
-    /// The other side came back as another run so often, and in so short a time: two programs have
+    /// This many restarts of the other side within `restarts_within` mean that two programs have
     /// the same key and push each other out.
     static constexpr std::size_t restarts_suspected = 3;
     static constexpr base::Duration restarts_within{std::chrono::seconds{30}};
 
-    /// The configuration but for session_of, which is that of the messages.
+    /// The session_of in `config` does not count: it is always that of the messages.
     Sealed(secure::Association::Config config, secure::StaticKeys keys, secure::Secret seed);
 
-    /// Whether a datagram says that it is for this line, by the key or the handshake that it names.
+    /// True if a datagram says that it is for this line, by the key or the handshake that it names.
     [[nodiscard]] bool is_named_by(std::span<const std::byte> datagram) const
     {
         return association_.is_named_by(datagram);
@@ -37,12 +38,12 @@ public:
     [[nodiscard]] std::optional<std::span<const std::byte>>
     open(std::span<const std::byte> datagram, const secure::Place& from, base::TimePoint now);
     void tick(secure::Moment moment);
-    /// What a handshake has to send.
+    /// Takes the next datagram that a handshake has to send.
     [[nodiscard]] std::optional<secure::Association::Outgoing> poll()
     {
         return association_.poll();
     }
-    /// nullopt: there is no key. Valid until the next call.
+    /// Seals a message; nullopt: there is no key. The result is valid until the next call.
     [[nodiscard]] std::optional<std::span<const std::byte>> seal(std::span<const std::byte> message,
                                                                  base::TimePoint now);
     [[nodiscard]] std::optional<News> news() { return news_.take(); }

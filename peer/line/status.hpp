@@ -14,7 +14,7 @@ namespace hapnet::peer::line {
 
 /// The line to the other peer at a moment; statistics are made from it.
 struct Status {
-    /// With a key.
+    /// The status of a line with a key.
     struct Key {
         bool is_agreed = false;
         std::optional<base::Duration> age; // of the key in use

@@ -25,7 +25,7 @@ public:
         return !std::holds_alternative<std::monostate>(source_);
     }
 
-    /// Whether it is held now. A device at fault says nothing, and nothing is held.
+    /// True if it is held now. A device at fault says nothing, and nothing is held.
     [[nodiscard]] bool is_held(const device::Sample& sample)
     {
         if (auto* input = std::get_if<EvdevSwitch>(&source_)) return input->is_held();

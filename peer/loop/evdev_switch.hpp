@@ -9,12 +9,12 @@
 
 namespace hapnet::peer::loop {
 
-/// Which keys of an input device are down, from its events. Pure.
+/// The keys of an input device that are down, from its events. Pure.
 class KeysDown {
 public:
-    /// Returns false when the kernel has dropped events: then the keys must be read anew.
+    /// Returns false when the kernel has dropped events: then the keys must be read again.
     [[nodiscard]] bool on_events(std::span<const input_event> events);
-    /// All keys anew, one bit each, as EVIOCGKEY gives them.
+    /// Sets the state of all keys, one bit each, as EVIOCGKEY gives them.
     void set(std::span<const unsigned char> bits);
 
     [[nodiscard]] bool any() const { return down_.any(); }

@@ -12,7 +12,7 @@
 
 namespace hapnet::peer::loop {
 
-/// Who keeps all force from the hand, whatever session and scene ask for.
+/// The reason why all force is kept from the hand, whatever session and scene ask for.
 enum class Withheld : std::uint8_t {
     no,
     by_stop,           // the program is to end
@@ -29,9 +29,10 @@ public:
         : stop_{stop}, dead_man_{std::move(dead_man)}
     {}
 
-    /// From any thread. Latches: only a new start of the program gives force again.
+    /// Stops all force. Call it from any thread. Latches: only a new start of the program gives
+    /// force again.
     void stop_in_emergency() { emergency_.store(true, std::memory_order_release); }
-    /// From any thread.
+    /// Call it from any thread.
     [[nodiscard]] bool is_stopped_in_emergency() const
     {
         return emergency_.load(std::memory_order_acquire);

@@ -21,13 +21,13 @@ struct TimedEvent {
     std::uint16_t about = 0; // the id of another peer; 0: it is about all, or not known
 };
 
-/// Likewise for the device.
+/// News of the device for a person, and its time.
 struct TimedDeviceNews {
     monitor::DeviceNews news;
     base::TimePoint at;
 };
 
-/// Likewise for the line to another peer.
+/// News of the line to another peer for a person, and its time.
 struct TimedLineNews {
     line::News news = line::News::sealed;
     base::TimePoint at;
@@ -48,7 +48,7 @@ struct HeardMessage {
     }
 };
 
-/// What the servo thread says for the record, the status line and the log. A row is of a tick, a
+/// An entry of the servo thread for the record, the status line and the log. A row is of a tick, a
 /// body or a session.
 using Entry = std::variant<record::Row, HeardMessage, TimedEvent, TimedDeviceNews, TimedLineNews>;
 

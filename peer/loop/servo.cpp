@@ -230,7 +230,8 @@ bool Servo::is_worth_a_row(const line::Lines::Opened& opened, base::TimePoint at
     return without_effect_.admits(at);
 }
 
-/// After the force: a handshake may take a multiplication on the curve.
+/// Advances keys and passes on news of the lines. Call it after the force was applied: a handshake
+/// may take a multiplication on the curve.
 void Servo::tend_lines(base::TimePoint now)
 {
     if (parts_.lines.are_sealed()) parts_.lines.tick({now, net::wall_clock_nanoseconds()});

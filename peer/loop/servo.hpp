@@ -31,7 +31,7 @@ namespace hapnet::peer::loop {
 /// times.
 class Servo {
 public:
-    /// Everything that a servo works with; outlives it.
+    /// Everything that a servo works with. All parts outlive it.
     struct Parts {
         Side& side;
         device::Rig& rig;
@@ -42,7 +42,7 @@ public:
         Watchdog& watchdog;
         ForceGate& gate;
         base::Duration tick{std::chrono::milliseconds{1}};
-        /// What the record has rows for, and room in them.
+        /// The kinds of rows that the record has, and the room in them.
         record::Layout layout{};
     };
 
@@ -51,27 +51,27 @@ public:
     /// Runs until the session has ended, or until the goodbyes after a stop are sent.
     void run();
 
-    /// From another thread: whether the loop has run its first tick.
+    /// True once the loop has run its first tick. Call it from another thread.
     [[nodiscard]] bool is_running() const { return running_.load(std::memory_order_acquire); }
-    /// From another thread: whether run() has returned.
+    /// True once run() has returned. Call it from another thread.
     [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
 
-    /// From another thread: when the loop was at work last.
+    /// The time when the loop last worked. Call it from another thread.
     [[nodiscard]] base::TimePoint last_beat() const { return parts_.watchdog.last_beat(); }
 
-    /// From another thread: what became of the newest datagram.
+    /// The outcome of sending the newest datagram. Call it from another thread.
     [[nodiscard]] net::SendOutcome sending() const
     {
         return sending_.load(std::memory_order_relaxed);
     }
 
-    /// From one other thread: requests its status after the next tick, and takes that status.
+    /// Requests the status after the next tick, and takes it. Call these from one other thread.
     void request_status() { status_slot_.request(); }
     [[nodiscard]] bool take_status(ServoStatus& into) { return status_slot_.take(into); }
 
-    /// From another thread, once is_running(): the real-time rights that were granted.
+    /// The real-time rights that were granted. Call it from another thread, once is_running().
     [[nodiscard]] net::RealTime real_time() const { return real_time_; }
-    /// After run(): the status at the end.
+    /// The status at the end. Call it after run().
     [[nodiscard]] ServoStatus status() const;
 
 private:

@@ -18,7 +18,7 @@
 
 namespace hapnet::peer::loop {
 
-/// How punctual the loop was, and what its socket met.
+/// Counters of the loop's punctuality and of its socket's outcomes.
 struct LoopCounters {
     std::uint64_t ticks = 0;
     std::uint64_t missed = 0; // ticks skipped because the one before ended too late

@@ -26,17 +26,17 @@ struct Supervised {
     net::ServiceManager* manager = nullptr;             // null: nobody is told how it goes
 };
 
-/// After a stop was asked for, what is not written by then is given up.
+/// The time after a stop was asked for. Text and record that are not written by then are given up.
 inline constexpr base::Duration give_up_after{std::chrono::milliseconds{300}};
-/// Without one: what nobody has taken any of for so long.
+/// Without a stop, text is given up when its reader has taken none of it for this time.
 inline constexpr base::Duration text_patience{std::chrono::seconds{2}};
 
 /// Runs the servo on a thread of its own and watches it from this one until it has ended; SIGINT,
-/// SIGTERM and SIGHUP end it, and clients of the control socket may. Enter at the terminal is an
+/// SIGTERM, SIGHUP and clients of the control socket can end it. Enter at the terminal is an
 /// emergency stop. Prints `ready` when its first tick has run, and tells the manager so; signs of
-/// life go to that one while the loop moves. Waits for nobody who does not take
-/// what is written; at the end, and until a stop, for the record. What the servo throws comes out
-/// of here, when the device has been told zero force.
+/// life go to the manager while the loop moves. Does not wait for slow readers of its output. At
+/// the end it waits for the record, but after a stop no longer than give_up_after. Throws what the
+/// servo throws, after the device has been told zero force.
 void supervise(const Supervised& supervised, const std::string& ready);
 
 /// Waits until what was said is written, or given up as above.

@@ -26,7 +26,7 @@ class Watchdog {
 public:
     /// Both outlive it. With a null `crash` it does not act when the program dies.
     explicit Watchdog(device::Device& device, const net::CrashSignal* crash = nullptr);
-    /// Within 20 ms.
+    /// Stops the thread. Takes up to 20 ms.
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;
     Watchdog& operator=(const Watchdog&) = delete;
@@ -39,7 +39,7 @@ public:
     }
     /// The loop has ended in order.
     void rest() { last_beat_.store(resting, std::memory_order_release); }
-    /// Whether the loop was silent for so long that its governor has to latch a fault. True once
+    /// True if the loop was silent for so long that its governor has to latch a fault. True once
     /// per silence.
     [[nodiscard]] bool take_fault() { return fault_.exchange(false, std::memory_order_acq_rel); }
     /// The program is dying: no force may follow. The loop ends by itself then, too, because the
@@ -50,7 +50,8 @@ public:
                (crash_ != nullptr && net::CrashSignal::has_come());
     }
 
-    /// From any thread: when the loop was at work last; the same as before: it has not moved.
+    /// The time when the loop last worked; it stays the same while the loop does not move. Call it
+    /// from any thread.
     [[nodiscard]] base::TimePoint last_beat() const
     {
         return base::TimePoint{base::Duration{last_beat_.load(std::memory_order_acquire)}};

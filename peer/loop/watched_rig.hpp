@@ -27,8 +27,8 @@ public:
     }
 
     /// As Rig::apply(), but with zero force when the watchdog has halted the device since the tick
-    /// began, or the gate is closed. In a dying program the device is told nothing, and the
-    /// governor does not go on.
+    /// began, or the gate is closed. In a dying program the device gets no command, and the
+    /// governor stands still.
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now)
     {
         if (watchdog_.is_dying()) return {};
@@ -48,7 +48,7 @@ public:
     }
     void on_cue(const device::Cue& cue) { rig_.on_cue(cue); }
 
-    /// Of this tick.
+    /// The reason why force is withheld in this tick.
     [[nodiscard]] Withheld withheld() const { return withheld_; }
 
 private:

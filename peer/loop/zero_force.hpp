@@ -6,8 +6,8 @@
 
 namespace hapnet::peer::loop {
 
-/// On every way out of a loop's scope: tells the device zero force, three times because a wire may
-/// lose one, and ends the watch over the loop.
+/// Acts on every way out of a loop's scope: tells the device zero force, three times because a wire
+/// may lose one, and ends the watch over the loop.
 class ZeroForceAtTheEnd {
 public:
     ZeroForceAtTheEnd(device::Device& device, Watchdog& watchdog)

@@ -18,7 +18,7 @@ struct Recovery {
 };
 [[nodiscard]] Recovery recovery_of(const device::Device& device);
 
-/// What changed of a device.
+/// The kind of change in a device.
 enum class DeviceChange : std::uint8_t { fault, calibration, energy };
 
 /// A change of the device that a person, or a program, should be told of.
@@ -39,8 +39,8 @@ struct DeviceNews {
 [[nodiscard]] std::string fault_at_the_end(const device::Governor& governor);
 
 /// Finds changes of a device's state, tick by tick. It reports at most one change of calibration,
-/// one of faults and one of energy a second, the first at once. Of faster changes it reports the
-/// newest state.
+/// one of faults and one of energy a second, the first at once. When changes are faster it reports
+/// the newest state.
 class DeviceReporter {
 public:
     explicit DeviceReporter(const Recovery& recovery) : told_{.recovery = recovery} {}

@@ -21,16 +21,16 @@ struct LoggedEvent {
     nlohmann::ordered_json details{}; // further keys; null: none
 };
 
-/// What they are called.
+/// Returns the event's name in logs.
 [[nodiscard]] std::string_view name_of(Event event);
-/// Of a device, which has no words yet.
+/// The event of a device's news, without words yet.
 [[nodiscard]] LoggedEvent event_of(const loop::TimedDeviceNews& timed);
 
 /// The line of an event. `start`: of the session, as far as it is known.
 [[nodiscard]] std::string line_of(const LoggedEvent& event, std::optional<base::TimePoint> start);
 
-/// Where --events writes: a line of JSON for each event, by a thread of its own. Nobody waits for
-/// whoever reads them; lines that find no room are dropped, and counted.
+/// The output of --events: a line of JSON for each event, written by a thread of its own. No thread
+/// waits for the reader. Lines that find no room are dropped and counted.
 class EventLog {
 public:
     /// A file, which is emptied, a FIFO, which need not have a reader yet, or "-": `out`, which

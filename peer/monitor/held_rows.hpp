@@ -21,8 +21,8 @@ public:
 
     void add(const record::Row& row);
 
-    /// The rows from that time on. What had been agreed with each of the others before it comes
-    /// first: the rest means nothing without.
+    /// The rows from that time on. The agreement with each of the others that held before it comes
+    /// first: the rest means nothing without it.
     [[nodiscard]] std::string since(base::TimePoint from) const;
 
 private:

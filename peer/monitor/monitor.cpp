@@ -84,7 +84,7 @@ std::string_view describe(net::SendOutcome outcome)
     switch (outcome) {
     case net::SendOutcome::sent:
     case net::SendOutcome::buffer_full: // for the moment
-    // Said by the other host, or by this one of an earlier datagram: nobody listens there yet.
+    // The other host has said it, or this one of an earlier datagram: no program listens there yet.
     case net::SendOutcome::refused: return "";
     case net::SendOutcome::no_route: return "there is no route to it; is the network up?";
     case net::SendOutcome::too_big: return "the network takes no datagrams of this size";
@@ -234,7 +234,7 @@ void Monitor::take(const record::Row& row)
     }
 }
 
-/// By the echo in a message, on this side's clock alone.
+/// Notes the round trip by the echo in a message, on this side's clock alone.
 void Monitor::note_round_trip(const loop::HeardMessage& heard)
 {
     const auto message = wire::decode(heard.message.bytes());

@@ -26,7 +26,8 @@ struct StatusLine {
     std::vector<std::uint16_t> awaited; // the others that have not answered; 0: whoever does
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
-    /// To each of the others: the shortest since the line before, or the last that was known.
+    /// The round trip to each of the others: the shortest since the line before, or the last that
+    /// was known.
     std::map<std::uint16_t, base::Duration> round_trips;
     std::uint64_t messages = 0;
     std::uint64_t ticks_in_session = 0;
@@ -34,7 +35,7 @@ struct StatusLine {
     net::SendOutcome sending = net::SendOutcome::sent; // of late
 };
 
-/// What the words for a person have to name.
+/// Names that appear in the texts for a person.
 struct Named {
     std::uint16_t peer_id = 0;
     std::vector<std::uint16_t> others{0}; // the ids of the roster
@@ -45,12 +46,13 @@ struct Named {
     [[nodiscard]] std::string shared() const { return has_several ? "the bodies" : "the " + body; }
 };
 
-/// Reads the journal of the servo thread: hands rows to the record and to those who watch frames,
-/// prints events for a person, and draws a status line on a terminal (elsewhere a plain line every
-/// 5 s). It waits for nobody: record and text are written by threads of their own.
+/// Reads the journal of the servo thread: hands rows to the record and to clients that watch
+/// frames, prints events for a person, and draws a status line on a terminal (elsewhere a plain
+/// line every 5 s). It never waits: record and text are written by threads of their own.
 class Monitor {
 public:
-    /// Events beyond so many are left out, and counted: the network must not fill a log.
+    /// The most events that are told at once. Further ones are left out and counted: the network
+    /// must not fill a log.
     static constexpr int events_at_once = 20;
     static constexpr base::Duration event_every{std::chrono::milliseconds{500}};
 
@@ -63,13 +65,13 @@ public:
     void drain();
     /// Shows the status, if it is time to.
     void show(base::TimePoint now);
-    /// What became of the newest datagram that was sent.
+    /// Notes the outcome of the newest datagram that was sent.
     void on_sending(net::SendOutcome outcome) { status_.sending = outcome; }
     /// Something of which the journal does not know, for programs alone.
     void note(const LoggedEvent& event);
     /// After the servo has ended: reads the rest and closes the record, without waiting for that.
     void close();
-    /// After close(): whether the record is on the disk, as far as it will ever be.
+    /// True once the record is on the disk, as far as it will ever be. Call it after close().
     [[nodiscard]] bool is_done() const { return !recorder_ || recorder_->is_done(); }
     /// After close(): tells of a record that has failed meanwhile, and ends the line.
     void finish();
@@ -86,7 +88,7 @@ public:
 
     /// Why the record is incomplete; null: its file has not refused.
     [[nodiscard]] std::exception_ptr record_failure() const;
-    /// Whether the record has every row so far, or will have. After close(), once is_done().
+    /// True if the record has every row so far, or will have. After close(), once is_done().
     [[nodiscard]] bool is_record_whole() const;
     /// Rows that found no room on their way to the record.
     [[nodiscard]] std::uint64_t rows_lost() const;
@@ -126,13 +128,13 @@ private:
 /// Why nothing leaves, in words for a person; "" when it does, or soon will.
 [[nodiscard]] std::string_view describe(net::SendOutcome outcome);
 
-/// News of the line to the other peer of two in words, with what to do about it.
+/// Describes news of the line to the other peer of two, with what to do about it.
 [[nodiscard]] std::string_view describe(line::News news);
 
-/// An event in a session of two in words for a person. `shared`: "the cube".
+/// Describes an event in a session of two for a person. `shared`: "the cube".
 [[nodiscard]] std::string describe(Event event, std::string_view shared);
 
-/// The same among more than two: whom it is about.
+/// Describes an event in a session of more than two, and names the peer that it is about.
 [[nodiscard]] std::string describe_in_circle(line::News news, std::uint16_t about);
 [[nodiscard]] std::string describe_in_circle(Event event, std::string_view shared,
                                              std::uint16_t about);

@@ -15,8 +15,8 @@
 namespace hapnet::peer::monitor {
 
 /// Sends frames to a plotter as JSON over UDP, one object a datagram, in the form that the UDP
-/// server of PlotJuggler reads: {"timestamp":S,"peer_1":{...}}. Nothing is read back, and whether
-/// anybody listens does not matter.
+/// server of PlotJuggler reads: {"timestamp":S,"peer_1":{...}}. Nothing is read back, and no
+/// listener is needed.
 class PlotStream {
 public:
     /// Throws std::system_error when no socket can be had.

@@ -15,7 +15,7 @@ class RateLimit {
 public:
     RateLimit(int at_once, base::Duration every) : room_{at_once * every}, every_{every} {}
 
-    /// Whether one more may pass at `now`, which never runs backwards.
+    /// True if one more may pass at `now`, which never runs backwards.
     [[nodiscard]] bool admits(base::TimePoint now)
     {
         if (last_) level_ = std::max(base::Duration{0}, level_ - (now - *last_));

@@ -76,7 +76,7 @@ struct Recorder::State {
         writer.reset();
     }
 
-    /// What the file has is all that there will be of the record.
+    /// Ends the record with what the file already has.
     void fail()
     {
         lost.fetch_add(given - writer->rows(), std::memory_order_relaxed);

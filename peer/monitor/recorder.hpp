@@ -17,8 +17,8 @@
 namespace hapnet::peer::monitor {
 
 /// A record that a thread of its own writes: a disk, a network drive or a pipe that does not take
-/// it keeps nobody else from anything. Rows that find no room are dropped and counted. The same
-/// thread holds the last rows in memory, where that is asked for, and saves them on order.
+/// it delays no other thread. Rows that find no room are dropped and counted. The same thread holds
+/// the last rows in memory, where that is asked for, and saves them on order.
 class Recorder {
 public:
     /// 8 s of ticks and messages of two peers with one body, 2 s of eight, 1 s of eight with eight
@@ -44,7 +44,7 @@ public:
     /// No more rows come: the record is finished and closed.
     void close();
 
-    /// How much of the last rows is held; nullopt: none.
+    /// The time span of the last rows that it holds; nullopt: none.
     [[nodiscard]] std::optional<base::Duration> held() const;
     /// Orders a record of the rows since that time; gives its path. Never waits: the file appears,
     /// whole, soon after. The error says why there will be none. From one thread.

@@ -48,7 +48,7 @@ std::string_view words_on_phase(const loop::ServoStatus& status)
     return "";
 }
 
-/// Who keeps the force from the hand, and what to do; "" when nobody does.
+/// Says what keeps the force from the hand, and what to do; "" when nothing does.
 std::string_view words_on(loop::Withheld withheld)
 {
     switch (withheld) {

@@ -36,7 +36,8 @@ std::optional<SessionReport> session_of(const loop::ServoStatus& status)
     return report;
 }
 
-/// Of all keys together: counts are sums, and there is an agreement when there is one with each.
+/// Returns the status of all keys together: counts are sums, and there is an agreement when there
+/// is one with each.
 std::optional<line::Status::Key> all_keys(const loop::ServoStatus& status)
 {
     std::optional<line::Status::Key> all;

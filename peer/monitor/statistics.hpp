@@ -21,8 +21,8 @@
 
 namespace hapnet::peer::monitor {
 
-// What --stats writes and `stats` answers: docs/formats/statistics.md. Most of it is told as the
-// loop has it.
+// The statistics that --stats writes and `stats` answers: docs/formats/statistics.md. Most of them
+// are the loop's own values.
 
 /// The input of all reports.
 struct Run {

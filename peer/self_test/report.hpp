@@ -17,7 +17,7 @@ namespace hapnet::peer::self_test {
 /// For a person.
 [[nodiscard]] std::string report_text(const device::Device& device, const SelfTest& test);
 
-/// What the device can do.
+/// The device's capabilities.
 struct CapabilitiesReport : device::Capabilities {};
 constexpr auto fields_of(base::Tag<CapabilitiesReport>)
 {
@@ -62,7 +62,7 @@ constexpr auto fields_of(base::Tag<TestedDevice>)
         base::member("capabilities", &T::can, "What it can do."));
 }
 
-/// What docs/use/hardware.md asks a person to send.
+/// The report that docs/use/hardware.md asks a person to send.
 struct SelfTestReport {
     TestedDevice device;
     std::string_view version = base::version();
@@ -87,7 +87,7 @@ constexpr auto fields_of(base::Tag<SelfTestReport>)
 [[nodiscard]] SelfTestReport report_of(const device::Device& device, const SelfTest& test);
 /// The test came to its end, and no step failed.
 [[nodiscard]] bool has_passed(const SelfTest& test);
-/// Whether its step with force was done and passed.
+/// True if its step with force was done and passed.
 [[nodiscard]] bool has_shown_force(const SelfTest& test);
 
 } // namespace hapnet::peer::self_test

@@ -21,7 +21,7 @@ base::Result<Loaded> open(const std::string& file)
     if (file.empty()) {
         return base::fail("shared-object: says no file; write file = \"./FILE.so\"");
     }
-    // Without a slash it would be looked for among the system's libraries.
+    // A name without a slash would be looked for among the system's libraries.
     const std::string path = file.find('/') == std::string::npos ? "./" + file : file;
     const std::shared_ptr<void> library{dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL),
                                         [](void* opened) {
@@ -29,7 +29,7 @@ base::Result<Loaded> open(const std::string& file)
                                         }};
     if (!library) return base::fail(fmt::format("cannot load {}", dlerror()));
     using Entry = const hapnet_algorithm* (*)();
-    // What dlsym() gives has to be converted so (POSIX, dlsym).
+    // POSIX (dlsym) requires this conversion of the result.
     const auto described = reinterpret_cast<Entry>(dlsym(library.get(), entry)); // NOLINT
     const hapnet_algorithm* const algorithm = described == nullptr ? nullptr : described();
     if (algorithm == nullptr) {

@@ -62,7 +62,7 @@ public:
     [[nodiscard]] bool complete() const { return !short_ && left_.empty(); }
 
 private:
-    /// After the first time that it has not, nothing is left.
+    /// True if `count` bytes are left. After the first false, no byte is left.
     [[nodiscard]] bool has(std::size_t count)
     {
         if (left_.size() >= count) [[likely]]

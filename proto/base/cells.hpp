@@ -11,7 +11,7 @@
 
 namespace hapnet::base {
 
-/// How the cells of a table stand in its lines.
+/// The style of a table's cells in their lines.
 struct CellStyle {
     char separator = ',';      // ' ': blanks and tabs, as many as there are
     bool trims_blanks = false; // around each cell; always where blanks separate

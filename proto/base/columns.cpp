@@ -166,7 +166,7 @@ private:
                });
     }
 
-    /// Whether a line with these cells has all columns that were asked for. Where a person
+    /// True if a line with these cells has all columns that were asked for. Where a person
     /// has numbered them, the strict way wants numbers in all cells.
     [[nodiscard]] bool has_what_is_wanted(LineCells cells, bool is_strict) const
     {

@@ -14,10 +14,10 @@
 
 namespace hapnet::base {
 
-// Finding columns in tables of measured values, whoever wrote them: commas, semicolons, tabs or
-// blanks separate the cells, a header may be missing, and numbers may have decimal commas.
+// Finds columns in tables of measured values from any program: commas, semicolons, tabs or blanks
+// separate the cells, a header may be missing, and numbers may have decimal commas.
 
-/// Which column of a table holds what, where its name does not say so.
+/// Names the column of a table that holds values of one kind, where its own name does not say so.
 struct Column {
     std::string what; // the name of a ColumnKind
     std::string name; // in the header; of a table without one, the column's number, from 1
@@ -58,7 +58,7 @@ struct ColumnKind {
     std::string_view short_name{}; // "t": its column may also be called "t_<unit>"
     bool is_optional = false;
     bool may_stand_alone = false; // a single column without a name is read by others
-    // For messages.
+    // Used in messages.
     std::string_view usual_names{};  // "delay_ns, delay_us, delay_ms or delay_s"
     std::string_view example_unit{}; // ":ms"
 };
@@ -82,7 +82,7 @@ private:
     char mark_ = '\0'; // of the numbers so far
 };
 
-/// Where a table has what is looked for.
+/// The layout of a table, and the columns that hold the wanted values.
 struct TableLayout {
     char separator = ',';
     std::size_t cells = 1;
@@ -92,7 +92,7 @@ struct TableLayout {
     bool has_header = false; // the first line has no values
 };
 
-/// Why a line with so many cells is not one of the table.
+/// Returns the reason why a line with this number of cells is not one of the table.
 [[nodiscard]] std::string refusal_of_cells(std::size_t cells, const TableLayout& layout);
 
 /// The layout of the table that begins with the next line. The first of `kinds` is not optional.

@@ -25,7 +25,7 @@ tl::unexpected<Error> fail_at(const std::string& path, std::size_t line, const s
 
 using Shape = ValueKind::Shape;
 
-/// How numbers stand in the cells of a column.
+/// The format of numbers in the cells of a column.
 struct CellScale {
     std::optional<int> decimals{};
     std::optional<double> ns_per_unit{}; // of times
@@ -62,7 +62,7 @@ std::optional<Leaf> number_in(std::string_view cell)
     return Leaf{value};
 }
 
-/// nullopt: no value of that shape stands in the cell.
+/// Returns the value of a cell; nullopt: the cell has no value of that shape.
 std::optional<Leaf> leaf_in(std::string_view cell, Shape shape)
 {
     switch (shape) {

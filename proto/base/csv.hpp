@@ -47,11 +47,11 @@ struct Spare : Format {
     static constexpr bool is_spare = true;
 };
 
-// How a value stands in a cell: a number that is not finite, and an optional without a value, is
+// The notation of values in cells: a number that is not finite, and an optional without a value, is
 // empty.
 
 [[nodiscard]] std::string cell_of(const ValueKind& kind, const void* value);
-/// False when the cell is something else.
+/// Reads a cell into `value`. Returns false when the cell holds no such value.
 [[nodiscard]] bool read_cell(const ValueKind& kind, std::string_view cell, void* value);
 
 template <typename T>

@@ -39,9 +39,10 @@ struct Metric {
     std::string_view label; // of what stands below it
 };
 
-/// How programs print a field. Words and names are for the readers of the output.
+/// The way in which programs print a field. Words and names are for the readers of the output.
 struct Telling {
-    /// Behind a count, in a line for people: "in flight". Of a map its names stand there.
+    /// The words behind a count, in a line for people: "in flight". A map has the names
+    /// of its elements there instead.
     std::optional<std::string_view> words;
     bool is_told_always = false; // a count of 0, too
     Metric metric;

@@ -39,9 +39,9 @@ Place place_of(const toml::source_region& region)
     return {region.begin.line, region.begin.column};
 }
 
-/// Finds what the library would not survive: a key of so many parts that the tables in each other
-/// exhaust the stack, as its own bound counts values only. Strings over several lines have no
-/// place in what we read; without them, a line can be read on its own.
+/// Refuses text that would crash the library: a key with so many parts that its nested tables
+/// exhaust the stack. The library's own limit counts only values. Strings over several lines are
+/// refused, too, so that each line can be read on its own.
 class TextCheck {
 public:
     [[nodiscard]] std::optional<DocumentError> run(std::string_view text)
@@ -151,7 +151,7 @@ tl::expected<Node, DocumentError> convert(const toml::node& node)
                                                "duration is written as a string: \"10s\""}};
 }
 
-/// Whether a line is one of YAML: "delay: 80ms", "- up:", "---".
+/// True if a line is one of YAML: "delay: 80ms", "- up:", "---".
 bool is_yaml(std::string_view line)
 {
     const auto start = line.find_first_not_of(" \t-");
@@ -164,7 +164,7 @@ bool is_yaml(std::string_view line)
            (end + 1 == line.size() || line[end + 1] == ' ' || line[end + 1] == '\r');
 }
 
-/// What a text seems to be that is not TOML; "" where that cannot be told.
+/// Returns the format other than TOML that a text seems to have; "" where none is recognised.
 std::string_view other_format(std::string_view text)
 {
     const auto start = text.find_first_not_of(" \t\r\n");
@@ -261,7 +261,7 @@ private:
         return text.substr(start, text.find_last_not_of(" \t\r") + 1 - start);
     }
 
-    /// To its last quote; false: there is none.
+    /// Skips a string to its last quote. Returns false when there is none.
     [[nodiscard]] bool skip_string()
     {
         const char quote = line_[at_];
@@ -293,7 +293,7 @@ std::string_view line_of(std::string_view text, std::uint32_t number)
     return text.substr(0, text.find('\n'));
 }
 
-/// What is wrong in words for the commonest mistakes, otherwise in those of the parser.
+/// Describes the error in words for the commonest mistakes, otherwise in those of the parser.
 DocumentError explained(std::string_view text, const toml::parse_error& error)
 {
     const Place place = place_of(error.source());

@@ -39,7 +39,8 @@ std::string cure_of_missing_table(const FieldRow& row)
     return fmt::format("write [{}] with {}", name, fmt::join(required, ", "));
 }
 
-/// What to write into a field that is missing: `write sd = "10ms"`, or the names to choose from.
+/// Returns the cure for a missing field: an example (`write sd = "10ms"`), the names to choose
+/// from, or a description of what is allowed.
 std::string cure_of_missing(const FieldRow& row)
 {
     const ValueKind& plain = row.kind->plain();
@@ -71,7 +72,7 @@ void add_key_rows(std::vector<KeyRow>& rows, const FieldTable& fields, const voi
             }
             continue;
         }
-        // What is printed where another member is set has no default there.
+        // A field that is printed only where another member is set has no default there.
         const bool has_default = !row.is_required && !row.printed_if;
         std::string by_default{row.is_required ? KeyRow::required : ""};
         if (has_default) by_default = field_text(row, usual).value_or("");

@@ -15,11 +15,11 @@
 
 namespace hapnet::base {
 
-// What the fields of a struct are, as data. Code that reads and prints structs takes such a table
-// and a pointer to the struct, and knows no types. fields.hpp makes the tables from descriptions,
-// and has the same functions for a struct whose type is known.
+// A table that describes the fields of a struct as data. Code that reads and prints structs takes
+// such a table and a pointer to the struct, and knows no types. fields.hpp makes the tables from
+// descriptions, and has the same functions for a struct whose type is known.
 
-/// How texts of values of one type are read and printed in one format: the functions of a format
+/// The functions that read and print texts of values of one type in one format: those of a format
 /// (formats.hpp), given the format and a value without their types.
 struct WrittenAs {
     void (*read)(const void* format, const Node& node, void* value, Reading& reading);

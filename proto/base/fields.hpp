@@ -71,11 +71,11 @@ std::string Table::print(const T& value) const
     return table_text(field_texts(value));
 }
 
-// How a table is made.
+// Helpers that make a table.
 
 namespace detail {
 
-/// How texts of a Value are read and printed by a Format.
+/// The functions that read and print texts of a Value by a Format.
 template <typename Format, typename Value>
 inline constexpr WrittenAs written_as{
     .read =

@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 using Ordered = nlohmann::ordered_json;
 using Shape = ValueKind::Shape;
 
-/// To a number of decimals; a number that is not finite stays.
+/// Rounds to a number of decimals; a number that is not finite stays.
 double rounded(double value, int decimals)
 {
     const double scale = std::pow(10.0, decimals);

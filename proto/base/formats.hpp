@@ -25,8 +25,8 @@ namespace hapnet::base {
 //     std::string print(const T&) const;           TOML that reads back as the same value
 //     std::string describe() const;                for people: "a time from 0ms to 10s"
 //     std::string example() const;                 optional: an allowed value as TOML, "10ms"
-// One whose values stand in TOML without quotes has `is_bare`.
-// Whoever has values of a kind of their own writes such a struct beside them.
+// A format whose values stand in TOML without quotes has `is_bare`.
+// Code with values of a kind of its own defines such a struct beside them.
 
 template <typename Format, typename T>
 concept FormatOf = requires(const Format format, const Node& node, T& target, Reading& reading)

@@ -14,13 +14,13 @@
 
 namespace hapnet::base {
 
-/// Counts durations in bins whose width is at most 1/64 of their value, from 1 ns to an hour,
-/// in a fixed 20 KiB: adding never allocates. The smallest and the largest value are kept exactly.
+/// Counts durations in bins whose width is at most 1/64 of their value, from 1 ns to an hour, in a
+/// fixed 20 KiB: adding never allocates. The smallest and the largest value are kept exactly.
 /// Negative durations count as zero, longer ones in the last bin.
 ///
 /// A quantile takes the values of a bin to lie evenly in it. It is never outside [min(), max()],
 /// and differs from the quantile of the values themselves by less than the width of their bin: by
-/// at most 1/64 of it, which is 1.6 %, either way. Of 1 and of count() values it is exact.
+/// at most 1/64 of it, which is 1.6 %, either way. It is exact for 1 and for count() values.
 class DurationHistogram {
 public:
     void add(Duration duration);
@@ -68,7 +68,7 @@ private:
     [[nodiscard]] static std::uint64_t upper_edge(std::size_t bin);
     /// The number of values that quantile `q` is to reach; count() is not 0.
     [[nodiscard]] std::uint64_t rank_of(double q) const;
-    /// The value of that rank, of which so many are in the bins below; count() is not 0.
+    /// Returns the value of that rank, when `below` values are in the bins below; count() is not 0.
     [[nodiscard]] Duration value_of(std::uint64_t rank, std::size_t bin, std::uint64_t below) const;
     /// The bin of the smallest value.
     [[nodiscard]] std::size_t first_bin() const { return count_ > 0 ? bin_of(min_) : bins; }

@@ -27,7 +27,7 @@ class LineReader {
 public:
     explicit LineReader(std::string_view text);
 
-    /// nullopt at the end.
+    /// Returns the next line; nullopt at the end.
     [[nodiscard]] std::optional<std::string_view> next();
 
     /// The cells of the next line, which stay valid as `cells` says; nullopt at the end. The error
@@ -51,7 +51,7 @@ private:
 /// The text without the blanks around it.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// For messages: at most 40 bytes of it, as a terminal may show them.
+/// Shortens a text for messages: at most 40 bytes of it, as a terminal may show them.
 [[nodiscard]] std::string shortened(std::string_view text);
 
 } // namespace hapnet::base

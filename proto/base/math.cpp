@@ -91,7 +91,7 @@ double cos(double radians) { return circular(radians, 1); }
 
 void sines_of_turns(std::span<double> turns)
 {
-    // Without a branch, so that compilers make lanes of it.
+    // The loop has no branch, so that compilers make lanes of it.
     for (double& t : turns) {
         const double halves = nearest(2.0 * t);
         const double odd = halves - 2.0 * nearest(0.5 * halves); // -1, 0 or 1
@@ -169,8 +169,8 @@ double log(double x)
 
 double log1p(double x)
 {
-    // What 1 + x loses of x is given back as a factor (Hewlett-Packard, HP-15C Advanced Functions
-    // Handbook, 1982).
+    // The part of x that 1 + x loses is given back as a factor (Hewlett-Packard, HP-15C Advanced
+    // Functions Handbook, 1982).
     const double sum = 1.0 + x;
     if (sum == 1.0) return x;
     if (!(sum > 0.0) || sum == std::numeric_limits<double>::infinity()) return log(sum);

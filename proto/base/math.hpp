@@ -25,11 +25,12 @@ void sines_of_turns(std::span<double> turns);
 /// e to the power of x for -700 <= x <= 700; beyond: 0 or infinity.
 [[nodiscard]] double exp(double x);
 
-/// The natural logarithm of x > 0. Of 0: -infinity; below: NaN; of infinity: infinity.
+/// The natural logarithm of x > 0. The logarithm of 0 is -infinity, that of infinity is infinity;
+/// below 0: NaN.
 [[nodiscard]] double log(double x);
 
-/// log(1 + x) for x > -1, also where x is too small to show in 1 + x. Of -1: -infinity; below: NaN.
-/// Within 4 units in the last place.
+/// log(1 + x) for x > -1, also where x is too small to show in 1 + x. -infinity at x = -1; below:
+/// NaN. Within 4 units in the last place.
 [[nodiscard]] double log1p(double x);
 
 } // namespace hapnet::base

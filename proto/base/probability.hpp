@@ -11,7 +11,7 @@ class Probability {
 public:
     constexpr Probability() = default;
 
-    /// nullopt unless 0 <= fraction <= 1.
+    /// Returns nullopt unless 0 <= fraction <= 1.
     [[nodiscard]] static constexpr std::optional<Probability> from_fraction(double fraction)
     {
         if (!(fraction >= 0.0 && fraction <= 1.0)) return std::nullopt;

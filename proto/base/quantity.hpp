@@ -10,9 +10,9 @@
 
 namespace hapnet::base {
 
-// Physical quantities as people type and read them: "40mm", "-9.81m/s2", "1e6N/m". Kept in SI
-// units as doubles. What is typed is the double nearest to it, as the decimal point is shifted
-// before the number is rounded: "22.5mm" is 0.0225.
+// Physical quantities as people type and read them: "40mm", "-9.81m/s2", "1e6N/m". Kept in SI units
+// as doubles. A typed value becomes the nearest double, because the decimal point is shifted before
+// the number is rounded: "22.5mm" is 0.0225.
 
 /// A unit of a quantity: 10^exponent of its SI unit, times `factor`.
 struct PhysicalUnit {

@@ -168,7 +168,7 @@ std::string what_it_is(const Node& node)
     if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
         return fmt::format("{}", *integer);
     }
-    // With its point: 40.0 is not the whole number 40.
+    // The decimal point stays: 40.0 is not the whole number 40.
     if (const auto* real = std::get_if<double>(&node.value)) return fmt::format("{:#}", *real);
     if (const auto* text = std::get_if<std::string>(&node.value)) return in_quotes(*text);
     return std::holds_alternative<Node::List>(node.value) ? "a list" : "a table";
@@ -247,7 +247,7 @@ std::string value_text(Duration value) { return base::quoted(to_text(value)); }
 std::string value_text(Probability value) { return base::quoted(to_text(value)); }
 std::string value_text(double value)
 {
-    // Of a whole number TOML would forget the sign of zero.
+    // TOML would forget the sign of a zero that is written as a whole number.
     return value == 0.0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
 }
 std::string value_text(std::uint8_t value) { return fmt::format("{}", value); }

@@ -51,9 +51,9 @@ private:
     bool is_quoted_ = true;
 };
 
-/// The value of an option on a command line, as it stands in TOML but for the quotes of a text:
-/// `5ms`, `{ law = "normal", sd = "3ms" }`, `["5%", "40/100"]`. With `is_bare` a number or a truth
-/// value: `40`, `true`.
+/// The value of an option on a command line, as in TOML, except that a text stands there without
+/// quotes: `5ms`, `{ law = "normal", sd = "3ms" }`, `["5%", "40/100"]`. With `is_bare` a number or
+/// a truth value: `40`, `true`.
 [[nodiscard]] tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_bare);
 
 /// Returns advice on a key that its table does not have, for one kind of text: "write it below
@@ -176,7 +176,7 @@ void read_quantity(const Node& node, Target& target, Parse parse, Reading& readi
     target = static_cast<Target>(*value);
 }
 
-// The values of keys. What is wrong is complained of, and leaves the target as it was.
+// Reads the values of keys. A wrong value causes a complaint, and leaves the target as it was.
 
 void read_value(const Node& node, Duration& target, Reading& reading);
 void read_value(const Node& node, Probability& target, Reading& reading);
@@ -185,7 +185,7 @@ void read_value(const Node& node, std::uint8_t& target, Reading& reading);
 void read_value(const Node& node, std::uint32_t& target, Reading& reading);
 void read_value(const Node& node, std::string& target, Reading& reading);
 
-// How values are printed: as TOML that reads back as the same value.
+// Printing of values: as TOML that reads back as the same value.
 
 [[nodiscard]] std::string quoted(std::string_view text);
 /// Returns a text as complaints quote it: 'text', with control characters made visible.

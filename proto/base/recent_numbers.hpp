@@ -42,7 +42,7 @@ public:
         return seen;
     }
 
-    /// nullopt before the first number.
+    /// The highest number so far; nullopt before the first one.
     [[nodiscard]] std::optional<std::uint64_t> highest() const { return highest_; }
 
 private:

@@ -33,7 +33,7 @@ constexpr std::array<Unit, 12> units{{
     {"s", 1e9},
     {"min", 60e9},
     {"h", 3600e9},
-    // As tc and others spell them.
+    // Spellings of tc and other programs.
     {"usec", 1e3},
     {"usecs", 1e3},
     {"msec", 1e6},
@@ -136,7 +136,7 @@ std::optional<std::string> prefix_of_bps(std::string_view unit)
     return std::nullopt;
 }
 
-/// In the largest unit of which it is a whole number.
+/// Prints a count in the largest unit of which it is a whole number.
 template <std::size_t N>
 std::string whole_text(std::uint64_t value, const std::array<WholeUnit, N>& whole_units)
 {
@@ -244,7 +244,7 @@ std::string to_text(Probability probability)
     constexpr int decimals_max = 400; // more than the smallest double needs
     std::array<char, decimals_max + 8> buffer{};
     for (int decimals = 0; decimals < decimals_max; ++decimals) {
-        // Not by fmt: version 9 takes no notice of the precision here (0.05L with 0 decimals).
+        // fmt is not used: version 9 ignores the precision here (0.05L with 0 decimals).
         const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
                                                 percent, std::chars_format::fixed, decimals);
         ensure(error == std::errc{});

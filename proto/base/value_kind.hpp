@@ -72,7 +72,8 @@ struct ValueKind {
 
     // flag, whole, number, time, text and choice
     Leaf (*get)(const void* value) = nullptr;
-    /// False, and the value stays, where the leaf is of another kind or out of range.
+    /// Sets `value` from a leaf. Returns false, and leaves the value, where the leaf is of another
+    /// kind or out of range.
     bool (*set)(void* value, const Leaf& leaf) = nullptr;
 
     // maybe, list and map

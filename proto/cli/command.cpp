@@ -244,7 +244,7 @@ private:
         return {};
     }
 
-    /// What to say of the "ms" in "--delay 80 ms".
+    /// Returns the hint on the "ms" in "--delay 80 ms".
     [[nodiscard]] std::optional<std::string> split_value(const std::string& unit) const
     {
         if (!base::is_unit(unit)) return std::nullopt;
@@ -265,7 +265,7 @@ private:
 
     [[nodiscard]] base::Result<void> command_missing() const
     {
-        // What stands where a command belongs may have been taken for the program's argument.
+        // A word in the place of a command may have been taken for the program's argument.
         for (const Option& option : program_.options_) {
             const Words& texts = texts_of(option);
             if (option.is_positional() && !texts.empty() &&
@@ -300,7 +300,8 @@ private:
         return {};
     }
 
-    /// After everything else: a mistyped option is not a missing one.
+    /// Refuses missing options. Call it after all other checks, so that a mistyped option is not
+    /// reported as a missing one.
     [[nodiscard]] static base::Result<void> nothing_missing(const Command& command)
     {
         const auto& options = command.options();

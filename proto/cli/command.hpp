@@ -43,10 +43,10 @@ public:
     Option& positional(std::string name, std::string help, Take take);
 
     Command& command(std::string name, std::string summary);
-    /// Without one of its commands the program does nothing, and its own options belong to all of
-    /// them. Otherwise they belong to what it does without a command.
+    /// Requires one of the program's commands. The program's own options then apply to all
+    /// commands. Otherwise they apply to a run without a command.
     void require_command() { needs_command_ = true; }
-    /// Another spelling of a command, which --help does not show.
+    /// Adds another spelling of the command, which --help does not show.
     void add_alias(std::string alias) { aliases_.push_back(std::move(alias)); }
 
     /// Reads a program's words; words[0] is its name. A text is to be printed instead of running:
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] bool is_chosen() const { return is_chosen_; }
     [[nodiscard]] bool is_given(std::string_view option_name) const;
 
-    // What --help is made of.
+    // The parts of --help.
 
     /// The command as it is typed in full: "hapnet-lab run".
     [[nodiscard]] std::string path() const;

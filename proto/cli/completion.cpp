@@ -25,7 +25,7 @@ Words parts_of(std::string_view text, char at)
     return words;
 }
 
-/// What can be typed for a value: "eco" and "precise" of "eco|precise|TIME".
+/// Returns the words that can be typed for a value: "eco" and "precise" of "eco|precise|TIME".
 Words choices(const Option& option)
 {
     Words words = parts_of(option.value, '|');
@@ -77,7 +77,7 @@ std::string identifier(const std::string& name)
     return text;
 }
 
-/// Between single quotes, in any of the shells.
+/// Puts a text between single quotes, for any of the shells.
 std::string in_quotes(std::string_view text)
 {
     std::string out = "'";
@@ -146,7 +146,7 @@ complete -o default -F {0} {3}
 
 // --- zsh -------------------------------------------------------------------------------------
 
-/// In a specification of _arguments, brackets and colons mean something.
+/// Escapes brackets, colons and backslashes, which have a meaning in a specification of _arguments.
 std::string in_brackets(std::string_view text)
 {
     std::string out;

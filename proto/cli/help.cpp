@@ -42,7 +42,7 @@ std::string folded(std::string_view words, std::size_t column, std::size_t inden
     return text;
 }
 
-/// Where the second column of "  name   what it is" begins; npos: there is none.
+/// Returns where the second column of "  name   what it is" begins; npos: there is none.
 std::size_t second_column(std::string_view line)
 {
     const auto name = line.find_first_not_of(' ');

@@ -27,8 +27,8 @@ inline constexpr std::string_view generate_values = "man|bash|zsh|fish";
 [[nodiscard]] std::string usage(const Command& command);
 
 /// Fills the lines of a text up to `columns`, each behind `indent` spaces. Lines that begin with a
-/// space stay as they are, but for those of a list ("  name   what it is"), which are folded under
-/// their second column.
+/// space stay as they are, except for those of a list ("  name   what it is"), which are folded
+/// under their second column.
 [[nodiscard]] std::string filled(std::string_view text, std::size_t indent, std::size_t columns);
 
 } // namespace hapnet::cli

@@ -13,7 +13,7 @@ namespace hapnet::cli {
 
 namespace {
 
-/// What scdoc takes for marks of its own, behind backslashes.
+/// Puts backslashes before characters that scdoc takes for marks of its own.
 std::string escaped(std::string_view text)
 {
     std::string out;

@@ -14,8 +14,8 @@ namespace hapnet::cli {
 
 namespace {
 
-/// A word that somebody may type, and what it is called here: an option ("--rate"), or a command
-/// line of a program ("hapnet-emulator check"). Only what the program at hand has is proposed.
+/// A word that a user may type, and its name here: an option ("--rate"), or a command line of a
+/// program ("hapnet-emulator check"). Only what the program at hand has is proposed.
 struct Synonym {
     std::string_view typed;
     std::string_view meant;
@@ -252,7 +252,8 @@ std::vector<std::string_view> names_of(const Command& program)
     return names;
 }
 
-/// What is proposed for a word by a table; "" where it has nothing that this program has.
+/// Returns a table's proposal for a word; "" where the table has no proposal for it that this
+/// program has.
 template <std::size_t size>
 std::string proposed(const std::array<Synonym, size>& table, std::string_view word,
                      std::span<const std::string_view> options, const Command& program)

@@ -13,7 +13,7 @@ namespace hapnet::cli {
 // Near misses: words of other tools (tc-netem, toxiproxy, clumsy, iperf), other spellings, slips of
 // the finger. Each is answered with what it is called here.
 
-/// What is wrong with an option that the command does not have: "unknown option --bandwidth: did
+/// Returns the error for an option that the command does not have: "unknown option --bandwidth: did
 /// you mean --rate?".
 [[nodiscard]] std::string unknown_option(const Command& command, std::string_view word);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t read_bytes_max = std::size_t{64} << 10;
 constexpr std::size_t admitted_at_a_time = 4;
 
-/// What the wait set calls the listener; the clients are called by their places.
+/// The listener's key in the wait set. The clients' keys are their places.
 constexpr std::uint64_t listener_key = Server::clients_max;
 
 } // namespace

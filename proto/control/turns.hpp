@@ -29,12 +29,12 @@ public:
     static constexpr base::Duration step_takes = std::chrono::microseconds{100};
     static constexpr base::Duration put_off_max = std::chrono::milliseconds{20};
 
-    // On the thread that orders, which is the same one always.
+    // For the thread that orders. It is always the same one.
 
     /// See DoWork. Throws LoopHasEnded.
     void run(const Step& step);
 
-    // On the loop's thread.
+    // For the loop's thread.
 
     /// Readable when work has been ordered.
     [[nodiscard]] int descriptor() const { return ordered_.descriptor(); }

@@ -40,7 +40,7 @@ public:
     }
 };
 
-/// As many as the kernel follows (path_resolution(7)).
+/// The number of links that the kernel follows (path_resolution(7)).
 constexpr int links_max = 40;
 
 tl::unexpected<std::error_code> refused(int error)
@@ -67,7 +67,7 @@ Descriptor beginning_of(std::string& path)
 
 bool is_this_user_or_root(uid_t owner) { return owner == geteuid() || owner == 0; }
 
-/// True if whoever owns this in the folder may decide where this user writes.
+/// True if `owner`, who owns a file or a link in the folder, may decide where this user writes.
 bool is_trusted(uid_t owner, int folder)
 {
     struct stat of_folder {};
@@ -75,7 +75,7 @@ bool is_trusted(uid_t owner, int folder)
            (fstat(folder, &of_folder) == 0 && owner == of_folder.st_uid);
 }
 
-/// Where a link leads; "": errno says why that cannot be told.
+/// Returns the target of a link; "": errno says why it is not known.
 std::string target_of(int folder, const std::string& name)
 {
     std::array<char, PATH_MAX> text{};
@@ -145,7 +145,7 @@ std::error_code Place::why_not_written_to(mode_t mode) const
 {
     if (!found_ || is_open_file_) return {};
     if (S_ISDIR(found_->st_mode)) return {EISDIR, std::generic_category()};
-    // Devices are made by root alone, whomever they belong to.
+    // Only root makes devices, whichever user owns them.
     if (!is_regular() && !is_pipe()) return {};
     const uid_t owner = found_->st_uid;
     const bool is_secret = (mode & (S_IRWXG | S_IRWXO)) == 0;

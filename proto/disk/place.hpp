@@ -26,8 +26,8 @@ enum class Refusal : std::uint8_t {
 };
 [[nodiscard]] std::error_code error_of(Refusal refusal);
 
-/// Where a file is or is going to be: an open folder, and a name in it. What others do to the path
-/// afterwards does not matter any more.
+/// The place where a file is or is going to be: an open folder, and a name in it. Later changes to
+/// the path by other programs have no effect.
 class Place {
 public:
     enum class LastLink : std::uint8_t { followed, kept };

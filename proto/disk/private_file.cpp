@@ -18,7 +18,8 @@ namespace hapnet::disk {
 
 namespace {
 
-/// Who may use a file besides its owner, this user and root.
+/// The way in which others than its owner, this user and root may use a file: not at all, by its
+/// mode, or by its access control list.
 enum class Others : std::uint8_t { none, by_mode, by_list };
 
 /// An entry of an access control list, as the kernel writes it (linux/posix_acl_xattr.h): numbers
@@ -63,7 +64,8 @@ bool gives_to_others(std::span<const unsigned char> entries)
     return false;
 }
 
-/// With an access control list the group's bits of the mode are the mask of the list.
+/// Finds out if others may use a file. With an access control list the group's bits of the mode are
+/// the mask of the list.
 Others others_of(int descriptor, const struct stat& status)
 {
     std::array<unsigned char, version_bytes + 512 * entry_bytes> list{};
@@ -77,7 +79,7 @@ Others others_of(int descriptor, const struct stat& status)
     return gives_to_others(all.subspan(version_bytes)) ? Others::by_list : Others::none;
 }
 
-/// Why a file is not private; "": it is.
+/// Returns the reason why a file is not private; "": it is private.
 std::string complaint(const Descriptor& file, const struct stat& status, const std::string& path,
                       const PrivateKind& kind)
 {

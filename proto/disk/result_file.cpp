@@ -32,7 +32,7 @@ std::error_code last_error() { return {errno, std::generic_category()}; }
         error, fmt::format("{}{}cannot write {}", option, option.empty() ? "" : ": ", path)};
 }
 
-/// Whether the process of a "PID" has ended, as far as can be seen from here.
+/// True if the process of a "PID" has ended, as far as can be seen from here.
 bool has_ended(std::string_view pid)
 {
     const auto number = base::parse_count(pid, std::numeric_limits<pid_t>::max());

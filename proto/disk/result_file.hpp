@@ -11,11 +11,11 @@
 
 namespace hapnet::disk {
 
-/// A file that appears whole or not at all: it is written beside its place under a temporary
-/// name, which is taken at construction, so that a place that cannot be written is found before
-/// the run and not after it. What is there and is no regular file (a device, a pipe) is never
-/// replaced but written to. Place says which symbolic links are followed and whose pipes are
-/// written to. A file of another user gets nothing of what is written: a new one takes its name.
+/// A file that appears whole or not at all: it is written beside its place under a temporary name,
+/// which is taken at construction, so that a place that cannot be written is found before the run
+/// and not after it. An existing file that is not regular (a device, a pipe) is never replaced but
+/// written to. Place says which symbolic links are followed and whose pipes are written to. A file
+/// of another user is not written to: a new one takes its name.
 ///
 /// The temporary name is FILE.PID.LETTERS.partial. A process that is killed leaves it behind, with
 /// what it had written; the next one that writes FILE removes it.

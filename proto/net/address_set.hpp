@@ -14,7 +14,7 @@
 
 namespace hapnet::net {
 
-/// Addresses as somebody has typed them; a name is not looked up.
+/// Addresses as a user has typed them; a name is not looked up.
 ///
 /// - "10.0.0.1:7000", "[::1]:7000", "host:7000": this port of this host
 /// - "10.0.0.1", "[::1]", "host", "host:*": any port of this host

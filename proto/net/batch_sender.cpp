@@ -28,7 +28,7 @@ SendOutcome outcome_of(int error)
     }
 }
 
-/// Whether the kernel says that it will not cut this message: EINVAL or EMSGSIZE for a segment
+/// True if the kernel says that it will not cut this message: EINVAL or EMSGSIZE for a segment
 /// that is larger than the MTU, EIO for a device that computes no checksums, the others for a
 /// kernel without UDP_SEGMENT.
 bool is_refusal(int error)
@@ -37,7 +37,7 @@ bool is_refusal(int error)
            error == EOPNOTSUPP;
 }
 
-/// Whether what is sent there goes as IPv4: also to an IPv4 address in an IPv6 one.
+/// True if what is sent there goes as IPv4: also to an IPv4 address in an IPv6 one.
 bool goes_as_v4(const Endpoint& to)
 {
     if (to.family() == AF_INET) return true;
@@ -78,7 +78,7 @@ void put_marks(ControlWriter& control, base::IpMarks marks, bool as_v4)
                 int{marks.hop_limit});
 }
 
-/// Whether a call that has just failed may have failed for the answer to an earlier datagram, which
+/// True if a call that has just failed may have failed for the answer to an earlier datagram, which
 /// is taken then. Answers may come as fast as datagrams are sent.
 bool may_try_again(int descriptor, ErrorQueue* answers, int trial)
 {
@@ -86,7 +86,8 @@ bool may_try_again(int descriptor, ErrorQueue* answers, int trial)
     return answers != nullptr && trial < trials_max && answers->drain(descriptor);
 }
 
-/// What msghdr wants of what it only reads when it sends.
+/// Removes const from a pointer: msghdr takes pointers to mutable data, although sending only reads
+/// the data.
 template <typename T>
 T* writable(const T* read_only)
 {
@@ -160,7 +161,7 @@ BatchSender::send(int descriptor, const Endpoint& to,
     return {outcomes_.data(), datagrams.size()};
 }
 
-/// How many of the datagrams, from the first on, can leave as one message.
+/// Returns the number of datagrams, from the first on, that can leave as one message.
 std::size_t BatchSender::train_length(std::span<const std::span<const std::byte>> neighbours,
                                       std::span<const base::IpMarks> marks) const
 {

@@ -57,7 +57,7 @@ ChildCommand::ChildCommand(const Setup& setup)
     if (!setup.has_own_group) terminal_ = terminal_of_this_group();
 }
 
-/// False when the system refuses a PID namespace.
+/// Starts the command. Returns false when the system refuses a PID namespace.
 bool ChildCommand::start(const Setup& setup, bool has_own_processes)
 {
     std::array<int, 2> orders{-1, -1};

@@ -9,9 +9,9 @@
 
 namespace hapnet::net {
 
-/// CLOCK_BOOTTIME: it never steps, and goes on while the machine is suspended, so that a loop finds
-/// the gap, and motors have cooled by it. The only clock of the project; called once per wake-up by
-/// a shell.
+/// CLOCK_BOOTTIME: it never steps. It also runs while the machine is suspended, so that a loop
+/// notices the gap and the motors count as cooled. The project has no other clock; a shell calls it
+/// once per wake-up.
 [[nodiscard]] base::TimePoint monotonic_now();
 
 /// The processor time that the calling thread has used, in the kernel and out of it. A system call.

@@ -44,9 +44,9 @@ std::string text_of_system_file(const std::string& path)
     return text.str();
 }
 
-/// A folder in memory that only this mount namespace has. Its files live on where they are put over
-/// others. A file that was unlinked would not do: no other can be put over that one, as another
-/// emulator does within the command.
+/// A folder in memory that only this mount namespace has. Its files stay valid where they are
+/// mounted over others. Unlinked files would not do: no other file can be mounted over them, as
+/// another emulator does within the command.
 class FolderInMemory {
 public:
     FolderInMemory()
@@ -162,7 +162,8 @@ public:
         std::signal(SIGCHLD, SIG_DFL); // ignored, it would leave no exit codes
         prctl(PR_SET_NAME, init_name);
         if (is_first_) {
-            // Also while this process is stopped. A subreaper must live on, to kill the others.
+            // Works also while this process is stopped. A subreaper must live on, to kill the
+            // others.
             prctl(PR_SET_PDEATHSIG, SIGKILL);
         } else {
             prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -297,7 +298,7 @@ private:
         _exit(127);
     }
 
-    /// Collects the command, and whatever has lost its own parent.
+    /// Collects the command, and every process that has lost its own parent.
     void reap()
     {
         signalfd_siginfo ignored{};

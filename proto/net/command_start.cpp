@@ -17,8 +17,8 @@ namespace hapnet::net {
 
 namespace {
 
-/// As the descriptor of a command is once that has ended, which nothing but poll() asks here: its
-/// exit code belongs to another thread.
+/// True if a descriptor is readable, as that of a command is once the command has ended. Nothing is
+/// read here, only polled: the command's exit code belongs to another thread.
 bool is_readable(int descriptor)
 {
     pollfd polled{descriptor, POLLIN, 0};
@@ -87,7 +87,7 @@ void CommandStart::run() noexcept
     done_.signal();
 }
 
-/// Waits until the last command may start. False when nobody wants it any more.
+/// Waits until the last command may start. Returns false when the start was called off.
 bool CommandStart::awaits_last()
 {
     constexpr int pause_ms = 10;

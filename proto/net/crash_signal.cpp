@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t crash_stack_bytes = 65536;
 
-/// What a signal handler can know: nothing is passed to it, so that this has to be global. Set
-/// before the handlers are, and only read by them.
+/// The state that a signal handler reads. Nothing is passed to a handler, so that this has to be
+/// global. It is set before the handlers are installed, and only read by them.
 struct HandlerState {
     std::atomic<int> dying{-1};
     std::atomic<int> in_order{-1};
@@ -69,7 +69,8 @@ CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
     for (std::size_t i = 0; i < signals.size(); ++i) {
         struct sigaction& former = handler_state.former[i];
         sigaction(signals[i], &action, &former);
-        // Of what it was told to ignore, such as SIGQUIT in the background, a program does not die.
+        // A program does not die of a signal that it was told to ignore, such as SIGQUIT in the
+        // background.
         if (former.sa_handler == SIG_IGN) sigaction(signals[i], &former, nullptr);
     }
 }

@@ -29,13 +29,14 @@ public:
     [[nodiscard]] static bool has_come() noexcept;
     /// Lets the program die: everything is in a safe state.
     void acknowledge() const;
-    /// For whatever else ends the program suddenly (ExitGuard): the descriptor becomes readable,
-    /// and the caller is held as a dying thread is. Nothing without a CrashSignal. Calls only what
-    /// signal-safety(7) allows.
+    /// Call it for other sudden ends of the program (ExitGuard): the descriptor becomes readable,
+    /// and the caller is held as a dying thread is. It does nothing without a CrashSignal. Calls
+    /// only what signal-safety(7) allows.
     static void hold_to_the_end() noexcept;
 
     static constexpr base::Duration patience{std::chrono::milliseconds{20}};
-    // What a program dies of by itself, then what it dies of when it is sent by mistake.
+    // The signals that a program dies of by itself, then those that end it when they are sent by
+    // mistake.
     static constexpr std::array signals{SIGABRT, SIGSEGV,   SIGBUS,  SIGFPE,  SIGILL,   SIGSYS,
                                         SIGTRAP, SIGXCPU,   SIGQUIT, SIGUSR1, SIGUSR2,  SIGALRM,
                                         SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGSTKFLT};

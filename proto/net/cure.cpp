@@ -53,7 +53,7 @@ std::string_view cure_of_reaching(int error)
     }
 }
 
-/// Of a file, a folder, or a right.
+/// Returns the cure for an error with a file, a folder, or a right.
 std::string_view cure_of_place(int error)
 {
     switch (error) {

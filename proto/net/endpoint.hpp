@@ -65,9 +65,9 @@ struct HostPort {
 /// in which the system would try them. See resolve().
 [[nodiscard]] std::vector<Endpoint> resolve_all(const HostPort& where, int family = AF_UNSPEC);
 
-/// Looks up the first address of a host that has the family asked for (AF_UNSPEC: any): for a
-/// remote that of the address to listen on, as a socket sends in its own family alone. Throws
-/// std::system_error naming the host when the name does not resolve.
+/// Looks up the first address of a host that has the family asked for (AF_UNSPEC: any). For a
+/// remote, ask for the family of the address to listen on: a socket sends only in its own family.
+/// Throws std::system_error naming the host when the name does not resolve.
 [[nodiscard]] Endpoint resolve(const HostPort& where, int family = AF_UNSPEC);
 
 /// Throws std::system_error when this machine has no route to `remote`. Sends nothing.

@@ -38,7 +38,7 @@ std::optional<sock_extended_err> next_report(int descriptor)
 
 bool is_port_unreachable(const sock_extended_err& report)
 {
-    // Of RFC 792: destination unreachable, port; of RFC 4443.
+    // The type and code for an unreachable port: RFC 792 for IPv4, RFC 4443 for IPv6.
     const bool is_v4 =
         report.ee_origin == SO_EE_ORIGIN_ICMP && report.ee_type == 3 && report.ee_code == 3;
     const bool is_v6 =

@@ -50,7 +50,7 @@ std::string caller_of_exit()
     return {};
 }
 
-/// One line on stderr, unless that takes nothing: whoever reads it may hang.
+/// Prints one line on stderr, unless stderr takes nothing: its reader may hang.
 void say_last(std::string_view program, std::string_view text)
 {
     const auto line = fmt::format("{}: {}\n", program, text);

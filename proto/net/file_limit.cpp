@@ -9,7 +9,8 @@ namespace hapnet::net {
 void survive_file_limit()
 {
     struct sigaction before {};
-    // Whoever ignores it already has what is wanted, and so have the commands that it starts.
+    // A program that ignores the signal needs no change, and neither do the commands that it
+    // starts.
     if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
     struct sigaction nothing {};
     nothing.sa_handler = [](int) {}; // unlike SIG_IGN it ends with exec()

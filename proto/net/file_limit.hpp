@@ -4,9 +4,9 @@
 
 namespace hapnet::net {
 
-/// From then on, writing a file beyond the limit of the process (ulimit -f) fails with EFBIG, as it
-/// would with ENOSPC on a full disk. Before, SIGXFSZ ended the program. Commands that the program
-/// starts have the signal as it was.
+/// From this call on, writing a file beyond the limit of the process (ulimit -f) fails with EFBIG,
+/// as it would with ENOSPC on a full disk. Before, SIGXFSZ ended the program. Commands that the
+/// program starts have the signal as it was.
 void survive_file_limit();
 
 } // namespace hapnet::net

@@ -159,7 +159,7 @@ Descriptor any_socket() { return {socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0),
 
 constexpr auto lro_flag = static_cast<std::uint32_t>(ETH_FLAG_LRO);
 
-/// Of one word, read or set; 0 or an errno.
+/// Reads or sets one word. Returns 0 or an errno.
 int ethtool(const std::string& interface, ethtool_value& value)
 {
     const auto socket = any_socket();
@@ -277,8 +277,8 @@ void ignore_router_advertisements(const std::string& interface)
 
 void switch_off_offloads(const std::string& interface)
 {
-    // In this order: the kernel cuts up what is left to cut when checksums are no longer left to
-    // the device.
+    // The order matters: when checksums are no longer left to the device, the kernel itself cuts up
+    // what is left to cut.
     for (const int command : {ETHTOOL_STSO, ETHTOOL_SGRO, ETHTOOL_SRXCSUM, ETHTOOL_STXCSUM}) {
         set_ethtool(interface, static_cast<std::uint32_t>(command), 0);
     }

@@ -37,8 +37,8 @@ void add_group_routes(const std::string& interface);
 /// Sends what is for no known network to this router.
 void add_default_route(const std::string& interface, const std::string& router);
 
-/// It takes no addresses and routes from what routers of IPv6 say, as far as the system lets it be
-/// told so; throws nothing.
+/// Makes the interface ignore the addresses and routes that IPv6 routers announce, as far as the
+/// system allows it. Throws nothing.
 void ignore_router_advertisements(const std::string& interface);
 
 /// Work that the kernel leaves to a device, off: checksums, and frames that are cut up or put
@@ -46,7 +46,8 @@ void ignore_router_advertisements(const std::string& interface);
 /// interface does not have, or not let go of, stay.
 void switch_off_offloads(const std::string& interface);
 
-/// How the interface puts packets together that arrive, as one number; 0: it does not.
+/// Returns the receive offloads by which the interface joins arriving packets, as one number; 0: it
+/// joins none.
 [[nodiscard]] std::uint32_t receive_offloads_of(const std::string& interface);
 void set_receive_offloads(const std::string& interface, std::uint32_t offloads);
 

@@ -144,7 +144,8 @@ bool has_listener(pid_t process)
 {
     const int sockets = sockets_of(process);
     if (sockets < 0) return false;
-    // Those that listen; UDP has no state of its own for a socket that is bound to no other end.
+    // The states of listening sockets. UDP has no state of its own for a socket that is bound to no
+    // other end.
     constexpr std::uint32_t listens = 1U << 10U; // TCP_LISTEN
     constexpr std::uint32_t is_bound = 1U << 7U; // TCP_CLOSE
     const bool has = has_socket(sockets, AF_INET, IPPROTO_TCP, listens) ||

@@ -35,7 +35,7 @@ void set_packet_option(int descriptor, int level, int name, int value)
     setsockopt(descriptor, level, name, &value, sizeof value);
 }
 
-/// What the kernel says of a frame besides its bytes.
+/// The kernel's data on a frame besides its bytes.
 struct FrameLabel {
     std::optional<base::Duration> stamp; // CLOCK_REALTIME
     tpacket_auxdata auxiliary{};
@@ -75,7 +75,7 @@ struct PacketSocket::Inbox {
     Inbox()
     {
         for (std::size_t i = 0; i < batch_max; ++i) {
-            // With room before it, where a VLAN tag moves the addresses to.
+            // Leaves room before the frame, into which a VLAN tag moves the addresses.
             vectors[i] = {.iov_base = room(i) + tag_bytes, .iov_len = frame_bytes_max - tag_bytes};
             msghdr& header = headers[i].msg_hdr;
             header.msg_iov = &vectors[i];

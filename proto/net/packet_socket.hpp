@@ -20,8 +20,8 @@ struct ReceivedFrame {
     bool lacks_checksum = false; // the sender's kernel has left it to a device that there is not
 };
 
-/// All frames that arrive at a network interface, and a way to send frames from it: AF_PACKET. What
-/// the machine itself sends there, through this socket or not, is not received.
+/// All frames that arrive at a network interface, and a way to send frames from it: AF_PACKET.
+/// Frames that the machine itself sends there, through this socket or not, are not received.
 class PacketSocket {
 public:
     static constexpr std::size_t batch_max = 64;
@@ -36,8 +36,8 @@ public:
     /// allocates. Stamps never lie in the future.
     [[nodiscard]] std::span<const ReceivedFrame> receive();
 
-    /// Sends up to batch_max frames. What became of each, in their order; valid until the next
-    /// call. Never blocks.
+    /// Sends up to batch_max frames. Returns the outcome of each, in their order; it is valid until
+    /// the next call. Never blocks.
     std::span<const SendOutcome> send_batch(std::span<const std::span<const std::byte>> frames);
 
     [[nodiscard]] int descriptor() const { return descriptor_; }

@@ -25,8 +25,8 @@ constexpr auto fields_of(base::Tag<RealTime>)
                      "Whether it granted locked memory."));
 }
 
-/// Which memory is locked: all that is reserved, or each page from its first use on, for a process
-/// that reserves far more than it usually needs.
+/// The memory that is locked: all reserved memory at once, or each page from its first use on. The
+/// latter is for a process that reserves far more than it usually needs.
 enum class Locking : std::uint8_t { at_once, as_used };
 
 /// Asks for SCHED_FIFO at `priority` and the finest timer slack for the calling thread, and for

@@ -26,7 +26,8 @@ std::string taken(const char* name)
     return text;
 }
 
-/// How long the manager waits for a sign of life of this process; 0: it does not.
+/// Returns the time within which the manager expects a sign of life of this process; 0: it expects
+/// none.
 base::Duration patience_of(const std::string& microseconds, const std::string& process)
 {
     if (!process.empty() && process != std::to_string(getpid())) return {};

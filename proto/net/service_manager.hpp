@@ -16,8 +16,8 @@ namespace hapnet::net {
 /// no manager. Never blocks: a message that the manager has no room for is lost.
 class ServiceManager {
 public:
-    /// Before any thread. Takes what it reads out of the environment: the programs that this one
-    /// starts do not speak for it.
+    /// Construct it before any thread. It removes the variables that it reads from the environment,
+    /// so that programs that this one starts do not speak for it.
     ServiceManager();
     ~ServiceManager();
     ServiceManager(const ServiceManager&) = delete;

@@ -10,7 +10,7 @@ namespace hapnet::net {
 
 void fill_standard_streams()
 {
-    // In their order: open() takes the lowest number that is free.
+    // The order matters: open() takes the lowest number that is free.
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(descriptor, F_GETFD) >= 0) continue;
         // The wrong way round, so that what is asked to print says that it cannot.

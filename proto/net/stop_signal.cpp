@@ -61,7 +61,7 @@ bool has_hung_up(int descriptor)
     return poll(&polled, 1, 0) > 0 && (polled.revents & POLLHUP) != 0;
 }
 
-/// From now on the kernel sends SIGTERM when the lifeline hangs up. Its descriptor, which is
+/// Makes the kernel send SIGTERM from now on when the lifeline hangs up. Its descriptor, which is
 /// returned, stays open for as long as the process lives, and no command that this one runs
 /// inherits it. -1: there is none.
 int hold_lifeline()
@@ -214,7 +214,7 @@ bool StopSignal::reload_requested() const
 
 void StopSignal::enforce(base::Duration patience, int code) const
 {
-    // Before the thread begins: a terminal may go away at any time.
+    // The terminals are found before the thread begins: a terminal may go away at any time.
     start_detached([state = state_, patience, code, found = terminals()] {
         const auto [in, out, error] = found;
         // A terminal is asked for nothing: poll() tells of a hangup regardless.

@@ -59,9 +59,9 @@ public:
     /// True if a signal that means reload has come since the last call.
     [[nodiscard]] bool reload_requested() const;
 
-    /// From now on, until the process has gone: when it is still there `patience` after a stop was
-    /// asked for, it ends by _exit(code), whatever blocks it. And a terminal at one of the standard
-    /// descriptors that hangs up asks for a stop. A thread that writes nothing sees to both.
+    /// Enforces stops from now on. A process that still runs `patience` after a stop was asked for
+    /// ends by _exit(code), whatever blocks it. A terminal at a standard descriptor that hangs up
+    /// asks for a stop, too. A thread that writes nothing does both.
     void enforce(base::Duration patience, int code) const;
 
 private:

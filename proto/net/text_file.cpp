@@ -27,7 +27,7 @@ tl::unexpected<base::Error> cannot_read(const std::string& path, const char* why
     return base::fail(fmt::format("cannot read {}: {}", path, why));
 }
 
-/// Of a descriptor, which it closes; or with errno set of -1.
+/// Reads the text behind a descriptor, and closes it. A descriptor of -1 gives the error in errno.
 base::Result<std::string> text_behind(int descriptor, const std::string& path, bool only_regular)
 {
     if (descriptor < 0) return cannot_read(path, std::strerror(errno));

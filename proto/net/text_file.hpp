@@ -11,8 +11,8 @@ namespace hapnet::net {
 /// The whole text of a file of at most 256 MiB; the error names it and says why it cannot be read.
 [[nodiscard]] base::Result<std::string> text_of_file(const std::string& path);
 
-/// Files that somebody else may name: those below one folder. Of a name that leads out of it,
-/// through "..", from the root or by a symbolic link, nothing is opened, and nothing is told.
+/// Opens files by names from another program, only below one folder. A name that leads out of it,
+/// through "..", from the root or by a symbolic link, opens no file and reveals nothing about it.
 class Folder {
 public:
     /// Throws std::system_error when it cannot be opened.

@@ -43,7 +43,7 @@ void set_receive_buffer(int descriptor, int bytes)
     if (!is_forced) set_option(descriptor, SOL_SOCKET, SO_RCVBUF, bytes);
 }
 
-/// What the kernel says of a message besides its bytes.
+/// The kernel's data on a message besides its bytes.
 struct Label {
     std::optional<base::Duration> stamp; // CLOCK_REALTIME
     std::optional<std::uint32_t> overflowed;
@@ -181,7 +181,7 @@ struct UdpSocket::Inbox {
         overflowed_last = total;
     }
 
-    // Not filled with zeros: most of it is never used.
+    // The memory is not filled with zeros: most of it is never used.
     std::unique_ptr<std::byte[]> payload = // NOLINT(*-avoid-c-arrays)
         std::make_unique_for_overwrite<std::byte[]>(batch_max * payload_bytes_max);
     std::array<iovec, batch_max> vectors{};
@@ -202,7 +202,7 @@ UdpSocket::UdpSocket(const Endpoint& local, Load load) : UdpSocket{local, load, 
 
 UdpSocket UdpSocket::beside(UdpSocket& first, Load load)
 {
-    // After the first was bound: whoever else holds the place, or wants it, is refused.
+    // Set after the first bind, so that any other program that holds or wants the place is refused.
     set_option(first.descriptor_, SOL_SOCKET, SO_REUSEPORT, 1);
     return UdpSocket{first.local(), load, Place::shared};
 }
@@ -219,9 +219,9 @@ UdpSocket::UdpSocket(const Endpoint& local, Load load, Place place)
     set_option(descriptor_, SOL_SOCKET, SO_SNDBUF, 4 << 20);
     base::IpMarks usual;
     if (load == Load::bulk) {
-        // Not more: what waits here when a flood ends makes what comes after it late. Merged, 4 MB
-        // (the kernel doubles it) hold some 60 000 small datagrams, which take a relay 60 ms; with
-        // 8 MB it was late for 160 ms after a flood.
+        // The buffer is not larger, because datagrams that wait here when a flood ends make later
+        // ones late. Merged, 4 MB (the kernel doubles it) hold some 60 000 small datagrams, which
+        // take a relay 60 ms; with 8 MB it was late for 160 ms after a flood.
         set_receive_buffer(descriptor_, 4 << 20);
         set_option(descriptor_, SOL_UDP, UDP_GRO, 1);
         usual = ask_for_marks(descriptor_, local.family());

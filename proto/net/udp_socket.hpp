@@ -59,9 +59,9 @@ public:
     /// Sends one datagram. Never blocks.
     SendOutcome send(const Endpoint& to, std::span<const std::byte> bytes);
 
-    /// Sends up to BatchSender::batch_max datagrams, merged for the kernel where it can take them
-    /// so. What became of each, in their order; valid until the next call. Never blocks. `marks`:
-    /// those of each datagram, or empty: the socket's own.
+    /// Sends up to BatchSender::batch_max datagrams, merged where the kernel supports that. Returns
+    /// the outcome of each, in their order; it is valid until the next call. Never blocks. `marks`
+    /// are those of each datagram; empty: the socket's own.
     std::span<const SendOutcome> send_batch(const Endpoint& to,
                                             std::span<const std::span<const std::byte>> datagrams,
                                             std::span<const base::IpMarks> marks = {});
@@ -73,8 +73,8 @@ public:
     /// Load::bulk neighbours that came merged count as one: the kernel does not say how many.
     [[nodiscard]] std::uint64_t overflowed() const;
 
-    /// Answers of other hosts to what was sent here that no program listens (ICMP, "port
-    /// unreachable"), as far as receive() and sending have met them. Of Load::bulk.
+    /// The number of answers of other hosts to datagrams sent from here that no program listens
+    /// (ICMP, "port unreachable"), as far as receive() and sending have met them. For Load::bulk.
     [[nodiscard]] std::uint64_t unreachable() const;
 
 private:

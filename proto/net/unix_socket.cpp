@@ -16,8 +16,8 @@ namespace hapnet::net {
 
 namespace {
 
-/// Why a path cannot become a control socket, with a cure that speaks of programs and paths, not of
-/// ports.
+/// Explains why a path cannot become a control socket, with a cure that speaks of programs and
+/// paths, not of ports.
 class PathCategory : public std::error_category {
 public:
     [[nodiscard]] const char* name() const noexcept override { return "control socket"; }
@@ -82,7 +82,7 @@ Transfer outcome_of(ssize_t count)
     return {is_for_now ? State::later : State::gone};
 }
 
-/// Removes a socket that nobody answers on.
+/// Removes a socket on which no program answers.
 void clear_the_place(const std::string& path, const sockaddr_un& address)
 {
     struct stat found {};
@@ -140,7 +140,7 @@ UnixListener::UnixListener(std::string path) : path_{std::move(path)}, socket_{n
     constexpr int waiting_max = 64;
     const auto address = address_of(path_);
     clear_the_place(path_, address);
-    // Nobody else may open it at any moment, so the file is made with its mode.
+    // No other user may open the socket at any moment, so the file is made with its mode.
     const auto mask = umask(S_IRWXG | S_IRWXO | S_IXUSR);
     const int bound = bind(descriptor(), generic(address), sizeof address);
     const int error = errno;

@@ -38,7 +38,7 @@ public:
     UnixStream(const UnixStream&) = delete;
     UnixStream& operator=(const UnixStream&) = delete;
 
-    /// Never block.
+    /// read() and write() never block.
     Transfer read(std::span<char> into);
     Transfer write(std::string_view bytes);
 

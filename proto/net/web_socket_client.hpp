@@ -33,8 +33,8 @@ public:
     WebSocketClient(const WebSocketClient&) = delete;
     WebSocketClient& operator=(const WebSocketClient&) = delete;
 
-    /// False: it did not go out in time; then the connection is closed, as half a message may have
-    /// gone.
+    /// Sends a text. Returns false when it did not go out within `most`. The connection is then
+    /// closed, because half a message may have gone.
     [[nodiscard]] bool send(std::string_view text, base::Duration most);
     /// The next message, if it has come or comes in time.
     [[nodiscard]] std::optional<std::string> receive(base::Duration most);

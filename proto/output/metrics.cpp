@@ -22,7 +22,7 @@ using Shape = base::ValueKind::Shape;
 
 constexpr double ns_per_s = 1e9;
 
-/// Whether Prometheus takes it as the name of a metric or a label.
+/// True if Prometheus takes it as the name of a metric or a label.
 bool is_name(std::string_view text)
 {
     const auto may_stand = [](char c) {

@@ -25,7 +25,7 @@ public:
         Json properties = Json::object();
         Json required = Json::array();
         for (const base::FieldRow& row : fields.rows) {
-            // What is left out where it has no value is never null.
+            // A field that is left out when it has no value is never null.
             const bool is_optional = row.telling.is_left_out_if_none;
             Json property = value_of(is_optional ? row.kind->plain() : *row.kind);
             if (!row.about.empty()) property["description"] = plain(row.about);

@@ -10,7 +10,7 @@
 
 namespace hapnet::output {
 
-// What people are told of a struct: the fields with words for them, see base::Told.
+// The text that people read about a struct: the fields with words for them, see base::Told.
 
 /// The counts in a row: "100 received, 99 delivered, 1 lost".
 [[nodiscard]] std::string told(const base::FieldTable& fields, const void* value);
@@ -27,7 +27,8 @@ struct ToldFigure {
     nlohmann::ordered_json value;
 };
 
-/// Each figure in the JSON of a struct. Those of an object have its words and their keys.
+/// Each figure in the JSON of a struct. Figures of an object have the object's words and their own
+/// keys.
 [[nodiscard]] std::vector<ToldFigure> told_figures(const base::FieldTable& fields,
                                                    const nlohmann::ordered_json& json);
 

@@ -9,7 +9,7 @@
 
 namespace hapnet::page {
 
-// What stands on a page, as data that web/page/report makes elements of. A text is a string, or a
+// The content of a page, as data that web/page/report turns into elements. A text is a string, or a
 // list of strings and of such pieces as bold(); a line break in it stays one. Nothing is markup.
 
 using Json = nlohmann::ordered_json;

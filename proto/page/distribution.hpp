@@ -18,9 +18,9 @@ struct Bin {
     double count = 0.0;
 };
 
-/// The counts of ascending bins in bins that are all wide enough to be seen: where one is narrower
-/// than a 400th of the whole, as those of relative width are near zero, each count is spread evenly
-/// over 200 bins of equal width. Otherwise the bins as they are.
+/// The counts of ascending bins in bins that are all wide enough to be seen. Where a bin is
+/// narrower than a 400th of the whole, each count is spread evenly over 200 bins of equal width.
+/// Bins of relative width are that narrow near zero. Otherwise the bins stay as they are.
 [[nodiscard]] std::vector<Bin> without_narrow(std::vector<Bin> bins);
 
 /// The density of the values in ascending bins, as stairs: no bin is hidden in a slope.

@@ -13,7 +13,7 @@ namespace hapnet::page {
 
 namespace {
 
-/// To seven digits: more than a record has, and half as long as a double.
+/// Rounds to seven digits. A record has fewer, and the text is half as long as that of a double.
 double short_value(double value)
 {
     if (value == 0.0) return 0.0;
@@ -224,7 +224,7 @@ std::string key_of(std::string_view text)
     return key;
 }
 
-/// What a head ends with for an axis in that unit: "_ms"; "" without one.
+/// Returns the ending of a column head for an axis in that unit: "_ms"; "" without one.
 std::string unit_key_of(const Json& axis)
 {
     const auto unit = axis.value("unit", std::string{});

@@ -67,7 +67,7 @@ struct Curve {
     bool shows_points = false; // a dot at each point
 };
 
-/// A value that curves are held against: a dashed line across the figure.
+/// A value with which curves are compared: a dashed line across the figure.
 struct Level {
     double y = 0.0;
     std::string_view name;

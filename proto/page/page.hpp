@@ -49,8 +49,8 @@ struct Page {
 /// The page as one HTML file that needs no other. It carries its data in one element of JSON, and
 /// the modules that draw it, `more` besides.
 [[nodiscard]] std::string html_of(const Page& page, std::span<const Asset> more = {});
-/// Likewise of data that have `subject`, `title`, `figures` and what `more` makes words and blocks
-/// of.
+/// As above, for data that have `subject`, `title`, `figures` and the fields from which `more`
+/// makes words and blocks.
 [[nodiscard]] std::string html_of(const Json& data, std::span<const Asset> more);
 
 } // namespace hapnet::page

@@ -20,7 +20,7 @@ inline constexpr std::size_t body_row_bytes = 117;
 /// Bytes of a message row before the message.
 inline constexpr std::size_t message_head_bytes = 21;
 
-/// How the rows of a file are laid out: all rows of one kind have one length.
+/// The layout of the rows of a file: all rows of one kind have one length.
 struct Layout {
     /// Version 2 has no `from` in its messages, and less in its session rows; version 4 has rows of
     /// bodies besides, and is otherwise version 3; version 5 has their owner in them.
@@ -64,7 +64,7 @@ struct Layout {
 
 using RowBytes = std::vector<std::byte>;
 
-/// One byte for the kind of the row, its fields (fields.hpp) little-endian and unaligned, then
+/// Encodes a row: one byte for its kind, its fields (fields.hpp) little-endian and unaligned, then
 /// zeros. The layout must have such rows, and a message be within its bounds; times beyond 36 years
 /// are written, but decode() refuses them.
 [[nodiscard]] RowBytes encode(const Row& row, const Layout& layout = {});

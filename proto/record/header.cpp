@@ -50,7 +50,8 @@ nlohmann::json description_of(const Layout& layout)
     return description;
 }
 
-/// What decides how rows are read: a unit is for people, and its words may become better.
+/// Returns the part of a schema that decides how rows are read. Units are for people, and their
+/// words may change.
 nlohmann::json without_units(nlohmann::json schema)
 {
     for (auto& row : schema) {

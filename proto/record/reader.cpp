@@ -63,7 +63,7 @@ base::Result<Record> read(const std::string& path)
     for (std::size_t number = 1;; ++number) {
         char kind{};
         if (!file.get(kind)) break;
-        // Of a kind that there is not, one byte is enough to say so.
+        // One byte is enough to report a kind that does not exist.
         bytes.assign(layout.bytes_of(std::byte(kind)).value_or(1), std::byte(kind));
         const auto rest = static_cast<std::streamsize>(bytes.size()) - 1;
         file.read(reinterpret_cast<char*>(bytes.data() + 1), rest);

@@ -16,7 +16,7 @@ namespace {
 using base::ByteReader;
 using base::ByteWriter;
 
-/// What both sides of a handshake must mean alike.
+/// Returns the facts on which both sides of a handshake must agree.
 std::array<std::byte, 18> prologue_of(const Association::Config& config)
 {
     constexpr std::string_view protocol = "hapnet 2";
@@ -223,8 +223,8 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
     if (!initiations_.add(waiting, drawn())) ++counts_.unread;
 }
 
-/// Where to answer a handshake message that came from there. Nothing is proved of it yet: a side
-/// that may not move is answered where it was said to be.
+/// Returns the place to which a handshake message from `from` is answered. Its sender is not proved
+/// yet, so a side that may not move is answered at its configured place, if it has one.
 Place Association::answer_place(const Place& from) const
 {
     return config_.may_roam || !place_ ? from : *place_;
@@ -266,7 +266,7 @@ void Association::tick(Moment moment)
 {
     const bool may_respond = responding_ || !initiations_.is_empty();
     const bool may_initiate = initiating_ && initiating_->has_work();
-    // By turns, so that a flood of the one kind does not stop the other.
+    // Takes turns, so that a flood of one kind does not stop the other.
     if (may_initiate && (!may_respond || is_turn_to_initiate_)) {
         step_initiation(moment);
         is_turn_to_initiate_ = false;
@@ -287,7 +287,7 @@ bool Association::needs_key(base::TimePoint now) const
     return now - current_->made >= lasts || now - last_opened_ >= silence;
 }
 
-/// Whether an answer of this side may still be confirmed by the other side. Waited for once: who
+/// True if an answer of this side may still be confirmed by the other side. Waited for once: who
 /// plays recorded initiations would else keep this side from ever beginning itself.
 bool Association::waits_for_confirmation(base::TimePoint now) const
 {
@@ -409,7 +409,7 @@ void Association::step_response(base::TimePoint now)
     responding_->noise.write(payload);
 }
 
-/// Whether another run than the one that is heard begins, and too soon after the last change: two
+/// True if another run than the one that is heard begins, and too soon after the last change: two
 /// programs with one key would push each other out for ever. A run that has fallen silent may be
 /// followed at once.
 bool Association::pushes_another_out(base::TimePoint now) const
@@ -418,7 +418,7 @@ bool Association::pushes_another_out(base::TimePoint now) const
            now - run_since_ < runs_change_every && now - last_opened_ < silence;
 }
 
-/// Whether an initiation that is proven to be the other side's is new, too.
+/// True if an initiation that is proven to be the other side's is new, too.
 bool Association::take_initiation(base::TimePoint now)
 {
     ByteReader in{responding_->noise.payload()};
@@ -475,8 +475,9 @@ void Association::repeat_answer(base::TimePoint now)
     send(answered_->frame, answered_->to);
 }
 
-/// Until the other side is heard under the key that this one began: it waits for that with all that
-/// it has to say, and this side may have nothing to say.
+/// Sends confirmations until the other side is heard under the key that this one began. The other
+/// side does not use that key before it has heard this side under it, and this side may have no
+/// messages of its own.
 void Association::confirm(base::TimePoint now)
 {
     if (!confirm_at_ || now < *confirm_at_ || !place_) return;
@@ -508,7 +509,7 @@ void Association::repeat(base::TimePoint now)
     initiating_->last_sent = now;
     initiating_->has_new_cookie = false;
     if (place_) send(*initiating_->frame, *place_);
-    // Somebody on the path may have made both sides look for each other elsewhere.
+    // An attacker on the path may have made both sides look for each other elsewhere.
     if (config_.place && config_.place != place_) send(*initiating_->frame, *config_.place);
 }
 

@@ -241,7 +241,8 @@ private:
     CookieJar cookies_;
     std::optional<Place> place_;
 
-    // Of at most three: in use, made but not confirmed by the other side, and on its way out.
+    // At most three epochs: the one in use, one that the other side has not confirmed yet, and one
+    // that ends soon.
     std::optional<Epoch> current_, next_, previous_;
     std::int64_t next_date_ = 0; // of the initiation that made the next one
     base::TimePoint previous_until_;

@@ -12,7 +12,7 @@ namespace {
 
 Bytes text(std::string_view words) { return std::as_bytes(std::span{words}); }
 
-/// Cookies travel sealed for those who know whom they speak to.
+/// Cookies are sealed for peers that know the other side's key.
 Secret key_of_cookies(const Hash& mac1_key)
 {
     const Hash key = hash(text("hapnet cookie"), mac1_key);

@@ -13,7 +13,7 @@
 
 namespace hapnet::secure {
 
-/// Which initiations of the other side are new, by the dates in them. A date is final once its
+/// Recognises new initiations of the other side by the dates in them. A date is final once its
 /// handshake made a key that the other side used: nothing older is taken again. Until then it may
 /// be that of a recorded initiation of a former run, and the other side's clock may have gone back
 /// since: for a while nothing older is taken, afterwards nothing older of the same run. So each

@@ -15,7 +15,7 @@ namespace hapnet::secure {
 /// The keys that one side has before a handshake begins.
 class StaticKeys {
 public:
-    /// nullopt when nothing can be shared with that public key.
+    /// Returns nullopt when no secret can be shared with that public key.
     [[nodiscard]] static std::optional<StaticKeys> from(Secret own, const PublicKey& other,
                                                         Secret shared);
 

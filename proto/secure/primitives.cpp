@@ -45,7 +45,7 @@ std::array<std::byte, crypto_aead_chacha20poly1305_ietf_NPUBBYTES> nonce_of(std:
     return nonce;
 }
 
-/// Whether it is below the curve's prime, in little-endian order.
+/// True if it is below the curve's prime, in little-endian order.
 bool is_canonical(const PublicKey& key)
 {
     constexpr PublicKey prime = [] {

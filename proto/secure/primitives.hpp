@@ -11,11 +11,12 @@
 #include <string_view>
 #include <utility>
 
-/// Who may move a hand: keys, the handshake that makes them, and the sealing of messages.
+/// Keys, the handshake that makes session keys, and the sealing of messages. They decide which
+/// peers may move a hand.
 namespace hapnet::secure {
 
-// The functions that Noise names 25519, ChaChaPoly and BLAKE2b, by libsodium. This is the only
-// place that calls it but for keys/, which draws at random.
+// The functions that Noise names 25519, ChaChaPoly and BLAKE2b, by libsodium. Only this file and
+// keys/, which draws at random, call libsodium.
 
 inline constexpr std::size_t key_bytes = 32;
 inline constexpr std::size_t hash_bytes = 64;

@@ -31,7 +31,8 @@ Opener::Outcome Opener::open(Kind kind, std::uint32_t number, Bytes associated,
         if (room.size() < tag_bytes || number > Sealer::number_max ||
             !secure::open(key_, nonce_number(kind, number), associated, room))
             return Outcome::forged;
-        // Only now: one forged message would shut out all that come after it.
+        // The number counts only now: one forged message would otherwise shut out all that come
+        // after it.
         numbers.add(number);
         return numbers.highest() == number ? Outcome::opened_newest : Outcome::opened;
     };

@@ -93,7 +93,7 @@ std::size_t Decimator::place_of(std::uint16_t id)
     return static_cast<std::size_t>(place);
 }
 
-/// What is of a time begins again; what is newest stays.
+/// Begins the values of a time span again; the newest values stay.
 void Decimator::begin_anew()
 {
     ++frame_.number;

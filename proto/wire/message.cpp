@@ -116,7 +116,7 @@ inline void put_echo(ByteWriter& out, const std::optional<Echo>& echo)
     out.u32(echo ? static_cast<std::uint32_t>(echo->age.count()) : 0);
 }
 
-/// nullopt when absent; canonical is cleared when an absent field is not all zero.
+/// Returns nullopt when absent; `canonical` becomes false when an absent field is not all zero.
 inline std::optional<Echo> take_echo(ByteReader& in, bool present, bool& canonical)
 {
     const Echo echo{take_time(in, canonical), base::Duration{in.u32()}};
@@ -317,7 +317,7 @@ inline bool is_finite(const State& state)
                        [](const BodyState& body) { return is_finite(body); });
 }
 
-// What all states have after their type, and what a body adds.
+// The number of bytes of every state after its type, and of those that a body adds.
 constexpr std::size_t head_bytes = 82, body_bytes = 50;
 constexpr std::size_t turning_bytes = 44; // and one that can turn
 
@@ -377,7 +377,7 @@ Fault take(ByteReader& in, Bye& bye)
     return nullptr;
 }
 
-/// Read where it is to be: a state is long, and comes a thousand times a second.
+/// Reads a message into its final place: a state is long, and comes a thousand times a second.
 template <typename Kind>
 [[gnu::flatten]] Result<Message> taken(ByteReader in)
 {
@@ -519,7 +519,7 @@ bool operator==(const BodyStates& a, const BodyStates& b)
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// With all calls in place: the writer stays in registers, whatever its bytes may alias.
+/// Inlines all calls, so that the writer stays in registers even if its bytes may alias it.
 template <typename Kind>
 [[gnu::flatten]] Datagram Datagram::of(const Kind& message)
 {

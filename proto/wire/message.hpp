@@ -47,7 +47,7 @@ class TaskName {
 public:
     static constexpr std::size_t bytes_max = 16;
 
-    /// nullopt unless 1 to 16 printable ASCII characters without spaces.
+    /// Returns nullopt unless the text has 1 to 16 printable ASCII characters without spaces.
     [[nodiscard]] static std::optional<TaskName> from_text(std::string_view text);
     [[nodiscard]] std::string_view text() const;
 
@@ -97,7 +97,7 @@ public:
     Orientation() = default; // not turned
     /// Encodes a quaternion of about unit length. Ensures that its length is close to 1.
     [[nodiscard]] static Orientation from(const glm::dquat& orientation);
-    /// nullopt for a code that no quaternion has.
+    /// Returns nullopt for a code that no quaternion has.
     [[nodiscard]] static std::optional<Orientation> from_code(std::uint64_t code);
 
     [[nodiscard]] glm::dquat quaternion() const; // of unit length
@@ -212,7 +212,7 @@ struct State {
     base::Position hip;
     base::Velocity hip_velocity;
     base::Force contact_force; // that the sender's hand exerts on the bodies
-    /// Where the hand wants to be, from the HIP; to 10 um, at most 0.327 m along an axis.
+    /// The place where the hand wants to be, from the HIP; to 10 um, at most 0.327 m along an axis.
     base::Displacement intention;
     base::Velocity intention_velocity; // to 0.2 mm/s, at most 6.55 m/s along an axis
     /// Work of the hand on its device since the session began, in microjoules, modulo 2^32.
@@ -280,8 +280,8 @@ private:
 [[nodiscard]] Datagram encode(const Bye& bye);
 [[nodiscard]] Datagram encode(const Message& message);
 
-/// The message in a datagram. Refuses whatever is not canonical: accepted bytes encode to
-/// themselves.
+/// Decodes the message in a datagram. Refuses all bytes that are not canonical: accepted bytes
+/// encode to themselves.
 [[nodiscard]] base::Result<Message> decode(std::span<const std::byte> datagram);
 
 /// Returns the protocol version of a datagram that starts like a message of this protocol: the

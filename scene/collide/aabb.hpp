@@ -21,7 +21,7 @@ struct Aabb {
     [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (low + high); }
 };
 
-// Without short cuts: compares are cheaper than unpredictable branches.
+// The tests have no short cuts: compares are cheaper than unpredictable branches.
 
 [[nodiscard]] inline bool overlap(const Aabb& a, const Aabb& b)
 {

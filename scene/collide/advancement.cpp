@@ -18,8 +18,8 @@ constexpr double worthwhile = 0.25;
 /// The widest gap that counts, if it is one.
 double widest(const GapSearch& search) { return std::max(0.0, search.gap + search.near); }
 
-/// While the spheres around two are near each other, within the time that is searched: for most
-/// that is never.
+/// Limits a search to the time in which the spheres around two are near each other. Returns false
+/// if they never are, as for most.
 bool narrow_to_spheres(const SteadyBox& a, const SteadyBox& b, GapSearch& search)
 {
     const glm::dvec3 velocity = b.velocity - a.velocity;
@@ -58,8 +58,8 @@ Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
     return {search.to, Advanced::End::clear};
 }
 
-/// For how long two whose corners go round come not near each other along a normal, whatever they
-/// turn.
+/// Returns the time for which two bodies whose corners go round stay more than `gap` apart along a
+/// normal, however far they turn.
 double time_beside(const Mover& a, const Mover& b, const glm::dvec3& normal, double gap)
 {
     const double room = glm::dot(normal, b.pivot() - a.pivot()) - gap -
@@ -69,7 +69,8 @@ double time_beside(const Mover& a, const Mover& b, const glm::dvec3& normal, dou
     return approach > 0.0 ? room / approach : HUGE_VAL;
 }
 
-/// The same along the normals that belong to the way they turn, and not to how they stand now.
+/// As time_beside(), along normals that belong to the way in which the bodies turn, and not to
+/// their present orientation.
 double time_beside_any(const Mover& a, const Mover& b, double gap)
 {
     const glm::dvec3 offset = b.pivot() - a.pivot();
@@ -82,7 +83,7 @@ double time_beside_any(const Mover& a, const Mover& b, double gap)
     return std::max({along(offset), along(a.motion.spin), along(b.motion.spin)});
 }
 
-/// Of two that do not turn: exact.
+/// Advances two that do not turn; exact.
 Advanced advance_straight(const Mover& a, const Mover& b, const GapSearch& search)
 {
     const glm::dvec3 offset = b.box.centre - a.box.centre;
@@ -120,7 +121,7 @@ Advanced advance_straight(const Mover& a, const Mover& b, const GapSearch& searc
     return {search.from + enter, Advanced::End::reached};
 }
 
-/// How fast the corners of one that turns are drawn towards the axis, at most: m/s^2.
+/// The greatest acceleration of a turning body's corners towards the axis: m/s^2.
 double bend_of(const Mover& mover)
 {
     return mover.speed_of_turning * mover.speed_of_turning * mover.whirl.widest;
@@ -144,8 +145,8 @@ std::size_t add_parts(Forecast& forecast, std::size_t count, const Mover& mover,
     return count;
 }
 
-/// Of two of which one is round: along the one normal along which they are apart. Without turns
-/// that is Newton's method, as their distance is convex then. A core has one edge at most, so the
+/// Advances two of which one is round, along the one normal that separates them. Without turns that
+/// is Newton's method, as their distance is convex then. A core has one edge at most, so that the
 /// parts of both are four at most.
 Advanced advance_round(Mover& a, Mover& b, const GapSearch& search, std::uint32_t& steps)
 {

@@ -9,8 +9,8 @@
 
 namespace hapnet::scene {
 
-/// What to look for: the first time in [from, to] at which a gap has shrunk to `gap`, which may be
-/// an overlap; a gap not wider than that by `near` counts.
+/// The event to look for: the first time in [from, to] at which a gap has shrunk to `gap`, which
+/// may be an overlap; a gap not wider than that by `near` counts.
 struct GapSearch {
     double gap = 0.0;
     double near = 0.0;
@@ -18,7 +18,7 @@ struct GapSearch {
     double to = 0.0;
 };
 
-/// Until `time` the gap is wider than was asked for.
+/// The gap is wider than was asked for until `time`.
 struct Advanced {
     enum class End : std::uint8_t { clear, reached, unfinished };
     double time = 0.0;

@@ -45,7 +45,7 @@ Manifold apart()
     return manifold;
 }
 
-/// How far `other` is from the face of `owner` that looks at it along one of the owner's axes.
+/// The distance of `other` from the face of `owner` that looks at it along one of the owner's axes.
 double face_separation(const OrientedBox& owner, const OrientedBox& other, int axis)
 {
     const glm::dvec3& normal = owner.axes[axis];
@@ -58,7 +58,7 @@ double face_separation_of(const OrientedBox& a, const OrientedBox& b, int axis)
     return axis < 3 ? face_separation(a, b, axis) : face_separation(b, a, axis - 3);
 }
 
-/// Whether two edges' common normal keeps the boxes more than `margin` apart.
+/// True if two edges' common normal keeps the boxes more than `margin` apart.
 bool edges_separate(const OrientedBox& a, const OrientedBox& b, EdgePair edges, double margin)
 {
     const glm::dvec3 normal = glm::cross(a.axes[edges.of_a], b.axes[edges.of_b]);

@@ -14,7 +14,7 @@ namespace {
 using Triple = std::array<double, 3>;
 using Corners = std::array<std::uint32_t, manifold_points_max>;
 
-/// When the axes add `rise` to a corner's height.
+/// Returns the four deepest corners of a box whose half edges add `rise` to a corner's height.
 Corners deepest(const Triple& rise)
 {
     const Triple size{std::abs(rise[0]), std::abs(rise[1]), std::abs(rise[2])};

@@ -23,18 +23,18 @@ struct PlaneCorner {
 };
 
 /// The four deepest corners of a box over a plane with such a normal (out of the solid), in a fixed
-/// order: of the face that looks most at the plane, or, when the box stands on a corner, that one
-/// and its three neighbours. How high the box is does not matter.
+/// order: the corners of the face that looks most at the plane, or, when the box stands on a
+/// corner, that corner and its three neighbours. How high the box is does not matter.
 [[nodiscard]] std::array<PlaneCorner, manifold_points_max>
 deepest_corners(const glm::dvec3& normal, const glm::dmat3& axes, const glm::dvec3& half);
 
-/// Of a sphere its lowest point, of a capsule that of each end; the others are higher than
-/// anything.
+/// The lowest point of a sphere, or the lowest point of each end of a capsule. The other entries
+/// are higher than anything.
 [[nodiscard]] std::array<PlaneCorner, manifold_points_max> lowest_points(const glm::dvec3& normal,
                                                                          const OrientedBox& round);
 
-/// Those of them below a plane or at most `margin` above it; the normal is the plane's (from the
-/// plane to the box).
+/// Finds the deepest corners of a box, or the lowest points of a round body, that are below a plane
+/// or at most `margin` above it. The normal is the plane's (from the plane to the box).
 [[nodiscard]] Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margin);
 
 } // namespace hapnet::scene

@@ -74,14 +74,14 @@ struct Strip {
 
     [[nodiscard]] double place(const Vertex& vertex) const { return is_v ? vertex.v : vertex.u; }
 
-    /// Whether the line from here to there crosses a side, and is not along it.
+    /// True if the line from here to there crosses a side, and is not along it.
     [[nodiscard]] bool is_crossed(double here, double there) const
     {
         return here - limit < -tolerance && there - limit > tolerance;
     }
 };
 
-/// Where the line from a vertex within a side to one without crosses it.
+/// Returns where the line from a vertex within a side to one outside crosses it.
 Vertex crossing(const Vertex& within, const Vertex& without, const Strip& strip, double sign)
 {
     const double inner = strip.limit - sign * strip.place(within);
@@ -159,7 +159,7 @@ Polygon cut_to_reference(const Polygon& polygon, const Faces& faces)
     return cut(cut(polygon, u), v);
 }
 
-/// How one box lies on a face of the other.
+/// Describes the position of one box on a face of the other.
 Faces facing(const OrientedBox& reference, const OrientedBox& incident, int axis)
 {
     Faces faces;

@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-/// How far apart two things are; < 0 where they overlap: minus the shortest way out.
+/// The distance between two things; < 0 where they overlap: minus the shortest way out.
 struct Separation {
     double distance = 0.0;
     glm::dvec3 direction{0.0}; // unit, from the second to the first: the way out
@@ -16,16 +16,17 @@ struct Separation {
     glm::dvec3 on_second{0.0};
 };
 
-/// Of a point and a box or a round body, exact. Where the centre of a cube has no nearest face, the
-/// first counts.
+/// Returns the exact separation of a point and a box or a round body. Where the centre of a cube
+/// has no nearest face, the first face counts.
 [[nodiscard]] Separation separation(const glm::dvec3& point, const OrientedBox& box);
 
-/// Of two, exact: of boxes by their corners and edges, or by their fifteen axes where they overlap.
-/// There `on_first` is in the middle of what of the first is deepest in the second.
+/// Returns the exact separation of two boxes or round bodies. That of boxes follows from their
+/// corners and edges. For boxes that overlap it follows from their fifteen axes; `on_first` is then
+/// in the middle of the part of the first box that is deepest in the second.
 [[nodiscard]] Separation separation(const OrientedBox& first, const OrientedBox& second);
 
-/// Where a ray enters a box or a round body: how far along `direction` (of length 1), at most
-/// `length`. From inside it enters at once.
+/// The place where a ray enters a box or a round body: the distance along `direction` (of length
+/// 1), at most `length`. A ray from inside enters at once.
 struct RayEntry {
     double distance = 0.0;
     glm::dvec3 normal{0.0}; // of the surface; against the ray where it began inside

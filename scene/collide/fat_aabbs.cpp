@@ -14,9 +14,11 @@ namespace hapnet::scene {
 
 namespace {
 
-// How long a body that keeps its velocity stays in its box. Longer: fewer new boxes, more pairs.
+// The time for which a body that keeps its velocity stays in its box. A longer time means fewer new
+// boxes and more pairs.
 constexpr double look_ahead_ticks = 32.0;
-// How far a body strays from its path, or its corners by rotation, in mean half edges.
+// The distance by which a body strays from its path, or its corners by rotation, in mean half
+// edges.
 constexpr double wander_share = 0.1;
 // A box becomes no longer and no larger than this times a body's mean edge, or the cube of that,
 // by its path: along one axis far, across them less, where it would meet many. Unless the body is
@@ -35,7 +37,7 @@ bool is_fixed(const BodyProperties& properties)
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// How many times larger a box becomes by a path of that many of its edges.
+/// The factor by which a box grows for a path of that many of its edges.
 double stretch(const glm::dvec3& edges)
 {
     return (1.0 + edges.x) * (1.0 + edges.y) * (1.0 + edges.z);
@@ -66,7 +68,7 @@ FatAabbs::Size FatAabbs::size_of(const BodyProperties& properties) const
                 properties.turning == Turning::locked ? 0.0 : largest(properties.inverse_inertia)};
 }
 
-/// Where the centre will be within the look-ahead, but not too far from where it is.
+/// Returns a box around the way of the centre within the look-ahead, whose length is limited.
 Aabb FatAabbs::path(const Bodies& bodies, Slot slot, double stray) const
 {
     const glm::dvec3 position = bodies.position.at(slot);
@@ -178,7 +180,7 @@ struct Lanes {
     double tick;
 };
 
-/// What is left of the room along an axis at the end of a step; < 0 when it is left.
+/// The room that is left along an axis at the end of a step; < 0: the body has left its box.
 inline double rest_of(double room, double away, double velocity, double tick)
 {
     return room - std::abs(away) - std::abs(velocity) * tick;
@@ -204,7 +206,7 @@ inline std::uint64_t left_at(const Lanes& l, std::size_t n)
 constexpr unsigned sign = 63;
 constexpr std::size_t block = 16;
 
-/// Whether any of a block has left.
+/// True if any of a block has left.
 bool any_left(const Lanes& lanes, std::size_t first)
 {
     const Lanes own = lanes; // which nothing else can change
@@ -215,7 +217,7 @@ bool any_left(const Lanes& lanes, std::size_t first)
 
 } // namespace
 
-/// For a few bodies, one after the other: without the lanes' addresses.
+/// Serves a few bodies, one after the other, without the lanes' addresses.
 bool FatAabbs::has_moved_out(const Bodies& bodies, Slot slot) const
 {
     const Bounds& bounds = bounds_[bodies.properties[slot].id];

@@ -25,18 +25,18 @@ public:
 
     /// Adds the slots of the awake bodies that leave their boxes within this tick, or have.
     void find_moved_out(const Bodies& bodies, Bounded<Slot>& moved_out) const;
-    /// Whether one does.
+    /// True if the body in the slot leaves its box within this tick, or has left it.
     [[nodiscard]] bool has_moved_out(const Bodies& bodies, Slot slot) const;
     /// A new box around a body and where it is going.
     [[nodiscard]] Aabb renew(const Bodies& bodies, Slot slot);
-    /// What of the box that a body has got one of its parts needs.
+    /// Returns the portion of a body's fat box that one of its parts needs.
     [[nodiscard]] Aabb around(const Bodies& bodies, PartId part, const Aabb& whole) const;
     /// Says that another body lies in an awake slot.
     void update_slot(const Bodies& bodies, Slot slot);
 
 private:
-    /// How far a body may go without leaving its box: its centre, with what it moves in a tick,
-    /// no farther than `room` from `centre` along each axis.
+    /// The region in which a body does not leave its box: along each axis, the distance of its
+    /// centre from `centre`, plus the distance that it moves in a tick, is at most `room`.
     struct Bounds {
         glm::dvec3 centre{0.0};
         glm::dvec3 room{0.0};
@@ -44,7 +44,7 @@ private:
         double similarity_min = -1.0;   // of the squared scalar product of orientations
         double angular_momentum2 = 0.0; // at most, squared
     };
-    /// What a body's size makes of the margins, metres.
+    /// The margins that follow from a body's size, metres.
     struct Size {
         double nearby = 0.0; // nearby_margin, in metres
         double stray = 0.0;  // what it may stray from its path
@@ -58,7 +58,8 @@ private:
     double tick_;
     glm::dvec3 gravity_;
     std::vector<Bounds> bounds_; // by id of a body
-    // By slot, in the order of Bounds: middle, room, orientation w x y z, likeness, momentum.
+    // The lanes by slot, in the order of Bounds: middle, room, orientation w x y z, likeness,
+    // momentum.
     static constexpr std::size_t lanes = 12;
     std::array<std::vector<double>, lanes> lanes_;
 };

@@ -12,7 +12,8 @@ namespace {
 // Farther out bodies share the cells of the border: slow there, and still right.
 constexpr double cells_max = 1 << 20;
 constexpr unsigned cell_bits = 21;
-// Of the median box, so that a box that reaches far ahead still lies in few cells.
+// The edge of a cell, in edges of the median box, so that a box that reaches far ahead still lies
+// in few cells.
 constexpr double cell_edges = 3.0;
 
 double largest_edge(const Aabb& box)

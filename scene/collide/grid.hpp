@@ -93,7 +93,8 @@ private:
                     visit_cell({x, y, z}, {box, cells.low}, visit);
     }
 
-    /// Of the cells that both boxes reach into, it counts in the lowest.
+    /// Visits the bodies of a cell. A body that shares several cells with the query is visited only
+    /// in the lowest of them.
     template <typename Visit>
     void visit_cell(const Cell& cell, const Query& asked, Visit& visit) const
     {

@@ -15,7 +15,7 @@ namespace {
 
 // Boxes no farther apart than this share of the smallest half edge lie flush.
 constexpr double flush_share = 1e-5;
-// Of a half edge: rounding of where a box is.
+// The rounding of a box's place, as a share of a half edge.
 constexpr double place_rounding = 1e-12;
 // A sphere beside an edge may lean over it by any angle. A box that has tilted on a floor pushes
 // along its own face, which leans by as much.
@@ -29,7 +29,7 @@ bool is_in(const OrientedBox& box, const glm::dvec3& point, double within)
     return std::max({beyond.x, beyond.y, beyond.z}) <= within;
 }
 
-/// How far a box reaches along each axis of the world.
+/// The reach of a box along each axis of the world.
 glm::dvec3 reach_of(const OrientedBox& box)
 {
     return {half_projection(box, {1.0, 0.0, 0.0}), half_projection(box, {0.0, 1.0, 0.0}),
@@ -104,7 +104,7 @@ InternalFaces::InternalFaces(const Bodies& bodies)
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 
-/// Whether a neighbour lies on a face where it is nearest to a place. The probe is a hair outside
+/// True if a neighbour lies on a face where it is nearest to a place. The probe is a hair outside
 /// the face and a hair within its border: what ends at the border covers nothing of it.
 bool InternalFaces::is_covered(PartId part, const glm::dvec3& half, const glm::dvec3& place,
                                const BoxFace& face) const

@@ -19,20 +19,20 @@ public:
     InternalFaces() = default;
     explicit InternalFaces(const Bodies& bodies);
 
-    /// Whether there are any.
+    /// True if any part has a neighbour.
     [[nodiscard]] bool any() const { return !neighbours_.empty(); }
-    /// Whether a part has a neighbour.
+    /// True if a part has a neighbour.
     [[nodiscard]] bool has(PartId part) const
     {
         return any() && first_[part] != first_[part + std::size_t{1}];
     }
 
-    /// Whether the way out of a part, from a point of its surface along a unit normal, leads into a
+    /// True if the way out of a part, from a point of its surface along a unit normal, leads into a
     /// neighbour. Both are in the part's own frame; normals that lean towards a face by less than
     /// `lean` (a sine) do not lead through it.
     [[nodiscard]] bool leads_inside(PartId part, const glm::dvec3& half, const LocalOverlap& at,
                                     double lean) const;
-    /// Whether a neighbour with a lower id has the same point of the surface: then that one counts.
+    /// True if a neighbour with a lower id has the same point of the surface: then that one counts.
     [[nodiscard]] bool is_shared(PartId part, const LocalOverlap& at) const;
     /// The face nearest to a place in the part that is not internal there.
     [[nodiscard]] std::optional<BoxFace> nearest_outer_face(PartId part, const glm::dvec3& half,

@@ -45,13 +45,13 @@ struct Manifold {
     [[nodiscard]] std::span<ContactPoint> touching() { return {points.data(), count}; }
 };
 
-/// Where the bodies of a contact are.
+/// The places of the bodies of a contact.
 struct ContactPlaces {
     glm::dvec3 a{0.0};
     glm::dvec3 b{0.0};
 };
 
-/// Whether some point is at most so far above the surface.
+/// True if some point is at most `within` above the surface.
 [[nodiscard]] inline bool lies_on(const Manifold& manifold, double within)
 {
     for (const ContactPoint& point : manifold.touching()) {
@@ -72,20 +72,20 @@ inline constexpr std::uint32_t feature_bits_count = 6;
     return 1U << (2U * static_cast<unsigned>(axis) + (is_positive ? 1U : 0U));
 }
 
-/// Which features of two boxes meet: as ContactPoint::feature holds it.
+/// Returns the features of two boxes that meet, as ContactPoint::feature holds them.
 [[nodiscard]] constexpr std::uint32_t feature_pair(FeatureBits first, FeatureBits second)
 {
     return first | second << feature_bits_count;
 }
 
-/// The same meeting with the boxes exchanged.
+/// Returns the feature pair with the boxes exchanged.
 [[nodiscard]] constexpr std::uint32_t swapped_feature_pair(std::uint32_t feature)
 {
     constexpr std::uint32_t mask = (1U << feature_bits_count) - 1U;
     return feature_pair(feature >> feature_bits_count, feature & mask);
 }
 
-/// Of the core of a round body: a point or a line.
+/// Returns the core of a round body: a point or a line.
 [[nodiscard]] inline OrientedBox core_of(const OrientedBox& shape)
 {
     return {shape.centre, shape.axes, shape.half - shape.rounding};
@@ -99,14 +99,14 @@ inline constexpr std::uint32_t feature_bits_count = 6;
            box.half.z * std::abs(glm::dot(direction, box.axes[2]));
 }
 
-/// The same of any shape, along a unit normal.
+/// Half the length of any shape's shadow along a unit normal.
 [[nodiscard]] inline double half_extent(const OrientedBox& shape, const glm::dvec3& normal)
 {
     if (!shape.is_round()) return half_projection(shape, normal);
     return half_projection(core_of(shape), normal) + shape.rounding;
 }
 
-/// How far a shape reaches from its centre.
+/// The greatest distance of a shape's surface from its centre.
 [[nodiscard]] inline double outer_radius(const glm::dvec3& half, double rounding)
 {
     const glm::dvec3 core = half - rounding;
@@ -119,7 +119,7 @@ inline constexpr std::uint32_t feature_bits_count = 6;
     return std::min({box.half.x, box.half.y, box.half.z});
 }
 
-/// What tolerances are relative to.
+/// The length that tolerances are relative to: the smallest half edge of both boxes.
 [[nodiscard]] inline double smallest_half(const OrientedBox& a, const OrientedBox& b)
 {
     return std::min({a.half.x, a.half.y, a.half.z, b.half.x, b.half.y, b.half.z});

@@ -14,8 +14,8 @@
 
 namespace hapnet::scene {
 
-/// How far a box that turns steadily reaches from its centre in the course of all its turns: its
-/// corners go round in circles about the axis of its spin. Of a round body, its core.
+/// The reach of a box that turns steadily, from its centre and over all its turns: its corners go
+/// round in circles about the axis of its spin. For a round body, the reach of its core.
 struct Whirl {
     // A turn, in radians, from which on it pays to ask how far a box reaches in all its turns.
     static constexpr double far_turn = 0.5;
@@ -26,7 +26,8 @@ struct Whirl {
     double widest = 0.0; // m, of `across`
     bool is_known = false;
 
-    /// Of what turns so far in the time that it pays to know it.
+    /// Finds the reach of a box that turns far enough within `time`. Otherwise the reach is its
+    /// radius.
     Whirl(const SteadyBox& box, double time)
     {
         const double square = glm::dot(box.spin, box.spin);
@@ -65,7 +66,7 @@ struct Whirl {
     }
 };
 
-/// What a look needs to know of one of the two.
+/// The facts that a look needs about one of the two.
 struct Mover {
     const SteadyBox& motion;
     bool turns = false;            // a sphere looks the same, however it turns
@@ -89,17 +90,17 @@ struct Mover {
             box.centre = motion.centre + time * motion.velocity;
         if (motion.is_part && !turns) box.centre += arm();
     }
-    /// What it turns about.
+    /// The point that the box turns about.
     [[nodiscard]] glm::dvec3 pivot() const
     {
         return motion.is_part ? box.centre - arm() : box.centre;
     }
-    /// Of the box's centre.
+    /// The velocity of the box's centre.
     [[nodiscard]] glm::dvec3 velocity() const
     {
         return motion.is_part ? motion.velocity + glm::cross(motion.spin, arm()) : motion.velocity;
     }
-    /// How fast the centre of a part goes round, at most, m/s.
+    /// The greatest speed at which the centre of a part goes round, m/s.
     [[nodiscard]] double orbit_speed() const
     {
         return motion.is_part ? speed_of_turning * length(motion.arm) : 0.0;
@@ -111,7 +112,7 @@ struct Mover {
     }
 
 private:
-    /// From what it turns about to the box's centre, in the world.
+    /// Returns the vector from the pivot to the box's centre, in the world.
     [[nodiscard]] glm::dvec3 arm() const
     {
         return box.axes * (glm::transpose(motion.frame) * motion.arm);

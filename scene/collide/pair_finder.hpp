@@ -15,14 +15,14 @@
 
 namespace hapnet::scene {
 
-/// How the movable bodies of a scene find each other.
+/// The method by which the movable bodies of a scene find each other.
 enum class BroadPhase : std::uint8_t {
     none,      // there is only one
     all_pairs, // each is compared with each
     grid,
 };
 
-/// Where a hand's sphere goes within a tick.
+/// The way of a hand's sphere within a tick.
 struct HandPath {
     glm::dvec3 from{0.0};
     glm::dvec3 to{0.0};
@@ -47,13 +47,13 @@ public:
     void update(const Bodies& bodies);
 
     /// Pairs of parts of two bodies, at least one of them movable and awake, by the parts' ids: a
-    /// body of one part has its own id, see PartId. An index is good until the next update(); so is
-    /// the list, but for activate().
+    /// body of one part has its own id, see PartId. An index is valid until the next update(). The
+    /// list is valid until the next update() or activate().
     [[nodiscard]] std::span<const PairIndex> pairs() const { return pairs_.active(); }
     [[nodiscard]] Pair& pair(PairIndex index) { return pairs_[index]; }
     /// Awake bodies (`a`) near planes (`b`, an index into WorldConfig::planes).
     [[nodiscard]] std::span<const PairIndex> plane_pairs() const { return plane_pairs_.active(); }
-    /// How many there can be, at most.
+    /// The greatest possible number of pairs with planes.
     [[nodiscard]] std::size_t plane_pairs_max() const { return plane_pairs_.size_max(); }
     [[nodiscard]] Pair& plane_pair(PairIndex index) { return plane_pairs_[index]; }
 
@@ -92,18 +92,19 @@ public:
     [[nodiscard]] const PairSet& all_pairs() const { return pairs_; }
     [[nodiscard]] const PairSet& all_plane_pairs() const { return plane_pairs_; }
 
-    /// How many pairs of both kinds there may be.
+    /// The greatest possible number of pairs of both kinds.
     [[nodiscard]] std::size_t pairs_max() const
     {
         return pairs_.size_max() + plane_pairs_.size_max();
     }
 
-    /// What was done, for tests and measurements.
+    /// Counts of the work done, for tests and measurements.
     struct Counts {
         std::uint64_t renewed = 0;       // bodies that left their fat boxes
         std::uint64_t hands_renewed = 0; // hands that did
-        // For which there was no room (32 for every movable body, 8 with planes), counted anew in
-        // every tick; 0 unless very many bodies overlap. They are looked for until there is room.
+        // The number of pairs without room (32 for every movable body, 8 with planes). A pair
+        // counts again in every tick; 0 unless very many bodies overlap. The search for them goes
+        // on until there is room.
         std::uint64_t pairs_left_out = 0;
     };
     [[nodiscard]] Counts counts() const;

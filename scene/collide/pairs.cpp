@@ -91,7 +91,7 @@ void PairSet::apply_changes()
     removed_.clear();
 }
 
-/// Where a pair is in the list of the active ones, or would be.
+/// Returns the place of a pair in the list of the active ones, or where it would be.
 PairIndex* PairSet::find(PairIndex* first, PairIndex* last, PairIndex index) const
 {
     return std::lower_bound(first, last, index,
@@ -131,7 +131,7 @@ void PairSet::merge_arriving()
 {
     std::sort(arriving_.begin(), arriving_.end(),
               [this](PairIndex x, PairIndex y) { return keys_[x] < keys_[y]; });
-    // From the back, so that what lies before the first to come stays as it is.
+    // The merge goes from the back, so that the part before the first new pair stays as it is.
     PairIndex* from = active_.begin() + active_.size();
     active_.resize(active_.size() + arriving_.size());
     PairIndex* to = active_.end();

@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-/// What a contact was last tick, so that the solver starts from it.
+/// The state of a contact in the last tick. The solver starts from it.
 struct ContactMemory {
     BoxBoxMemory axis;
     std::uint32_t count = 0;
@@ -23,10 +23,10 @@ struct ContactMemory {
     double normal_impulse_of_tick = 0.0; // N s, all of it, with bounces; if `count` > 0
 };
 
-/// Whether the contact had a normal impulse last tick: then what sleeps on it wakes with it.
+/// True if the contact had a normal impulse last tick: then what sleeps on it wakes with it.
 [[nodiscard]] bool touches(const ContactMemory& memory);
 
-/// Two near each other: parts of two bodies with `a` < `b`, or the part `a` and the plane `b`.
+/// A pair of near things: parts of two bodies with `a` < `b`, or the part `a` and the plane `b`.
 struct Pair {
     PartId a = 0;
     std::uint32_t b = 0;
@@ -52,13 +52,13 @@ public:
     [[nodiscard]] Pair& operator[](PairIndex index) { return pairs_[index]; }
     [[nodiscard]] const Pair& operator[](PairIndex index) const { return pairs_[index]; }
 
-    /// By (a, b). Valid until the next apply_changes().
+    /// The active pairs, sorted by (a, b). Valid until the next apply_changes().
     [[nodiscard]] std::span<const PairIndex> active() const { return active_.all(); }
-    /// Which of them the last apply_changes() added, by (a, b).
+    /// The pairs that the last apply_changes() added, sorted by (a, b).
     [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
     [[nodiscard]] std::uint32_t size() const { return size_; }
     [[nodiscard]] std::size_t size_max() const { return pairs_.size_max(); }
-    /// How often there was no room.
+    /// The number of times that add() found no room for a pair.
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
     /// Adds a pair that is not there; false when there is no room for it.
@@ -82,7 +82,7 @@ public:
             i = next;
         }
     }
-    /// The same for its `b`.
+    /// Visits the pairs whose second member is `b`.
     template <typename Visit>
     void for_second(std::uint32_t b, Visit visit) const
     {

@@ -58,7 +58,7 @@ public:
         }
     };
 
-    /// Those along which they are farther apart than so much.
+    /// Finds the axes along which the two are farther apart than `more_than`.
     void find_open(double more_than, OpenAxes& open) const
     {
         const PerAxis half_a = per_axis(a_.box.half);
@@ -99,8 +99,8 @@ public:
         }
     }
 
-    /// How the room along one of them beyond a gap goes on, while the centres are not farther apart
-    /// than that.
+    /// Forecasts the room along an axis beyond a gap, as long as the centres are no farther apart
+    /// than `apart`.
     [[nodiscard]] Forecast forecast(const Open& open, double gap, double apart) const
     {
         const double spin_a = a_.speed_of_turning;

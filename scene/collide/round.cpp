@@ -36,7 +36,7 @@ CoreLine line_of(const OrientedBox& shape)
     return {shape.centre, shape.axes[axis], core[axis]};
 }
 
-/// Where a line and another core are nearest.
+/// The place where a line and another core are nearest.
 struct Meeting {
     double distance = 0.0;  // of the cores; < 0 of a line that is in a box
     glm::dvec3 normal{0.0}; // unit, from the line to the other
@@ -72,7 +72,7 @@ Meeting meet(const CoreLine& line, const CoreLine& other, double rounding)
     const double sine2 = 1.0 - cosine * cosine;
     const double reach = std::abs(cosine) * other.half;
     const bool is_along = line.half > 0.0 && other.half > 0.0 && sine2 <= along_sine * along_sine;
-    // What of the line is beside the other.
+    // The part of the line that is beside the other.
     const double first = std::max(-line.half, on_line - reach);
     const double last = std::min(line.half, on_line + reach);
     constexpr double no_sine2 = 1e-20;
@@ -158,8 +158,9 @@ private:
         return glm::dot(axis_, there - glm::clamp(there, -box_.half, box_.half));
     }
 
-    /// Where on the line the distance is least; the middle of where it is equally near. The slope
-    /// is straight between two bends, where the line comes into the slab of an axis or leaves it.
+    /// Returns the point on the line with the least distance, or the middle of those that are
+    /// equally near. The slope is straight between two bends, where the line comes into the slab of
+    /// an axis or leaves it.
     [[nodiscard]] double nearest() const
     {
         struct Bend {
@@ -193,8 +194,8 @@ private:
         return falls.place + share * (rises.place - falls.place);
     }
 
-    /// Where it is within the slabs of some of the box's axes: those along which it does not come
-    /// nearer to a corner or an edge.
+    /// Sets the stretch of the line that is within the slabs of some of the box's axes: those along
+    /// which the line does not come nearer to a corner or an edge.
     void set_alongside(Meeting& found, const std::array<bool, 3>& within) const
     {
         found.from = found.to = found.place;
@@ -211,7 +212,8 @@ private:
             first = std::max(first, std::min(one, two));
             last = std::min(last, std::max(one, two));
         }
-        // Beside an edge only what is parallel to it: what is farther along is farther off.
+        // Beside an edge only a parallel line counts: on another, points farther along are farther
+        // off.
         if (count == 1 && 1.0 - along2 > along_sine * along_sine) return;
         if (!(first < last)) return;
         found.set_alongside(first, last);
@@ -264,7 +266,7 @@ private:
     glm::dvec3 centre_, axis_;
 };
 
-/// Of a round shape and any other.
+/// Finds where a round shape and any other meet.
 Meeting meet(const OrientedBox& round, const OrientedBox& other, bool tilts = false)
 {
     const CoreLine line = line_of(round);

@@ -8,21 +8,22 @@
 
 #include <optional>
 
-// Two of which at least one is round. A sphere is a point and a capsule a line, each with a
-// rounding: what holds of the surfaces follows from where the cores are nearest.
+// Collisions of two shapes of which at least one is round. A sphere is a point and a capsule a
+// line, each with a rounding. The contact of the surfaces follows from the place where the cores
+// are nearest.
 
 namespace hapnet::scene {
 
-/// Of the surfaces; < 0: the shortest way out.
+/// Distances are between the surfaces; < 0: the shortest way out.
 [[nodiscard]] Gap round_gap(const OrientedBox& a, const OrientedBox& b);
 [[nodiscard]] Separation round_separation(const OrientedBox& first, const OrientedBox& second);
 [[nodiscard]] Separation round_separation(const glm::dvec3& point, const OrientedBox& shape);
 
-/// Where they touch, or are up to `margin` apart: one point, or two where a capsule lies along a
-/// face, an edge or another capsule, up to about a degree off it.
+/// Finds where the two touch, or are up to `margin` apart: one point, or two where a capsule lies
+/// along a face, an edge or another capsule, up to about a degree off it.
 [[nodiscard]] Manifold round_manifold(const OrientedBox& a, const OrientedBox& b, double margin);
 
-/// As time_of_impact(): by Newton's method, as the distance of two that do not turn is convex.
+/// As time_of_impact(), by Newton's method: the distance of two shapes that do not turn is convex.
 [[nodiscard]] std::optional<TimeOfImpact> round_time_of_impact(const OrientedBox& a,
                                                                const OrientedBox& b,
                                                                const glm::dvec3& relative_velocity,

@@ -26,7 +26,7 @@ double reach(const glm::dvec3& half)
 
 double along(const BoxFace& face, const glm::dvec3& place) { return face.sign * place[face.axis]; }
 
-/// Whether a place is in the box or behind it, seen from in front of the face.
+/// True if a place is in the box or behind it, seen from in front of the face.
 bool is_behind(const BoxFace& face, const glm::dvec3& half, const glm::dvec3& place)
 {
     const int u = (face.axis + 1) % 3;

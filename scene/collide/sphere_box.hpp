@@ -36,14 +36,14 @@ struct BoxFace {
     return face_at(nearest, place[nearest]);
 }
 
-/// How a sphere and a box overlap, in the world's frame.
+/// The overlap of a sphere and a box, in the world's frame.
 struct SphereOverlap {
     double depth = 0.0;     // metres, > 0
     glm::dvec3 normal{0.0}; // unit, from the box to the sphere
     glm::dvec3 point{0.0};  // on the surface of the box, nearest to the centre along the normal
 };
 
-/// The same in the box's frame.
+/// The overlap in the box's frame.
 struct LocalOverlap {
     double depth = 0.0;
     glm::dvec3 normal{0.0};
@@ -54,9 +54,9 @@ struct LocalOverlap {
 /// Amid a face is what is no farther from its middle than this share of the half edges.
 inline constexpr double amid_face_share = 0.9;
 
-/// How far a sphere's centre may come in one tick, or go behind the face where it went in, in
-/// units of the box's longest half edge; beyond it was put there, and nothing is remembered. A
-/// cube of 4 cm: 8 cm, that is 80 m/s at 1 kHz.
+/// The limit of a sphere's way in one tick, and of its depth behind the face where it went in, in
+/// units of the box's longest half edge. A sphere beyond it was put there, and its past is
+/// forgotten. A cube of 4 cm: 8 cm, that is 80 m/s at 1 kHz.
 inline constexpr double sphere_reach_of_half = 4.0;
 
 /// Finds how a sphere overlaps a box, and remembers the face through which its centre went in, so
@@ -67,17 +67,18 @@ inline constexpr double sphere_reach_of_half = 4.0;
 /// corners.
 class SphereBoxMemory {
 public:
-    /// nullopt when they do not overlap. For a sphere without a known earlier place.
+    /// For a sphere without a known earlier place. nullopt: they do not overlap.
     [[nodiscard]] std::optional<SphereOverlap> find(const OrientedBox& box,
                                                     const glm::dvec3& centre, double radius);
 
-    /// Likewise; `before` is where the centre was a tick ago in the box's frame of that time, see
-    /// to_local(): the face is the one that the straight line from there to here meets first.
+    /// For a sphere whose centre was at `before` a tick ago, in the box's frame of that time; see
+    /// to_local(). The entered face is the one that the straight line from there to the centre
+    /// meets first. nullopt: they do not overlap.
     [[nodiscard]] std::optional<SphereOverlap>
     find(const OrientedBox& box, const glm::dvec3& centre, double radius, const glm::dvec3& before);
 
-    /// Likewise in the frame of a box with such half edges; `before` is null when it is not known.
-    /// A sphere in front of one of the faces, as most are, or far away costs a few compares.
+    /// As find(), in the frame of a box with these half edges. `before` is null when it is not
+    /// known. A sphere in front of one of the faces, as most are, or far away costs a few compares.
     [[nodiscard]] std::optional<LocalOverlap> find(const glm::dvec3& half, const glm::dvec3& place,
                                                    double radius, const glm::dvec3* before);
 

@@ -24,13 +24,14 @@ struct SteadyBox {
     glm::dmat3 frame{1.0};
 
     [[nodiscard]] bool is_round() const { return rounding > 0.0; }
-    /// Of the core of a round body; of a box itself.
+    /// The half edges and the radius of a round body's core, or of the box itself.
     [[nodiscard]] glm::dvec3 core_half() const { return half - rounding; }
     [[nodiscard]] double core_radius() const { return radius - rounding; }
 
     [[nodiscard]] OrientedBox at(double time) const;
     [[nodiscard]] glm::dquat orientation_at(double time) const;
-    /// The same motion, but at `time` it is there and turned so.
+    /// Keeps velocity and spin, and changes the start so that at `time` the box is at this place
+    /// and has this orientation.
     void put(const glm::dvec3& place, const glm::dquat& turned, double time);
 };
 

@@ -19,8 +19,8 @@ constexpr double look_ahead = 0.01;
 // A body that goes farther than this share of it in a tick could pass through another.
 constexpr double far_share = 0.5;
 
-/// Whether a box has turned by no more than rounding: what rests and is pushed turns to and fro by
-/// less, and its contacts would be found anew in every tick.
+/// True if a box has turned by no more than rounding: a resting body that is pushed turns to and
+/// fro by less, and its contacts would have to be found again in every tick.
 bool is_as_good_as(const glm::dquat& kept, const glm::dquat& now)
 {
     constexpr double rounding = 1e-13; // half of the turn

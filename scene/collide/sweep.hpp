@@ -14,7 +14,7 @@
 namespace hapnet::scene {
 
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
-/// One part of a body.
+/// Returns one part of a body.
 [[nodiscard]] OrientedBox shape_of(const Bodies& bodies, PartId part);
 
 /// A box and where it is going.
@@ -26,7 +26,7 @@ struct BoxSweep {
     glm::dvec3 offset{0.0}; // of the box's centre from its body's
 };
 
-/// Where two boxes touch, and their bodies' centres then.
+/// The contact of two boxes, and their bodies' centres at that time.
 struct SweptContact {
     Manifold manifold;
     ContactPlaces centres;
@@ -34,23 +34,23 @@ struct SweptContact {
     bool may_pass = false; // they go far, and may meet if they turn
 };
 
-/// Where two boxes touch, or will within the tick. For boxes that go far in it, where they touch at
-/// their time of impact, with the distance until then as the separation: they cannot pass through
-/// each other.
+/// Finds where two boxes touch, or will within the tick. For boxes that go far in the tick, it
+/// finds where they touch at their time of impact. The separation is then the distance that they go
+/// until that time, so that they cannot pass through each other.
 [[nodiscard]] SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick,
                                          BoxBoxMemory& memory);
 
-/// Where a body's box, or one of its parts, is and how far it comes.
+/// The box of a body, or of one of its parts, and how far it comes.
 struct SweptBox {
     OrientedBox box;
-    // Of its axes: the body's, or one from which it has turned by no more than rounding. What
-    // follows from the axes stays with it.
+    // The orientation of the box's axes: the body's, or an earlier one that differs by no more than
+    // rounding. Values that follow from the axes stay valid with it.
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     std::uint64_t turns = 0; // how often the axes were found anew
     double radius = 0.0;     // of the corners, m
     glm::dvec3 offset{0.0};  // of the box's centre from the body's, m: 0 of a body of one part
-    // How far any part of it may come in the tick, and a little more, m; of what is asleep, when it
-    // were awake.
+    // An upper bound of how far any part of the box may come in the tick, m. For a body asleep: as
+    // if it were awake.
     double reach = 0.0;
     glm::dvec3 spin{0.0}; // angular velocity, rad/s
 };
@@ -71,7 +71,7 @@ public:
     void begin_tick() { ++now_; }
     /// A body was put somewhere: nothing of it is kept.
     void forget(const Bodies& bodies, BodyId body);
-    /// Of a part of a body. The reference is good until the next tick.
+    /// Returns the box of a part of a body. The reference is valid until the next tick.
     [[nodiscard]] const SweptBox& at(const Bodies& bodies, PartId part)
     {
         Entry& entry = entries_[part];

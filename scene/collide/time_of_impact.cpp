@@ -20,7 +20,7 @@ constexpr double parallel_edges = 1e-16;
 // Rounding errors of a shadow's length, relative to it: shadows that overlap by less touch.
 constexpr double rounding = 1e-13;
 
-/// While the shadows overlap along all axes so far: from `enter` to `leave`.
+/// The time in which the shadows overlap along all axes so far: from `enter` to `leave`.
 class Sweep {
 public:
     Sweep(const OrientedBox& a, const OrientedBox& b, const glm::dvec3& relative_velocity)

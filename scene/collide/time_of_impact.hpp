@@ -9,7 +9,7 @@
 
 namespace hapnet::scene {
 
-/// When and on which axis two boxes that keep their orientation first touch.
+/// The time and the axis at which two boxes that keep their orientation first touch.
 struct TimeOfImpact {
     double time = 0.0;      // seconds from now
     glm::dvec3 normal{0.0}; // unit, from the first to the second
@@ -21,7 +21,7 @@ struct TimeOfImpact {
                                                          const glm::dvec3& relative_velocity,
                                                          double time_max);
 
-/// How far apart two surfaces are along the normal that keeps them apart most; < 0: they overlap.
+/// The distance between two surfaces along the normal that keeps them apart most; < 0: overlap.
 struct Gap {
     double distance = 0.0;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, from the first to the second

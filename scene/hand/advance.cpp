@@ -16,8 +16,8 @@ namespace hapnet::scene {
 
 namespace {
 
-/// How far the body and the hands may come towards each other in the tick: what they do already,
-/// twice, and what is stored in the springs that are pressed.
+/// Returns how far the body and the hands may come towards each other in the tick, m: twice the sum
+/// of the way of their present motion and of the depths to which springs are pressed.
 double reach(const MovingBody& body, const BodyDynamics& dynamics,
              std::span<const HandSpring> springs, double tick)
 {
@@ -34,7 +34,8 @@ double reach(const MovingBody& body, const BodyDynamics& dynamics,
     return 2.0 * (tick * (speed + turning * arm + tick * length(dynamics.acceleration)) + stored);
 }
 
-/// Whether the springs that may act in the tick are few and have a closed form; they are picked.
+/// The springs that may act in the tick. `is_closed` tells if they are few and have a closed form;
+/// `which` and `count` are complete only then.
 struct Chosen {
     std::array<std::size_t, 2> which{};
     std::size_t count = 0;
@@ -84,7 +85,8 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
     for (std::size_t i = 0; i < count; ++i) task.work[chosen.which[i]].impulse += rest[i].impulse;
 }
 
-/// So little that the directions of springs are what they were, to rounding.
+/// True if the body has turned so little that the directions of springs are the same, except for
+/// rounding.
 bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
 {
     constexpr double hardly = 5e-11; // half of the angle
@@ -93,7 +95,7 @@ bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
     return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z) <= hardly;
 }
 
-/// The same as energy_of() where all springs press, and none with its greatest force.
+/// As energy_of(), for springs that all press, none of them with its greatest force.
 HandEnergy energy_of_pressed(std::span<const HandSpring> springs,
                              std::span<const SpringImpulse> work)
 {
@@ -106,7 +108,7 @@ HandEnergy energy_of_pressed(std::span<const HandSpring> springs,
     return energy;
 }
 
-/// Whether the springs hardly change the body's velocity within a tick: then drag may be a constant
+/// True if the springs hardly change the body's velocity within a tick: then drag may be a constant
 /// force.
 bool are_soft(const BodyDynamics& dynamics, std::span<const HandSpring> springs, double tick)
 {
@@ -168,7 +170,7 @@ void advance_with_drag(const Task& task, double tick)
     }
 }
 
-/// What most ticks do not need.
+/// The part of advance() that most ticks do not need.
 HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_done, double tick)
 {
     const auto& [body, dynamics, springs, work, modes, rows] = task;
@@ -202,8 +204,8 @@ HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
     std::size_t rows = 0;
     const HandEnergy energy = advance_otherwise(
         {body, dynamics, springs, work.first(springs.size()), modes, rows}, start, is_done, tick);
-    // What stiff hands leave of the velocity is what their impulses leave, to the last digit that
-    // such large ones have: they may cancel each other, or bring the body to rest.
+    // Stiff hands leave the velocity that follows from their impulses, to the last digit of such
+    // large ones: they may cancel each other, or bring the body to rest.
     const bool is_stiff = springs.size() > 1 || !are_soft(dynamics, springs, tick);
     if (is_stiff && dynamics.drag == 0.0) {
         glm::dvec3 impulse{0.0};

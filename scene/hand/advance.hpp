@@ -22,7 +22,7 @@ struct MovingBody {
     glm::dvec3 angular_momentum{0.0};
 };
 
-/// How it responds to forces, and what acts on it; held for the tick.
+/// The body's response to forces, and all forces on it except the hands'; held for the tick.
 struct BodyDynamics {
     glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
@@ -47,7 +47,7 @@ struct HandSpring {
     double stiffness = 0.0;
     double damping = 0.0;
     double force_max = std::numeric_limits<double>::infinity();
-    // Whether it presses a face (and does not grip) within nine tenths of the half edges from the
+    // True if it presses a face (and does not grip) within nine tenths of the half edges from the
     // middle.
     bool is_amid_face = false;
     bool holds = false;             // it also pulls, and `stretch` says how far in every direction
@@ -55,26 +55,26 @@ struct HandSpring {
     const BodyPart* part = nullptr; // of a body of several, that is pushed
 };
 
-/// What a spring did in the tick.
+/// The effect of a spring in the tick.
 struct SpringImpulse {
     glm::dvec3 impulse{0.0}; // on the body, N s
 };
 
-/// What the springs that hold a body can give it. They also pull, and so take and give far more in
-/// a tick than passes at last.
+/// The energy that the springs which hold a body can give it. They also pull, and so take and give
+/// far more within a tick than the tick passes on in the end.
 struct GripEnergy {
     double impulse = 0.0; // N s: the sum of their sizes
     double stored = 0.0;  // J, at the start
     double driven = 0.0;  // J: the work of the hands' own motion on them
 
-    /// What such impulses can do where the body's fastest corner is so fast at the start or the end
-    /// of the tick: within it, it may be faster.
+    /// The energy that these impulses can give where `fastest` is the speed of the body's fastest
+    /// corner at the start or the end of the tick. Within the tick the corner may be faster.
     [[nodiscard]] double most(double fastest) const
     {
         constexpr double within_tick = 2.0;
         return within_tick * impulse * fastest;
     }
-    /// What they give beside what is driven, with a share of their impulses.
+    /// The energy that the springs give besides the driven work, with a share of their impulses.
     [[nodiscard]] double given(double share, double fastest) const
     {
         return std::min(stored, share * (most(fastest) - driven));
@@ -86,7 +86,7 @@ struct GripEnergy {
     }
 };
 
-/// What passed between a body and its hands in a tick.
+/// The energy that passed between a body and its hands in a tick.
 struct HandEnergy {
     std::size_t rows = 0;   // that the midpoint rule solved for it
     double stored = 0.0;    // J, in the springs on the body at the start, but for those that hold

@@ -54,14 +54,14 @@ public:
         finish();
         return true;
     }
-    /// On the hands.
+    /// The impulse on the hands.
     [[nodiscard]] const TwoVectors& impulse() const { return push_; }
-    /// So little that the directions stay, to rounding.
+    /// True if the body turns so little that the directions stay, except for rounding.
     [[nodiscard]] bool turns_negligibly() const
     {
         return glm::dot(angle_, angle_) < negligible_rotation * negligible_rotation;
     }
-    /// What the turn changes in the springs' energy.
+    /// Corrects body and impulses for the change that the turn makes to the springs' energy.
     void correct(std::span<const HandSpring> springs, std::span<SpringImpulse> work) const;
 
 private:
@@ -128,7 +128,8 @@ void ConstantContact::set_couplings()
     mutual_ = glm::dot(first(normal_), second(pushed)) + glm::dot(first(lever_), second(turned));
 }
 
-/// False when a force may end or reach its greatest, or the tick is long for the springs.
+/// Returns false when a force may end or reach its greatest value, or when the tick is long for the
+/// springs.
 bool ConstantContact::integrate_contacts(PressedModes& modes)
 {
     const Two stiffness = springs_.stiffness, damping = springs_.damping;
@@ -152,7 +153,7 @@ bool ConstantContact::integrate_contacts(PressedModes& modes)
     return true;
 }
 
-/// By how much the depths have grown, by what was held.
+/// Returns the growth of the depths in the tick, with normals and levers held.
 Two ConstantContact::depth_change() const
 {
     const Two pushed = own_ * moment_ + both(mutual_) * swapped(moment_);
@@ -167,7 +168,7 @@ bool ConstantContact::stays_amid()
     const glm::dvec3 swept =
         t * (body_.angular_momentum + (0.5 * t) * dynamics_.torque) - sum(moment_ * lever_);
     angle_ = ease_ * swept;
-    // From amid a face to beside it is a tenth of a half edge at least.
+    // A hand amid a face is at least a tenth of a half edge away from leaving it.
     const glm::dvec3& size = dynamics_.half;
     const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
     const double corner = (size.x + size.y + size.z) * sum_of_sizes(angle_);

@@ -11,9 +11,9 @@ namespace hapnet::scene {
 
 /// Advances a body by a tick in which nothing begins and nothing ends, which is what most ticks
 /// are: one or two springs press amid faces of the box from the start to the end, and it turns
-/// evenly and little. What ContactPhases does in one phase, with depths and impulses in closed
-/// form. False, and the body has not changed, when
-/// it is not so; `work` is set and not added to.
+/// evenly and little. It has the effect of one phase of ContactPhases, with depths and impulses in
+/// closed form. In another tick it returns false and leaves the body as it was. `work` is set and
+/// not added to.
 [[nodiscard]] bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
                                                std::span<const HandSpring> springs,
                                                std::span<SpringImpulse> work, double tick,
@@ -27,8 +27,8 @@ struct PressingSprings {
     bool are_two = false;
 };
 
-/// The same for those, and only for a tick in which the body turns by no more than rounding: then
-/// it is exact. `impulse` is on the body.
+/// As above, for these springs. It accepts only a tick in which the body turns by no more than
+/// rounding; then it is exact. `impulse` is the impulse on the body.
 [[nodiscard]] bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
                                                const PressingSprings& springs, double tick,
                                                PressedModes& modes, TwoVectors& impulse);

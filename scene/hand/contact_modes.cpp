@@ -23,8 +23,8 @@ TrajectoryIntegrals integrate_along(const Trajectory& trajectory, double time)
                                trajectory.speed * r.push + trajectory.push * r.ramp, 0.0};
     const Oscillator& oscillator = trajectory.propagator->oscillator;
     const double t2 = time * time;
-    // From the equation of motion; where the spring hardly acts, that would be the difference of
-    // almost equal numbers, and four terms of Taylor's series are exact to 1e-12.
+    // The integrals follow from the equation of motion. Where the spring hardly acts, that would be
+    // the difference of almost equal numbers, and four terms of Taylor's series are exact to 1e-12.
     constexpr double hardly = 1e-3;
     if (oscillator.stiffness * t2 > hardly || oscillator.damping * time > hardly * 100.0) {
         if (oscillator.stiffness > 0.0) {
@@ -70,8 +70,8 @@ ContactModes<count>::ContactModes(std::array<SpringContact, count>& contacts,
                                   const Coupling& coupling, double time)
     : contacts_{contacts}, coupling_{coupling}, time_{time}
 {
-    // Where a damper begins to act, or its normal turns, its force changes at once: then the phase
-    // that was foreseen is over before it begins.
+    // A damper that begins to act, or a normal that turns, changes the force at once. Then the
+    // phase that was foreseen is over before it begins.
     for (SpringContact& contact : contacts_) {
         constexpr double rounding = 1e-9;
         const double unlimited_force = contact.unlimited_force();
@@ -159,7 +159,7 @@ void ContactModes<count>::solve_both()
                          1e-14 * contacts_[1].damping;
         if (!is_solved_) return;
 
-        // In depths times the roots of the stiffnesses the coupling is symmetric: one rotation
+        // The coupling is symmetric in depths times the roots of the stiffnesses: one rotation
         // (after Jacobi) makes it diagonal.
         const double a = root[0] * root[0] * coupling_.own[0];
         const double b = root[1] * root[1] * coupling_.own[1];

@@ -26,13 +26,13 @@ struct SpringContact {
     [[nodiscard]] SpringPhase phase_due() const;
 };
 
-/// How the depths of up to two springs respond to their forces: 1/kg.
+/// The response of the depths of up to two springs to their forces: 1/kg.
 struct Coupling {
     std::array<double, 2> own{};
     double mutual = 0.0;
 };
 
-/// What the springs did until a moment.
+/// The springs' impulses up to a moment.
 template <std::size_t count>
 struct PhaseImpulses {
     double time = 0.0;
@@ -53,7 +53,7 @@ public:
     ContactModes& operator=(const ContactModes&) = delete;
     ~ContactModes() = default;
 
-    /// Whether there is a closed form.
+    /// True if there is a closed form.
     [[nodiscard]] bool is_solved() const { return is_solved_; }
     /// Goes on to the first moment at which a phase ends, or for the whole time: depths, speeds and
     /// phases, too.
@@ -72,7 +72,7 @@ private:
     void solve_both();
     [[nodiscard]] WatchedQuantity watch(std::size_t i, double level,
                                         const std::array<double, 2>& weights);
-    /// Whether a bound of how fast the force changes rules out that the phase ends.
+    /// True if a bound of how fast the force changes rules out that the phase ends.
     [[nodiscard]] bool keeps_phase(std::size_t i) const;
     void find_end(End& end, std::size_t i);
     void add_work(PhaseImpulses<count>& impulses) const;

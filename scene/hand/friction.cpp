@@ -25,7 +25,7 @@ double time_within(const glm::dvec3& start, const glm::dvec3& rate, double limit
     if (square == 0.0) return most;
     const double along = glm::dot(start, rate);
     const double root = std::sqrt(std::max(along * along + square * room, 0.0));
-    // Without cancellation.
+    // This form avoids cancellation.
     const double time = along > 0.0 ? room / (along + root) : (root - along) / square;
     return std::clamp(time, 0.0, most);
 }
@@ -75,7 +75,7 @@ glm::dvec3 rub_evenly(const Rub& rub, FrictionSpring& friction)
     const double most = friction.limits.sliding * push;
     const glm::dvec3 end = cut(rub.stiffness * wanted, most);
     friction.slid = rub.stiffness > 0.0 ? wanted - end / rub.stiffness : wanted;
-    // From the direction in which it broke loose to that in which it is drawn in the end.
+    // The direction goes from that of breaking loose to that of the pull in the end.
     const glm::dvec3 broke = start + sticks * rate;
     const glm::dvec3 drawn = rub.stiffness > 0.0 ? end : rub.damping * rub.velocity;
     const glm::dvec3 mean = cut(broke, most) + cut(drawn, most);

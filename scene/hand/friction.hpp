@@ -24,14 +24,14 @@ struct FrictionSpring {
     [[nodiscard]] double limit() const { return slides ? limits.sliding : limits.sticking; }
 };
 
-/// What is left of a contact's greatest force for the push across the surface, so that both parts
-/// together are no more than it.
+/// The greatest push along the normal of a surface, N, so that push and friction together do not
+/// exceed the contact's greatest force.
 [[nodiscard]] inline double push_max(double force_max, const HandFriction& limits)
 {
     return force_max / std::sqrt(1.0 + limits.sticking * limits.sticking);
 }
 
-/// A body's springs, their friction and what they do: all as long.
+/// A body's springs, their friction and their work. All three have the same length.
 struct FrictionContacts {
     std::span<const HandSpring> springs;
     std::span<FrictionSpring> frictions;

@@ -328,7 +328,7 @@ typename MidpointRule<rubs>::Six MidpointRule<rubs>::newton_step(const Six& miss
         const Spring& spring = spring_[row.spring];
         const bool is_last = i + 1 == rows_ || row_[i + 1].spring != row.spring;
         if (!spring.form->holds || !is_last || !spring.is_limited) continue;
-        // With all its force it only turns: along the pull there is no slope.
+        // A pull with its full force only turns: along the pull there is no slope.
         Six pull;
         for (int axis : {0, 1, 2})
             pull.add(spring.pull[axis], row_[i - 2 + static_cast<std::size_t>(axis)].response);
@@ -353,7 +353,7 @@ typename MidpointRule<rubs>::Six MidpointRule<rubs>::newton_step(const Six& miss
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
 }
 
-/// The same where a cut pull follows its push: then the matrix is not symmetric.
+/// As newton_step(), where a cut pull follows its push: then the matrix is not symmetric.
 template <bool rubs>
 typename MidpointRule<rubs>::Six
 MidpointRule<rubs>::newton_step_unsymmetric(const Six& missed, double substep) const requires rubs

@@ -76,7 +76,7 @@ private:
             return {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
         }
     };
-    /// One direction of one spring.
+    /// A row of the equations: one direction of one spring.
     struct Row {
         std::size_t spring = 0;
         glm::dvec3 normal{0.0};

@@ -15,23 +15,25 @@ namespace hapnet::scene {
 
 namespace {
 
-// Of all energies that are there: what their differences may be off by.
+// The error of differences of energies, as a share of all energies that are there.
 constexpr double energy_rounding = 1e-9;
-// Of what is stored and exchanged: what a rule may gain that holds directions while they turn.
+// The gain by a rule that holds directions while they turn, as a share of the stored and exchanged
+// energy.
 constexpr double second_order = 0.03;
-// Of the greatest force: the rounding of a sum of phases.
+// The rounding of a sum of phases, as a share of the greatest force.
 constexpr double force_rounding = 1e-9;
 // Radians in a tick beyond which the inertia at the start says little of the end.
 constexpr double far_turn_of_pressed = 0.25;
 
-/// Of a spring at the start of its tick.
+/// The energy of a spring at the start of its tick.
 double stored_energy(const HandSpring& spring)
 {
     if (!spring.holds) return spring_energy(spring, -spring.gap);
     return spring_energy(spring, length(spring.stretch));
 }
 
-/// What the springs store at the start, and what the hands' motion did by these impulses.
+/// Returns the energy that the springs store at the start, and the work of the hands' motion on
+/// these impulses.
 HandEnergy energy_of(std::span<const HandSpring> springs, std::span<const SpringImpulse> work)
 {
     HandEnergy energy;
@@ -60,8 +62,8 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
     return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
 }
 
-/// What a pull along a surface stores that the push at a depth can hold: nothing where they are
-/// apart.
+/// Returns the energy of a pull along a surface that the push at a depth can hold: none where they
+/// are apart.
 double pull_energy(const HandSpring& spring, const FrictionSpring& friction, double stretch,
                    double depth)
 {
@@ -105,7 +107,7 @@ public:
         const glm::dmat3& light = body_.dynamics.inverse_inertia;
         const EnergyOfShare at_start = energy_with(light, light);
         double share = 1.0;
-        // What is vague by turning shrinks with the share.
+        // The uncertainty by turning shrinks with the share.
         for (int round = 0; round < share_rounds_max; ++round) {
             const double turning = turning_slack(share);
             double within = at_start.share_within(stored + rounding + turning);
@@ -122,7 +124,8 @@ public:
             share = next_share(share, within, round);
         }
         if (at_end == SpringsAtEnd::ignored) return share;
-        // What is stored at the end belongs to how the body lies then, as does its inertia.
+        // The energy stored at the end follows from the body's place and orientation at that time.
+        // Its inertia follows from the orientation, too.
         const EnergyOfShare energy =
             energy_with(inverse_inertia_of(body_.end), inverse_inertia_of(free_));
         const double then = stored_at(body_.end);
@@ -155,7 +158,8 @@ public:
     [[nodiscard]] const GripEnergy& grips() const { return grips_; }
 
 private:
-    /// With the inverse inertia at the end, and the one that it has there without hands.
+    /// Returns the energy with the inverse inertia at the end, and with the one that the body has
+    /// there without hands.
     [[nodiscard]] EnergyOfShare energy_with(const glm::dmat3& light,
                                             const glm::dmat3& light_free) const
     {
@@ -217,7 +221,7 @@ private:
         return std::max(before, after);
     }
 
-    /// By how much the energy of turning may be wrong that the inertia of the start says.
+    /// Returns how wrong the energy of turning may be that the inertia at the start gives, J.
     [[nodiscard]] double turning_slack(double share) const
     {
         const MomentsRatio moments = moments_of(body_.dynamics);
@@ -255,7 +259,7 @@ private:
         return sum;
     }
 
-    /// Along the surfaces, of a body that has turned and moved.
+    /// Returns the energy stored along the surfaces of a body that has turned and moved.
     [[nodiscard]] double stored_along(const glm::dmat3& turn,
                                       const glm::dvec3& moved) const requires rubs
     {

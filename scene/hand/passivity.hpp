@@ -10,8 +10,8 @@
 
 namespace hapnet::scene {
 
-/// The energy of a spring that is pressed or stretched so far; beyond its greatest force it grows
-/// evenly.
+/// Returns the energy of a spring that is pressed or stretched by `depth`. Beyond its greatest
+/// force it grows linearly.
 [[nodiscard]] inline double spring_energy(const HandSpring& spring, double depth)
 {
     if (depth <= 0.0) return 0.0;
@@ -28,7 +28,7 @@ struct HandTick {
     double tick = 0.0;
 };
 
-/// Whether what the springs store at the end counts.
+/// Says if the energy that the springs store at the end counts.
 enum class SpringsAtEnd : std::uint8_t { ignored, counted };
 
 /// Makes the hands passive: they give a body what their springs had stored and the work of their
@@ -38,15 +38,15 @@ enum class SpringsAtEnd : std::uint8_t { ignored, counted };
 ///
 /// Kinetic energy is 1/2 m v^2 + 1/2 L I^-1 L, with the inertia at the start of the tick. It is a
 /// parabola in the share, so the largest passive share has a formula, and share 0 is passive. When
-/// the moments of inertia differ, this energy is vague by what the body turns in the tick; as much
-/// is tolerated by half: the spin at the end may be the smaller one. A grip gives at most what
+/// the moments of inertia differ, this energy is uncertain by the body's turn in the tick. Half of
+/// that is tolerated: the spin at the end may be the smaller one. A grip gives at most what
 /// GripEnergy says, whatever it had stored.
 ///
 /// When the springs at the end are counted, what they store then is given, too, by the inertia at
 /// the end. A rule of second order may gain 3 % there, as it holds directions that turn.
 HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
                         std::span<SpringImpulse> work, SpringsAtEnd at_end);
-/// The same with friction: what is stored along the surfaces counts, too.
+/// As above, with friction: the energy stored along the surfaces counts, too.
 HandEnergy keep_passive(const HandTick& body, const FrictionContacts& contacts);
 
 } // namespace hapnet::scene

@@ -14,7 +14,7 @@ class PlaneDrag {
 public:
     PlaneDrag(const BodyDynamics& dynamics, double time);
 
-    /// At the end of the time.
+    /// Returns the velocity at the end of the time.
     [[nodiscard]] glm::dvec3 velocity_after(const glm::dvec3& velocity,
                                             const glm::dvec3& acceleration) const
     {

@@ -28,7 +28,7 @@ void PressedModes::renew(const Key& key)
     cosine_ = 1.0 / std::sqrt(1.0 + tangent * tangent);
     const double sine = tangent * cosine_;
     sine_ = Two{sine, -sine};
-    // What is left of rounding where they cancel is not negative: no force feeds itself.
+    // Where the terms cancel, rounding must not leave a negative response: no force feeds itself.
     const double shift = tangent * key.mutual;
     response_ = Two{std::max(0.0, key.own[0] - shift), std::max(0.0, key.own[1] + shift)};
     Mode a, b;

@@ -6,11 +6,11 @@
 
 namespace hapnet::scene {
 
-/// What one or two alike springs do that press a body throughout a tick, for any depth and speed.
-/// The depths d are d'' = a - G f with the forces f = stiffness d + damping d' and the matrix G of
-/// how they respond, 1/kg. G's two modes are oscillators of their own; of each the tick needs three
-/// integrals, which are Taylor's series to rounding. They follow from the key alone: find() keeps
-/// them for the next tick, and with or without that the bits are the same.
+/// The motion of one or two equal springs that press a body throughout a tick, for any depth and
+/// speed. The depths d are d'' = a - G f with the forces f = stiffness d + damping d' and the
+/// matrix G of how they respond, 1/kg. G's two modes are oscillators of their own; of each the tick
+/// needs three integrals, which are Taylor's series to rounding. They follow from the key alone, so
+/// that find() keeps them for the next tick without changing a bit.
 class PressedModes {
 public:
     /// Everything that they depend on.
@@ -28,7 +28,7 @@ public:
         }
     };
 
-    /// False when the tick is long for the springs.
+    /// Finds the modes of a key. Returns false when the tick is long for the springs.
     [[nodiscard]] bool find(const Key& key)
     {
         if (!(key == key_)) renew(key);
@@ -44,7 +44,7 @@ public:
     struct Outcome {
         Two impulse, moment, change;
     };
-    /// Of the springs; a second one that is not there has zeros.
+    /// Returns the outcome for each spring. A second spring that does not exist has zeros.
     [[nodiscard]] Outcome outcome(const Start& start) const
     {
         const Two depth = to_modes(start.depth);
@@ -67,7 +67,7 @@ private:
         double change_by_speed = 0.0, change_by_left = 0.0;
     };
 
-    // The same vector seen from the modes and from the springs.
+    // Convert a vector between the frame of the modes and that of the springs.
     [[nodiscard]] Two to_modes(Two springs) const
     {
         return both(cosine_) * springs - sine_ * swapped(springs);

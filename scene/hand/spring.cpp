@@ -6,7 +6,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// When level + slope t is on the positive side, within [from, to].
+/// The time in which level + slope t is on the positive side, within [from, to].
 struct Interval {
     double from, to;
 };

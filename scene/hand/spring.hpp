@@ -9,9 +9,10 @@
 
 namespace hapnet::scene {
 
-// What a hand does to what it touches, the same for every stepper. A hand pushes through a spring
-// and a damper: clamp(stiffness depth + damping closing speed, 0, force_max) along the normal while
-// they overlap, else nothing. A hand that grips also pulls, in all directions.
+// The force of a hand on the things that it touches. It is the same for every stepper. A hand
+// pushes through a spring and a damper: clamp(stiffness depth + damping closing speed, 0,
+// force_max) along the normal while they overlap, else nothing. A hand that grips also pulls, in
+// all directions.
 
 enum class SpringPhase : std::uint8_t {
     apart,    // no overlap
@@ -33,7 +34,7 @@ enum class SpringPhase : std::uint8_t {
 [[nodiscard]] double impulse_at_constant_velocity(const HandDescription& hands, double depth,
                                                   double closing, double time);
 
-/// How near to a hand's centre a surface must be for the hand to grip it.
+/// The distance from a hand's centre within which the hand can grip a surface.
 [[nodiscard]] inline double grip_distance(const HandDescription& hands)
 {
     return hands.radius_m + hands.grip_reach_m;

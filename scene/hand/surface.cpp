@@ -55,7 +55,8 @@ ContactGeometry BoxSurface::at_box(const glm::dmat3& axes, const glm::dvec3& han
     const glm::dvec3 centre = hand * axes;
     double distance = glm::dot(face_, centre) - glm::dot(glm::abs(face_), half_);
     glm::dvec3 normal = face_;
-    // Beside the face its plane is nothing: far out there it would turn the body by a long lever.
+    // Beside the face its plane does not count: far out there it would turn the body by a long
+    // lever.
     const glm::dvec3 beside = (1.0 - glm::abs(face_)) * (glm::abs(centre) - half_);
     const bool is_beside = beside.x > 0.0 || beside.y > 0.0 || beside.z > 0.0;
     if (distance >= 0.0 || !is_face_ || is_beside) {

@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-/// Where and along what a hand's spring acts on a body, at one moment.
+/// The place and the direction in which a hand's spring acts on a body, at one moment.
 struct ContactGeometry {
     glm::dvec3 normal{0.0}; // unit, from the body to the hand
     glm::dvec3 lever{0.0};  // arm x normal
@@ -25,12 +25,13 @@ public:
     /// `axes` are the body's, in the world.
     BoxSurface(const HandSpring& spring, const BodyDynamics& dynamics, const glm::dmat3& axes);
 
-    /// Whether it was a face at the start.
+    /// True if it was a face at the start.
     [[nodiscard]] bool is_face() const { return is_face_; }
-    /// Whether it is a face, and the hand too far from its edges to leave it soon.
+    /// True if it is a face, and the hand too far from its edges to leave it soon.
     [[nodiscard]] bool is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
-    /// With the hand's centre at `hand`, seen from the body's centre in the world's frame.
+    /// Returns the geometry with the hand's centre at `hand`, seen from the body's centre in the
+    /// world's frame.
     [[nodiscard]] ContactGeometry at(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
 private:

@@ -16,7 +16,7 @@ struct UnlikeSprings {
     Two stiffness{}, damping{};
     double tick = 0.0;
 
-    /// Nothing when the tick is long for the springs.
+    /// Returns nullopt when the tick is long for the springs.
     [[nodiscard]] std::optional<PressedModes::Outcome>
     outcome(const PressedModes::Start& start) const;
 };

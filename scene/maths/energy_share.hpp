@@ -35,9 +35,9 @@ struct EnergyOfShare {
     }
 };
 
-/// For what may be gained that itself shrinks with the share: rounds in which a share is tried
-/// after the other, each within what the one before leaves. They nearly always end after two or
-/// three; then they go faster than is asked for, so that they do end.
+/// The greatest number of rounds that try one share after another, where the allowed gain itself
+/// shrinks with the share. Each round stays within the result of the one before. They nearly always
+/// end after two or three. Later rounds shrink the share faster than needed, so that they do end.
 inline constexpr int share_rounds_max = 64;
 [[nodiscard]] inline double next_share(double share, double within, int round)
 {

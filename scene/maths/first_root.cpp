@@ -59,7 +59,7 @@ RootSearch search_root(const WatchedQuantity& watched, const Trajectories& traje
         const bool falls = s.rate < 0.0 ||
                            (s.rate == 0.0 && s.second_derivative < -flat * s.second_derivative_max);
         if (!watched.leaves_zero && falls) return {End::found, time};
-        // From 0 upwards: look again a moment later.
+        // The quantity rises from 0: look again a moment later.
         if (watched.leaves_zero || safe_step(0.0, s) <= nearest) {
             time = from + (to - from) / 1024.0;
             s = sample(watched, trajectories, time, to);

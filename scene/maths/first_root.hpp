@@ -25,7 +25,7 @@ struct WatchedQuantity {
     bool leaves_zero = false; // it starts at 0 up to rounding, and is known to grow
 };
 
-/// Whether value + rate t cannot fall below 0 within `time` while |second derivative| <=
+/// True if value + rate t cannot fall below 0 within `time` while |second derivative| <=
 /// `second_derivative`.
 [[nodiscard]] inline bool stays_positive(double value, double rate, double second_derivative,
                                          double time)
@@ -33,17 +33,17 @@ struct WatchedQuantity {
     return value + std::min(rate, 0.0) * time - 0.5 * second_derivative * time * time >= 0.0;
 }
 
-/// What a search for a root came to.
+/// The result of a search for a root.
 struct RootSearch {
     enum class End : std::uint8_t { none, found, given_up };
     End end = End::none;
     double time = 0.0; // of the root; given up: until when there is none
 };
 
-/// When the quantity first falls to 0, in [from, to). No root is missed: the search goes on by
-/// steps within which a bound of the second derivative rules one out, and approaches the root from
-/// before it as fast as Newton's method does. It is given up after 200 steps, which take a wave of
-/// some hundred periods, or when none of `steps_left` is left.
+/// Finds the time when the quantity first falls to 0, in [from, to). No root is missed: the search
+/// goes on by steps within which a bound of the second derivative rules one out, and approaches the
+/// root from before it as fast as Newton's method does. It is given up after 200 steps, which take
+/// a wave of some hundred periods, or when none of `steps_left` is left.
 [[nodiscard]] RootSearch search_root(const WatchedQuantity& watched,
                                      const Trajectories& trajectories, double from, double to,
                                      int& steps_left);

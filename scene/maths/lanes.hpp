@@ -11,12 +11,12 @@
 
 namespace hapnet::scene {
 
-/// Two doubles that are worked on at once: one register of any 64-bit machine. Of each the bits are
-/// those of a double alone.
+/// Two doubles that are worked on at once: one register of any 64-bit machine. Each has the same
+/// bits as a double alone.
 using Two = double __attribute__((vector_size(16)));
 
 [[nodiscard]] inline Two both(double a) { return Two{a, a}; }
-/// Of two numbers side by side, wherever they are.
+/// Loads two adjacent numbers. `from` may have any alignment.
 [[nodiscard]] inline Two two_of(const double* from)
 {
     Two two;

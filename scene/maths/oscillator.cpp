@@ -49,8 +49,8 @@ StepResponse series(double b, double k, double t)
     return {rate, step * t, push * square, ramp * (square * t)};
 }
 
-/// For damping * time <= 1 and stiffness * time^2 <= 1: as many terms as leave out less than
-/// 2e-17 of the free body's.
+/// Sums the series, for damping * time <= 1 and stiffness * time^2 <= 1. It has enough terms to
+/// leave out less than 2e-17 of the free body's response.
 StepResponse series(double b, double k, double t)
 {
     return b <= 1.0 / 8.0 && k <= 1.0 / 32.0 ? series<12>(b, k, t) : series<19>(b, k, t);
@@ -90,7 +90,7 @@ struct Wave {
     double cosine, sine;
 };
 
-/// Where cos and cosh meet: by their series, |w t| < 1.
+/// Computes the wave where cos and cosh meet, by their series, |w t| < 1.
 Wave slow_wave(double decay, double square, double t)
 {
     const double z = square * t * t;

@@ -16,11 +16,11 @@ struct Oscillator {
     double stiffness = 0.0; // 1/s^2, >= 0
 };
 
-/// How an oscillator that rests at 0 responds, at one moment t: `step` is where it is
-/// after a kick of speed 1, S(t); `rate` is S'; `push` the integral of S, the answer to a steady
-/// acceleration of 1; `ramp` the integral of that, the answer to one that grows by 1 per second.
-/// Everything linear follows by adding: no equilibrium is subtracted, so nothing is lost where
-/// stiffness or damping is small.
+/// The response of an oscillator that rests at 0, at one moment t: `step` is its place after a kick
+/// of speed 1, S(t); `rate` is S'; `push` the integral of S, the answer to a steady acceleration of
+/// 1; `ramp` the integral of that, the answer to one that grows by 1 per second. Everything linear
+/// follows by adding: no equilibrium is subtracted, so nothing is lost where stiffness or damping
+/// is small.
 struct StepResponse {
     double rate = 1.0;
     double step = 0.0;
@@ -55,7 +55,7 @@ struct Propagator {
     }
 };
 
-/// How far a coordinate has come, and how fast it is.
+/// The displacement of a coordinate since the start, and its speed.
 struct TrajectoryPoint {
     double displacement = 0.0;
     double speed = 0.0;
@@ -70,7 +70,7 @@ struct Trajectory {
     double ramp;  // by which `push` grows, m/s^3
 
     [[nodiscard]] bool moves() const { return propagator != nullptr; }
-    /// Whether it stays where it is, whatever its propagator.
+    /// True if it stays where it is, whatever its propagator.
     [[nodiscard]] bool is_idle() const { return speed == 0.0 && push == 0.0 && ramp == 0.0; }
     [[nodiscard]] TrajectoryPoint at(const StepResponse& r) const
     {

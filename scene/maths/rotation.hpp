@@ -11,8 +11,8 @@
 namespace hapnet::scene {
 
 // Rotations of rigid bodies, from + - * / and sqrt alone. An orientation takes the body's frame to
-// the world's. What turns freely keeps its angular momentum in the world's frame; that is the
-// state, and the angular velocity follows from it, so that its length cannot drift.
+// the world's. A body that turns freely keeps its angular momentum in the world's frame; that is
+// the state, and the angular velocity follows from it, so that its length cannot drift.
 
 /// cos(sqrt(z)) and sin(sqrt(z))/sqrt(z) for 0 <= z <= small_turn_max, within 2 units in the last
 /// place: the half of a turn, squared, of up to 90 degrees. Branch-free, for loops over lanes.
@@ -39,7 +39,7 @@ inline constexpr double small_half_angle_max = 0.6168; // (pi/4)^2
     return {1.0 - (0.5 * z - z * z * cosine), 1.0 + z * sinc};
 }
 
-/// The same for any turn up to 2e6 radians; beyond it no turn at all.
+/// As above, for any turn up to 2e6 radians. Above that the result is no turn at all.
 [[nodiscard]] HalfAngle half_angle(double z);
 
 /// The turn by |angle| radians about the axis of `angle`.
@@ -74,8 +74,8 @@ struct FreeRotation {
 /// The shortest turn from one orientation to another: `to` is rotated(from, turn). Within 1e-10.
 [[nodiscard]] glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to);
 
-/// The orientation next to one in which a body with that angular momentum has so much energy of
-/// rotation, J; nothing where none is within 0.1 radians.
+/// Returns the nearest orientation in which a body with that angular momentum has this energy of
+/// rotation, J; nullopt where none is within 0.1 radians.
 [[nodiscard]] std::optional<glm::dquat> with_energy(const glm::dquat& orientation,
                                                     const FreeRotation& spin, double energy);
 

@@ -10,7 +10,7 @@
 
 namespace hapnet::scene {
 
-/// By a correctly rounded square root: the same bits everywhere.
+/// Returns the length by a correctly rounded square root: the same bits everywhere.
 [[nodiscard]] inline double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 /// The sum of the components' sizes: not less than the length, and no root to take.
@@ -19,7 +19,7 @@ namespace hapnet::scene {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-/// What std::abs makes of each component: unlike glm's, no compares.
+/// The absolute value of each component. Unlike glm's abs, it costs no compares.
 [[nodiscard]] inline glm::dvec3 sizes(const glm::dvec3& v)
 {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
@@ -33,7 +33,7 @@ namespace hapnet::scene {
     return direction;
 }
 
-/// Whether no component is larger than `most` or NaN.
+/// True if no component is larger than `most` or NaN.
 [[nodiscard]] inline bool is_within(const glm::dvec3& v, double most)
 {
     return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;

@@ -10,7 +10,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// What a spring stores at a depth, while it gives no more than its greatest force.
+/// Returns the energy that a spring stores at a depth. Its force never exceeds its greatest one.
 double stored_at(const HandDescription& hands, double depth)
 {
     const double bend = hands.force_max_n / hands.stiffness_n_per_m;
@@ -19,14 +19,14 @@ double stored_at(const HandDescription& hands, double depth)
                         : hands.force_max_n * (depth - 0.5 * bend);
 }
 
-/// Whether the box is at a face and moves into it.
+/// True if the box is at a face and moves into it.
 bool enters_obstacle(const BoxMotion& box, std::size_t axis, double speed)
 {
     const AxisMotion& motion = box.axes[axis];
     return (motion.below && speed < 0.0) || (motion.above && speed > 0.0);
 }
 
-/// What a tick comes to when all its impulses are taken by a share.
+/// The energy balance of a tick when all its impulses are scaled by a share.
 class Balance {
 public:
     Balance(const WorldConfig& config, const WorldState& state, const TickStart& start,
@@ -54,7 +54,7 @@ public:
         return v;
     }
 
-    /// Whether the box has no more energy than it had and was given.
+    /// True if the box has no more energy than it had and was given.
     [[nodiscard]] bool holds(double share) const
     {
         constexpr double tolerated = 1e-7; // of the energy that is there

@@ -7,7 +7,7 @@
 
 namespace hapnet::scene {
 
-/// What a tick had to begin with.
+/// The state of the box at the start of a tick.
 struct TickStart {
     PerAxis position{};
     PerAxis velocity{};

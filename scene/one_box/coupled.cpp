@@ -8,7 +8,7 @@ namespace {
 
 using Matrix = std::array<PerAxis, 3>;
 
-/// By how many springs each pair of moving axes is held.
+/// Returns the number of springs that hold each pair of moving axes.
 Matrix springs_between_axes(const BoxMotion& box)
 {
     Matrix sum{};

@@ -6,14 +6,14 @@
 
 namespace hapnet::scene {
 
-// Where the box is within an interval, whether every axis moves on its own or slanted springs
-// couple them.
+// The box's place within an interval, for axes that move on their own and for axes that slanted
+// springs couple.
 
-/// Finds the modes of the axes that move. Sets them but for the trajectories of the modes.
+/// Finds the modes of the axes that move, except the trajectories of the modes.
 void find_modes(BoxMotion& box);
 /// Sets the trajectories of the modes from those of the axes.
 void set_modes(BoxMotion& box);
-/// What set_bounds() does, by the modes.
+/// As set_bounds(), but computed by the modes.
 void set_coupled_bounds(BoxMotion& box);
 
 [[nodiscard]] inline TrajectoryPoint motion_after(const BoxMotion& box, std::size_t axis,

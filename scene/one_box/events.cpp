@@ -58,7 +58,7 @@ struct Tension {
     }
 };
 
-/// Whether a spring presses for the whole `time`, as most do.
+/// True if a spring presses for the whole `time`, as most do.
 template <typename AnySpring>
 bool keeps_acting(const BoxMotion& box, const AnySpring& spring, double time)
 {
@@ -142,7 +142,7 @@ WatchedQuantity watch_gap(const BoxMotion& box, std::size_t axis, double side, d
     return watch;
 }
 
-/// Whether the box cannot come to an obstacle in what is left of the tick: one axis keeps it away.
+/// True if the axis `i` keeps the box away from an obstacle for the rest of the tick.
 bool separates(const BoxMotion& box, const Obstacle& obstacle, std::size_t i)
 {
     const double gap = obstacle.gap(i, box.position[i]);

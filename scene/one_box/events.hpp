@@ -6,7 +6,7 @@
 
 namespace hapnet::scene {
 
-/// What ends an interval of a tick.
+/// An event that ends an interval of a tick.
 struct Event {
     enum class Kind : std::uint8_t {
         none,   // the end of the tick
@@ -29,16 +29,17 @@ struct Event {
     const Obstacle* obstacle = nullptr;     // of an impact
 };
 
-/// Whether nothing but dry friction can end the interval before the tick does. That is nearly
+/// True if nothing but dry friction can end the interval before the tick does. That is nearly
 /// always so, and quick to find out.
 [[nodiscard]] bool is_uneventful(const BoxMotion& box);
 /// The first event in the rest of the tick, if it comes before `first`.
 void find_event(const BoxMotion& box, Event& first);
-/// Takes the root of a quantity that is watched as the event `what`, if it comes before `first`;
-/// or, where the search for it was given up, that as an event. Whether there is a root.
+/// Takes the root of a watched quantity as the event `what`, if it comes before `first`. Where the
+/// search for the root was given up, that becomes an event. Returns true if there is a root.
 bool expect(const BoxMotion& box, const WatchedQuantity& watch, double from, Event& first,
             const Event& what);
-/// What presses an axis on its support, per mass, while slanted springs couple it to the others.
+/// The acceleration that presses an axis on its support, while slanted springs couple it to the
+/// others.
 [[nodiscard]] WatchedQuantity watch_load(const BoxMotion& box, std::size_t axis);
 
 /// Applies the event to the box, once the box has been advanced to its moment. `tick` is the length

@@ -41,8 +41,8 @@ Tangential tangential(const BoxMotion& box)
     return found;
 }
 
-/// Whether the direction cannot change: only one axis takes part, or force, speed and what answers
-/// them are alike in both.
+/// True if the direction cannot change: only one axis takes part, or force and speed have the same
+/// direction, the force is steady, and both axes respond alike.
 bool is_straight(const BoxMotion& box, const Tangential& free)
 {
     if (free.count < 2) return true;
@@ -79,7 +79,8 @@ PerAxis direction_halfway(BoxMotion& box, const Tangential& free, const PerAxis&
     return unit(middle);
 }
 
-/// Adds up what presses on the carriers; whether there is any friction.
+/// Sums up the limits of friction by the loads on the supports. Returns true if there is any
+/// friction.
 bool load(BoxMotion& box)
 {
     DryFriction& dry_friction = box.dry_friction;
@@ -92,8 +93,8 @@ bool load(BoxMotion& box)
     return dry_friction.limit > 0.0 || dry_friction.limit_ramp > 0.0;
 }
 
-/// What presses on the supports in the middle of what is left of the tick, and the direction then,
-/// where slanted springs couple both to all that moves.
+/// Finds the load on the supports, and the direction of sliding, in the middle of the rest of the
+/// tick, where slanted springs couple both to all motion.
 void set_friction_halfway(BoxMotion& box, const Tangential& free)
 {
     DryFriction& dry_friction = box.dry_friction;
@@ -164,7 +165,7 @@ void add_friction(BoxMotion& box)
 
 namespace {
 
-/// When limit(t)^2 - |push(t)|^2 falls to 0, all of them linear.
+/// Finds when limit(t)^2 - |push(t)|^2 falls to 0. Limit and push are linear.
 void find_slip(const BoxMotion& box, Event& first)
 {
     const DryFriction& dry_friction = box.dry_friction;

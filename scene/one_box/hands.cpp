@@ -10,7 +10,7 @@ namespace {
 
 double largest(const PerAxis& a) { return std::max(std::max(a[0], a[1]), a[2]); }
 
-/// How far a place is outside of a box along each axis; < 0: inside.
+/// The distance of a place outside of a box along each axis; < 0: inside.
 PerAxis beyond(const PerAxis& from_centre, const PerAxis& half)
 {
     return {std::abs(from_centre[0]) - half[0], std::abs(from_centre[1]) - half[1],
@@ -59,7 +59,7 @@ void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
     }
 }
 
-/// What is not at a face.
+/// Reports the springs that are not at a face.
 void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotion& box)
 {
     const double per_tick = 1.0 / config.tick;

@@ -23,19 +23,19 @@ class BoxHands {
 public:
     BoxHands(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
-    /// Adds the springs between the hands and the box to `box`. What the hands feel of the fixed
-    /// boxes is reported at once.
+    /// Adds the springs between the hands and the box to `box`. The forces of the fixed boxes on
+    /// the hands are reported at once.
     void collide(const WorldConfig& config, WorldState& state, BoxMotion& box);
     /// Adds the forces of soft springs at edges and corners, once the trajectories of the axes are
     /// known. Midpoint rule: second order, and it neither makes nor loses energy.
     static void add_held_springs(BoxMotion& box);
-    /// Whether a hand held with more than its greatest force in the tick that `box` has run. Then
+    /// True if a hand held with more than its greatest force in the tick that `box` has run. Then
     /// `again`, the tick before it ran, has that force held throughout instead.
     static bool limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,
                            BoxMotion& again);
     /// Reports what the springs did in the tick.
     static void report(const WorldConfig& config, WorldState& state, const BoxMotion& box);
-    /// What the springs of the hands that hold the box store, J.
+    /// The energy stored in the springs of the hands that hold the box, J.
     [[nodiscard]] double stored_in_grips(const WorldConfig& config, const WorldState& state,
                                          const PerAxis& box_position) const;
     /// The box has been put somewhere else.
@@ -52,7 +52,7 @@ private:
         PerAxis query_position{};
         double clear = -1.0; // no fixed box is nearer to `query_position`, along every axis
 
-        /// Whether no fixed box is within reach of the hand in this tick.
+        /// True if no fixed box is within reach of the hand in this tick.
         [[nodiscard]] bool is_clear(const WorldConfig& config, const HandInput& input) const
         {
             const PerAxis place = per_axis(input.position.value);

@@ -8,7 +8,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// Whether a centre is between the two faces of an obstacle, or just going in.
+/// True if a centre is between the two faces of an obstacle, or just going in.
 bool is_between(const Obstacle& obstacle, std::size_t axis, double place, double speed)
 {
     const double gap = obstacle.gap(axis, place);
@@ -38,7 +38,8 @@ void note_touched_faces(BoxMotion& box, const Obstacle& obstacle)
     }
 }
 
-/// Whether the axis rests on what it touches, pressed on it by its accelerations.
+/// Sets the support and the load of an axis that rests on an obstacle, if accelerations press it on
+/// that.
 void find_support(AxisMotion& axis, double speed, double push, double ramp)
 {
     if (speed != 0.0 || axis.is_losing_support) return;
@@ -54,7 +55,8 @@ void find_support(AxisMotion& axis, double speed, double push, double ramp)
     }
 }
 
-/// Whether one of the supports is a plane. `push` gives the acceleration along an axis.
+/// Finds the supports of all axes. Returns true if one of them is a plane whose drag acts. `push`
+/// gives the acceleration along an axis.
 template <typename Push>
 bool find_supports(BoxMotion& box, const Push& push)
 {
@@ -121,7 +123,8 @@ bool add_slanted_springs(BoxMotion& box, PerAxis& damped)
     return any;
 }
 
-/// What comes of a trajectory: how far, and the integral of that over time where a spring holds it.
+/// The outcome of a trajectory: its way, and the integral of that over time where a spring holds
+/// it.
 struct Way {
     TrajectoryPoint end;
     double integral = 0.0;
@@ -140,7 +143,7 @@ Way way_of(const Trajectory& trajectory, double time)
     return way;
 }
 
-/// How far the axes have come, and the integral of that over time.
+/// The ways of the axes, and their integrals over time.
 struct AxisWays {
     PerAxis way{};
     PerAxis integral{};
@@ -211,7 +214,7 @@ void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Axi
     }
 }
 
-/// Also what only ticks that are not exact have.
+/// Advances the box and all springs, also those that only ticks without an exact solution have.
 void advance_all(BoxMotion& box, double time)
 {
     const AxisWays ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);

@@ -19,7 +19,7 @@ public:
     AxisOscillators(const HandDescription& hands, const BodyProperties& body, double tick);
 
     [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
-    /// Whether a spring hardly changes the box's velocity in a tick.
+    /// True if a spring hardly changes the box's velocity in a tick.
     [[nodiscard]] bool are_soft() const { return soft_; }
     /// The oscillator of one spring alone.
     [[nodiscard]] const Oscillator& spring() const { return propagators_[0][1].oscillator; }
@@ -52,9 +52,9 @@ struct AxisMotion {
     Bounds bounds;       // for what is left of the tick
     double reach;        // how far it can come in what is left of the tick
 
-    /// Whether it is kept where it is by something else than dry friction.
+    /// True if it is kept where it is by something else than dry friction.
     [[nodiscard]] bool is_held() const { return is_stopped || support; }
-    /// Whether a plane slows the box by its drag. One that is locked onto a plane cannot be lifted
+    /// True if a plane slows the box by its drag. One that is locked onto a plane cannot be lifted
     /// off it, whatever pulls.
     [[nodiscard]] bool is_dragged() const
     {
@@ -162,7 +162,7 @@ struct GripSpring {
     PerAxis impulse; // on the box, so far in the tick
 };
 
-/// The axes as slanted springs couple them. All hands are alike and drag is the same along every
+/// The axes as slanted springs couple them. All hands are equal and drag is the same along every
 /// axis, so that mass, damping and stiffness are diagonal in the same basis, the eigenvectors of
 /// the sum of n n^T over the springs: each mode is an oscillator of its own, however many springs
 /// press.
@@ -172,7 +172,7 @@ struct CoupledAxes {
     std::array<Propagator, 3> propagators;
 };
 
-/// What a tick needs besides, if anything happens in it.
+/// Memory that a tick needs only if something happens in it.
 struct TickRoom {
     CoupledAxes coupled; // only while BoxMotion::is_coupled
     int root_steps = 0;  // that the searches for events have left
@@ -188,7 +188,7 @@ struct BoxMotion {
         : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}, room{for_tick}
     {}
 
-    /// Another one like it, to try the tick again.
+    /// Returns a copy, to try the tick again.
     [[nodiscard]] BoxMotion copy() const;
 
     const HandDescription& hands;

@@ -12,7 +12,7 @@
 
 namespace hapnet::scene {
 
-/// Where a box's centre may not go because of one fixed box or plane: that one, grown by the half
+/// The region that one fixed box or plane closes to a box's centre: the obstacle, grown by the half
 /// edges of the box. A plane reaches to infinity in all directions but one.
 struct Obstacle {
     PerAxis low{};
@@ -21,7 +21,7 @@ struct Obstacle {
     bool is_plane = false;
     std::size_t normal_axis = 0; // of a plane
 
-    /// How far a centre is outside of it along an axis; < 0: between its two faces.
+    /// The distance of a centre outside of it along an axis; < 0: between its two faces.
     [[nodiscard]] double gap(std::size_t axis, double place) const
     {
         return std::max(low[axis] - place, place - high[axis]);
@@ -43,7 +43,7 @@ class Obstacles {
 public:
     Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
-    /// How far the centre may still go before the list of what is near has to be made again.
+    /// The way that the centre may still go before the list of near obstacles has to be made again.
     [[nodiscard]] double clearance(const PerAxis& centre) const
     {
         const double x = std::abs(centre[0] - query_centre_[0]);
@@ -51,7 +51,7 @@ public:
         const double z = std::abs(centre[2] - query_centre_[2]);
         return margin_ - std::max(std::max(x, y), z);
     }
-    /// At least those within `reach` of the centre, along every axis.
+    /// Returns at least the obstacles within `reach` of the centre, along every axis.
     [[nodiscard]] std::span<const std::uint32_t> nearby(const PerAxis& centre, double reach)
     {
         if (!(reach <= clearance(centre))) refresh(centre, reach);
@@ -60,7 +60,7 @@ public:
     [[nodiscard]] const Obstacle& operator[](std::uint32_t index) const { return all_[index]; }
 
     /// Puts the centre out of everything that it is in: to the nearest face of each, along an axis
-    /// that is not locked. Whether it was in anything.
+    /// that is not locked. Returns true if it was in anything.
     bool push_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const;
 
 private:

@@ -154,7 +154,7 @@ private:
                box_.hands.damping_ns_per_m * stretched / time_;
     }
 
-    /// By how much the momentum that a way takes exceeds the impulses, per time.
+    /// Returns the excess of the momentum that a way takes over the impulses, per time.
     PerAxis excess(const PerAxis& way, Matrix* slope) const
     {
         PerAxis left{};
@@ -188,7 +188,7 @@ private:
         return left;
     }
 
-    /// How much of a change to take: along it the convex function has its lowest point there.
+    /// Returns the share of a change to take: along the change the convex function is lowest there.
     double share_of(const PerAxis& change, double falls) const
     {
         constexpr int tries_max = 40;
@@ -221,7 +221,7 @@ struct Hit {
     double way; // of that axis, to the face
 };
 
-/// Where the straight way of a step comes into an obstacle first.
+/// Returns where the straight way of a step first meets an obstacle.
 std::optional<Hit> first_hit(const BoxMotion& box, const PerAxis& way)
 {
     std::optional<Hit> first;

@@ -9,7 +9,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// When and through which face of the box grown by the radius the hand comes in.
+/// The time and the face at which the hand enters the box grown by the radius.
 struct Entry {
     double time = 0.0;
     std::size_t axis = no_axis; // none: it is inside of the grown box from the start

@@ -63,10 +63,10 @@ struct OutsideVector {
     return {face, radius + half[face.axis] - face.sign * from_centre[face.axis], {}};
 }
 
-/// Whether and where a hand's sphere touches a box at the start of the tick, or may within it.
-/// While its centre is outside, the closest point decides; inside, the face through which it
-/// came; one that comes inside all of a sudden takes the nearest face. One that is apart meets the
-/// face at which it would arrive at its present velocity.
+/// Finds where a hand's sphere touches a box at the start of the tick, or may touch it within the
+/// tick; nullopt: nowhere. While the sphere's centre is outside, the closest point decides. Inside,
+/// the face through which it came decides; a sphere that is suddenly inside takes the nearest face.
+/// A sphere that is apart meets the face at which it would arrive at its present velocity.
 [[nodiscard]] std::optional<SphereContact> collide_sphere(const SphereMotion& hand,
                                                           const PerAxis& half, BoxFace& entered);
 

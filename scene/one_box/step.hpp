@@ -42,10 +42,11 @@ public:
     void on_body_placed(WorldState& state, BodyId body);
     void on_body_shifted(WorldState& state, BodyId body);
 
-    /// In how many ticks there were more events than are followed.
+    /// The number of ticks in which there were more events than are followed.
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
-    /// What obstacles gave the box in the last tick, N s; only as good as there are obstacles: an
-    /// axis that stands still for another reason has one, too. Found when it is asked for.
+    /// Returns the impulse that obstacles gave the box in the last tick, N s. It is computed on
+    /// demand. It means something only where there are obstacles: an axis that stands still for
+    /// another reason gets an impulse, too.
     [[nodiscard]] glm::dvec3 contact_impulse(const WorldConfig& config,
                                              const WorldState& state) const;
 
@@ -59,12 +60,13 @@ private:
     void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
     void commit(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
     void settle_tick(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
-    /// By gravity and pushes.
+    /// The acceleration by gravity and pushes.
     [[nodiscard]] PerAxis steady_acceleration(const WorldConfig& config,
                                               const WorldState& state) const;
-    /// The velocity that the box has by what the hands report. Stiff hands can press so hard
-    /// against each other that their sum has fewer digits than the velocity of the closed form;
-    /// where nothing else touches the box, momentum is what was given to the last of them.
+    /// The velocity of the box that follows from the forces that the hands report. Stiff hands can
+    /// press so hard against each other that their sum has fewer digits than the velocity of the
+    /// closed form. Where nothing else touches the box, its momentum changes by what it was given,
+    /// to the last digit of that sum.
     [[nodiscard]] PerAxis velocity_from_hands(const WorldConfig& config,
                                               const WorldState& state) const;
 
@@ -76,7 +78,7 @@ private:
     BoxHands hands_;
     TickRoom room_{};
     std::uint64_t crowded_ticks_ = 0;
-    // Of the last tick, for contact_impulse().
+    // Results of the last tick, for contact_impulse().
     bool was_pushed_ = false;
     bool was_eventful_ = false;
     glm::dvec3 last_push_{0.0};  // N

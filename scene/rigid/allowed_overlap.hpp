@@ -14,10 +14,10 @@ inline constexpr double overlap_step = 0.01;
 inline constexpr double overlap_max = 0.5;
 inline constexpr double least_step = 0.05; // of the above
 inline constexpr double round_overlap_max = 0.9;
-// How near to that counts.
+// A gap counts if it is wider than the allowed overlap by at most this share of the next step.
 inline constexpr double near_share = 0.1;
 
-/// By how much two that overlap so far may overlap more at the next touch.
+/// Returns how much more two with this overlap may overlap at the next touch.
 [[nodiscard]] inline double next_overlap(double gap, double smallest)
 {
     return overlap_step * smallest * std::max(least_step, 1.0 + gap / (overlap_max * smallest));

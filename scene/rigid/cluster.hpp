@@ -29,15 +29,16 @@ class Cluster {
 public:
     void count(const ClusterPart& part);
     void join(const ClusterPart& part);
-    /// After all parts were joined.
+    /// Finds the one motion of all parts. Call it after all parts were joined.
     void stick();
 
     [[nodiscard]] const glm::dvec3& velocity() const { return velocity_; }
     [[nodiscard]] BodyMotion motion_of(const ClusterPart& part) const;
     [[nodiscard]] glm::dvec3 angular_momentum_of(const ClusterPart& part) const;
-    /// It touches a wall that moves, and that pushes it along a unit vector: it loses what it has
-    /// against the wall. At another wall only what is along both is left of its motion over that
-    /// one, at a third nothing. Returns the change of the velocity of each part.
+    /// Makes the cluster touch a wall that moves at `ground` and pushes it along `normal`, a unit
+    /// vector. The cluster loses its speed against the wall. At a second wall it keeps, of its
+    /// motion relative to that wall, only the part along both walls; at a third wall it keeps none.
+    /// Returns the change of the velocity of each part.
     glm::dvec3 stick_to_wall(const glm::dvec3& normal, const glm::dvec3& ground);
 
 private:

@@ -22,21 +22,24 @@ namespace {
 // each: where many are wedged into each other, touches would have no end. After more it sticks.
 constexpr std::uint32_t touches_max = 24, touches_many = 12;
 constexpr double many_times = 4.0;
-// Looks at two bodies in a tick: some, and so many more for each movable body: more where there are
-// many, as each has more neighbours. When half of them are used up, all that touches sticks.
+// The number of looks at two bodies in a tick: a base, and a number for each movable body. It grows
+// with their number, as each then has more neighbours. When half of the looks are used up, all that
+// touches sticks.
 constexpr std::uint32_t steps_base = 192, steps_per_body = 16, steps_per_pair = 2,
                         steps_per_body_max = 96;
-// A touch costs about as much as so many looks.
+// The cost of a touch, in looks.
 constexpr std::uint32_t steps_per_touch = 8;
 // Meetings for each movable body, on average.
 constexpr std::size_t meetings_per_body_max = 64;
 constexpr std::size_t meetings_max = 65'536;
-// A search through all meetings costs about as much as one look for every so many.
+// The number of meetings whose search costs about one look.
 constexpr std::size_t meetings_per_step = 256;
 
-// One that came so far behind the face that it touched is not there by right.
+// A body that came farther than this behind the face that it touched, in smallest half edges of the
+// two, is not there by right.
 constexpr double behind_max = 0.1;
-// As for bounces within a tick: what is slower than this, times what gravity adds in a tick, stays.
+// The least speed of a bounce, in units of the speed that gravity adds in a tick, as for bounces
+// within a tick. A slower body stays.
 constexpr double least_bounce = 2.0;
 
 std::uint32_t steps_for(const Bodies& bodies)
@@ -53,8 +56,8 @@ std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
     return std::min(bodies.movable_parts() * each, meetings_max);
 }
 
-/// What is left of gravity and pushes where contacts bear them: the change of the tick, where that
-/// is less. Where something is hit it is more, and comes at a moment.
+/// Returns the part of gravity and pushes that is left where contacts bear them: the change of the
+/// tick, where that is less. At an impact it is more, and comes at a moment.
 glm::dvec3 borne(const glm::dvec3& steady, const glm::dvec3& change)
 {
     constexpr double rounding = 1e-9;
@@ -149,8 +152,8 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
     }
 }
 
-/// From a moment on a flyer goes on otherwise: finds anew what is in its way, and when. All but
-/// one other, which is `done`.
+/// Finds again what is in the way of a flyer that goes on differently from a moment on, and when.
+/// It leaves out one other, which is `done`.
 template <BroadPhase search>
 void ContinuousCollision::go_on(const Surroundings& around, const PairFinder<search>& pairs,
                                 FlyerIndex index, double time, FlyerIndex done)
@@ -215,7 +218,7 @@ bool ContinuousCollision::go_to_next_touch(const Surroundings& around,
     return true;
 }
 
-/// From where it was to where it is now.
+/// Returns the straight motion from the body's former to its present place.
 SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
 {
     const BodyProperties& properties = bodies.properties[slot];
@@ -265,7 +268,7 @@ double ContinuousCollision::least_near(const Bodies& bodies, Slot slot) const
     return slot < bodies.awake ? departures_[slot].least_near : bodies.properties[slot].least_half;
 }
 
-/// Whether it goes so far in the rest of the tick that it could pass something.
+/// True if the way in the rest of the tick is so long that it could pass something.
 bool ContinuousCollision::goes_far(const SteadyBox& flight, double time, double least_near) const
 {
     const double turning = flight.core_radius() * length(flight.spin);
@@ -292,7 +295,7 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     return index;
 }
 
-/// Whether the straight way to where it was put is no way.
+/// True if a body cannot have gone the straight way to where it was put.
 bool ContinuousCollision::has_to_bend(const Surroundings& around, FlyerIndex index)
 {
     const Bodies& bodies = around.state.bodies;
@@ -320,7 +323,7 @@ ContinuousCollision::FlyerIndex ContinuousCollision::next_bend(double time) cons
     return found;
 }
 
-/// Whether it came behind the face of the other that it was to touch first.
+/// True if a body came behind the face of the other that it should have touched first.
 bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& departure) const
 {
     const FirstTouch& first = departure.first_touch;
@@ -337,9 +340,9 @@ bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& depart
     return gap < -behind_max * smallest_half(own, other);
 }
 
-/// Until its first touch a body goes on as it began, and then with what it has at the end: for one
-/// that hits something with a corner, that is nearer to the truth than the straight way to where
-/// it would be.
+/// Bends a body's way. It moves as it began until its first touch, and then with its velocity at
+/// the end. For a body that hits something with a corner, that is more accurate than the straight
+/// way to its place at the end.
 void ContinuousCollision::bend(const Surroundings& around, FlyerIndex index)
 {
     Flyer& flyer = flyers_[index];
@@ -350,8 +353,8 @@ void ContinuousCollision::bend(const Surroundings& around, FlyerIndex index)
     flyer.has_changed = true;
 }
 
-/// From now on it moves with its velocity at the end of the tick, less what constant forces will
-/// have added until then.
+/// Lets a body move from now on with its velocity at the end of the tick, less the part that
+/// constant forces will have added until then.
 void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, double time)
 {
     const Bodies& bodies = around.state.bodies;
@@ -361,7 +364,7 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     const double left = scales_.tick - time;
     flyer.flight.velocity =
         bodies.velocity.at(slot) - (0.5 * left) * departures_[slot].acceleration;
-    // What a touch sees is the spin that it has now; it may not stay: see touch().
+    // A touch uses the spin at this moment, which may not stay: see touch().
     flyer.roll.advance(time);
     flyer.flight.spin = spin_of(bodies, slot, orientation, flyer.roll);
     flyer.flight.put(centre, orientation, time);
@@ -369,7 +372,7 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     flyer.has_changed = true;
 }
 
-/// For the rest of the tick it stays where it is. Its velocity is kept: the next tick goes on.
+/// Stops a body for the rest of the tick. Its velocity is kept: the next tick goes on.
 void ContinuousCollision::stop(Flyer& flyer, double time)
 {
     flyer.flight.centre += time * flyer.flight.velocity;
@@ -396,7 +399,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     const SteadyBox flight = flyers_[index].flight;
     const double until = std::min(scales_.tick, flyers_[index].bend);
     const double end = flyers_[index].is_released ? scales_.tick : until;
-    // What others move without being fast is within this, too.
+    // This margin also covers the way of others that move without being fast.
     const Bodies& all = around.state.bodies;
     const double margin =
         flight.radius + far_way * least_near(all, all.slot_of[flyers_[index].body]);
@@ -431,7 +434,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
         meet(other, false);
     });
     for (FlyerIndex other = 0; other < flyers_.size(); ++other) {
-        // Those that were thrown out of the boxes in which the others find them.
+        // Finds bodies that were thrown out of the boxes in which the others find them.
         if (other == index || !flyers_[other].is_fast) continue;
         if (!overlap(way, flyers_[other].searched)) continue;
         if (are_to_meet(index, other, false) || are_to_meet(other, index, false)) continue;
@@ -443,7 +446,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     }
 }
 
-/// Whether two that touch have touched so often that they stick.
+/// True if two that touch have touched so often that they stick.
 bool ContinuousCollision::is_too_much(const Meeting& meeting) const
 {
     if (looks_run_short()) return true;
@@ -453,7 +456,7 @@ bool ContinuousCollision::is_too_much(const Meeting& meeting) const
     return is_done(flyers_[meeting.a]) || (!meeting.is_plane && is_done(flyers_[meeting.b]));
 }
 
-/// Two touch: if they come nearer, they push each other. After so many touches they stay.
+/// Makes two touch. If they come nearer, they push each other. After a number of touches they stay.
 void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
 {
     const double time = meeting.time;
@@ -475,7 +478,7 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     for (std::size_t i = 0; i < count; ++i) {
         Flyer& flyer = flyers_[both[i]];
         if (!flyer.is_movable || flyer.has_stopped) continue;
-        // Without a push they only seemed to come nearer, while the spin was not what it was.
+        // Without a push they only seemed to approach each other, because the spin was outdated.
         if (pushed || !any_released) {
             release(around, flyer, time);
             ++flyer.touches;
@@ -506,7 +509,7 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     return its;
 }
 
-/// Where two touch, and how round they are there.
+/// Returns where two touch, and the roundness of both there.
 ContinuousCollision::TouchPoints ContinuousCollision::touch_points(const Surroundings& around,
                                                                    const Meeting& meeting) const
 {

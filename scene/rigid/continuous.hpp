@@ -29,12 +29,12 @@ namespace hapnet::scene {
 /// advancement. At a touch that is still approaching, both bodies get an impulse at that moment,
 /// with restitution and friction, and go on; in the order of time, for all of them.
 ///
-/// Where many fast bodies are packed, touches would have no end. Those that touch too often in one
+/// Where many fast bodies are packed, touches would have no end. Bodies that touch too often in one
 /// tick stick together (Cluster): they have one motion from then on, as after an inelastic impact,
-/// and lose what they had against a wall that they touch. Each such step takes away one body or
-/// one direction, so there are few, and bodies of one motion take a single look.
+/// and lose their speed against a wall that they touch. Each such step takes away one body or one
+/// direction, so there are few, and bodies of one motion take a single look.
 ///
-/// In a tick: begin() before bodies move, solve() after. Neither when no body goes far.
+/// In a tick: begin() before bodies move, solve() after. Call neither when no body goes far.
 class ContinuousCollision {
 public:
     ContinuousCollision(const WorldConfig& config, const Bodies& bodies, const Scales& scales);
@@ -56,7 +56,7 @@ public:
     /// Looks at two bodies in a tick, at most; and in the last solve().
     [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
     [[nodiscard]] std::uint64_t looks() const { return steps_max_ - steps_left_; }
-    /// Whether the last solve() changed a body's velocity or its way.
+    /// True if the last solve() changed a body's velocity or its way.
     [[nodiscard]] bool has_changed_any() const
     {
         const auto flyers = flyers_.all();
@@ -73,7 +73,8 @@ public:
         glm::dvec3 angular_momentum{0.0};
         DrivenEnergy driven{}; // of kinematic bodies since then, in touches
     };
-    /// Of an awake body since begin(), and of a sleeper that the last solve() changed.
+    /// Returns the state of an awake body at begin(), or of a sleeper that the last solve()
+    /// changed.
     [[nodiscard]] const Beginning& beginning(Slot slot) const
     {
         return departures_[slot].beginning;
@@ -99,7 +100,7 @@ public:
         }
     }
 
-    /// Something fixed or kinematic that was in the way of a movable body.
+    /// A fixed or kinematic thing that was in the way of a movable body.
     struct Wall {
         bool is_kinematic = false;
         bool has_pushed = false;
@@ -125,11 +126,12 @@ private:
     using ClusterIndex = std::uint32_t;
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-    // At two of which others may touch first: so many at once. When half of all are used up, two at
-    // which many do not suffice stick before they touch: they spin beside each other.
+    // The number of steps spent at once on two bodies that others may touch first. When half of all
+    // steps are used up, two bodies for which `steps_many` do not suffice stick before they touch:
+    // they spin beside each other.
     static constexpr std::uint32_t steps_at_once = 4, steps_many = 32;
 
-    /// Where a body was, and how it turned from there.
+    /// A body's state at the start of the tick, and how it turned from there.
     struct Departure {
         enum class Turn : std::uint8_t { free, steady, by_hands };
         Beginning beginning;

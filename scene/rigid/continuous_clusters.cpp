@@ -58,7 +58,7 @@ void ContinuousCollision::link(const Surroundings& around, FlyerIndex a, FlyerIn
     ++around.state.interventions.clusters_stuck;
 }
 
-/// Those that are linked have one motion from now on. They do not turn in the rest of the tick.
+/// Gives linked bodies one motion from now on. They do not turn in the rest of the tick.
 void ContinuousCollision::go_together(const Surroundings& around, FlyerIndex index, double time)
 {
     Bodies& bodies = around.state.bodies;
@@ -98,7 +98,7 @@ void ContinuousCollision::go_together(const Surroundings& around, FlyerIndex ind
     });
 }
 
-/// What sticks together loses what it has against a wall.
+/// Takes from bodies that stick together their speed against a wall, see Cluster::stick_to_wall().
 void ContinuousCollision::stick_to_wall(const Surroundings& around, FlyerIndex index,
                                         const Meeting& meeting)
 {

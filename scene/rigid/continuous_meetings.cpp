@@ -40,7 +40,7 @@ void ContinuousCollision::set_part(SteadyBox& flight, const BodyPart& part)
     flight.frame = part.axes;
 }
 
-/// How a part of a flyer moves: `room` is for that of a body of several.
+/// Returns how a part of a flyer moves. A body of several parts needs `room` for the result.
 const SteadyBox& ContinuousCollision::flight_of(const Bodies& bodies, FlyerIndex index, PartId part,
                                                 SteadyBox& room) const
 {
@@ -51,7 +51,7 @@ const SteadyBox& ContinuousCollision::flight_of(const Bodies& bodies, FlyerIndex
     return room;
 }
 
-/// How far apart they are at a moment.
+/// Returns the gap of the two at a moment.
 Gap ContinuousCollision::gap_of(const Surroundings& around, const Meeting& meeting,
                                 double time) const
 {
@@ -84,8 +84,8 @@ void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting&
             is_round ? flight.rounding + other.rounding : std::min(smallest, shortest_half(other));
     }
     const Gap gap = gap_of(around, wanted, 0.0);
-    // Those that began far in each other cannot pass each other any more; but a round body until
-    // its core is in the other.
+    // Bodies that overlap far at the start cannot pass each other any more. A round body can until
+    // its core overlaps the other.
     if (gap.distance <= -(is_round ? round_overlap_max : overlap_max) * smallest) return;
     const auto index = static_cast<MeetingIndex>(meetings_.size());
     Meeting& meeting = meetings_.add();
@@ -114,7 +114,7 @@ ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
     return found;
 }
 
-/// Searches for their next touch while both go on as they do, with at most so many looks.
+/// Searches for the next touch of two that keep their motion, with a limited number of looks.
 void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, double from,
                                   std::uint32_t looks_max)
 {
@@ -150,7 +150,7 @@ void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, 
     meeting.is_over = advanced.end == Advanced::End::clear;
 }
 
-/// The same for all of a flyer's meetings, but for those with another that is `done`.
+/// Calls advance() for all of a flyer's meetings, except those with another that is `done`.
 void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex index, double from,
                                       FlyerIndex done)
 {

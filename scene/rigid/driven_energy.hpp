@@ -7,17 +7,17 @@
 
 namespace hapnet::scene {
 
-/// Of the work, J, of an impulse on the surface of a kinematic body the other gets no more than it
-/// takes by its own motion: what cannot follow, because it is locked or wedged, gets no energy, and
-/// its impulse may be any.
+/// Returns the part of the work `given`, J, of a kinematic body's impulse that the other body gets.
+/// It gets no more than `taken`, J, the work of the impulse on its own motion. A locked or wedged
+/// body cannot follow and gets no energy, however large the impulse is.
 [[nodiscard]] inline double driven_energy(double given, double taken)
 {
-    // What pushes a body at rest gives it all that it gains, but for rounding.
+    // The energy that a body at rest gains comes from the bodies that push it, except for rounding.
     constexpr double rounding = 1e-12;
     return std::min(given, taken + rounding * std::abs(taken));
 }
 
-/// What kinematic bodies did to a body in touches within a tick.
+/// The work of kinematic bodies on a body in touches within a tick.
 struct DrivenEnergy {
     double energy = 0.0; // J
     double speed = 0.0;  // m/s: of their surfaces there, at most
@@ -27,8 +27,8 @@ struct DrivenEnergy {
         energy += other.energy;
         speed = std::max(speed, other.speed);
     }
-    /// No more of it, J, than impulses at that speed could do that leave so much momentum, N s: in
-    /// a wedge touches push to and fro without end.
+    /// Returns the energy, J, limited to the work of impulses at that speed that leave the momentum
+    /// `passed`, N s. In a wedge, touches push to and fro without end.
     [[nodiscard]] double within(double passed) const
     {
         return energy <= 0.0 ? energy : std::min(energy, speed * passed);

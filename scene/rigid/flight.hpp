@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-// How a body turns between two touches within a tick.
+// The turning of a body between two touches within a tick.
 
 /// The turn of a capsule about its own axis, which nothing that it meets can tell.
 struct Roll {
@@ -30,14 +30,15 @@ struct Roll {
                                     double at) const;
 };
 
-/// The steady spin that leads from one orientation to another in a tick, next to the mean spin:
-/// what turns far tumbles on its way.
+/// Returns the steady spin (rad/s) that leads from one orientation to the other within a tick. It
+/// makes as many full turns as the mean spin does. A body that turns by at most 0.2 rad in the tick
+/// keeps the mean spin.
 [[nodiscard]] glm::dvec3 steady_spin(const glm::dquat& from, const glm::dquat& to,
                                      const glm::dvec3& mean, double tick);
 
-/// The spin that a body turned so has now. With unequal moments of inertia it does not stay; but a
-/// capsule is a symmetric top: its axis turns steadily about its angular momentum. Of that it is
-/// the spin, and `roll` gets the rest.
+/// Returns the spin that a body has now in this orientation, rad/s. With unequal moments of inertia
+/// the spin changes on the way. A capsule is a symmetric top: its axis turns steadily about its
+/// angular momentum. For a capsule the result is the spin of its axis, and `roll` gets the rest.
 [[nodiscard]] glm::dvec3 spin_of(const Bodies& bodies, Slot slot, const glm::dquat& orientation,
                                  Roll& roll);
 

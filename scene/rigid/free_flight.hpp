@@ -20,12 +20,12 @@ struct SlotRange {
 void integrate_parabola(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration,
                         double tick);
 
-/// Turns bodies by one tick about the axis of their angular momentum, exactly. For those that turn
-/// evenly: with three equal moments of inertia, or about one axis of the world. What does not turn
-/// keeps its orientation to the last bit.
+/// Turns bodies by one tick about the axis of their angular momentum, exactly. The bodies must turn
+/// evenly: with three equal moments of inertia, or about one axis of the world. A body that does
+/// not turn keeps its orientation to the last bit.
 void rotate_uniformly(Bodies& bodies, SlotRange range, double tick);
 
-/// Whether a body turns evenly, or not at all.
+/// True if a body turns evenly, or not at all.
 [[nodiscard]] bool rotates_uniformly(const BodyProperties& properties);
 
 /// Turns one body of any kind by one tick in which nothing touches it.
@@ -35,7 +35,7 @@ void rotate_freely(Bodies& bodies, Slot slot, double tick);
 [[nodiscard]] glm::dvec3 gravity_on(const BodyProperties& properties, const glm::dvec3& gravity);
 
 /// Moves bodies that nothing touches, whatever their kinds: many at once when all movable bodies of
-/// the scene turn evenly and fall alike, else one by one.
+/// the scene turn evenly and fall equally, otherwise one by one.
 class FreeBodies {
 public:
     FreeBodies(const WorldConfig& config, const Bodies& bodies);
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& /*config*/) const { return {}; }
 
 private:
-    /// Bodies side by side that are alike in what keeps them from turning and falling.
+    /// Neighbouring bodies that have the same limits of turning and falling.
     enum class Kind : std::uint8_t { locked, uniform, tumbling };
     struct Run {
         Kind kind = Kind::locked;
@@ -76,12 +76,12 @@ private:
     std::vector<Run> runs_;
 };
 
-/// Which awake bodies something acts on in a tick: a contact, a hand or a push. The others fly.
+/// The awake bodies on which something acts in a tick: a contact, a hand or a push. The others fly.
 class ActiveBodies {
 public:
     explicit ActiveBodies(Slot movable) : slots_{movable}, marks_(movable, 0) {}
 
-    /// Whether the body was not one of them.
+    /// Adds a body. Returns true if it was not one of them before.
     bool add(Slot slot)
     {
         if (marks_[slot] != 0) return false;
@@ -97,7 +97,7 @@ public:
 
     [[nodiscard]] bool contains(Slot slot) const { return marks_[slot] != 0; }
 
-    /// In the order in which they came.
+    /// The slots in the order in which they came.
     [[nodiscard]] std::span<const Slot> slots() const { return slots_.all(); }
 
     /// Calls visit(range) for all the others up to `end`.

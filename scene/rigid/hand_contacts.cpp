@@ -66,7 +66,7 @@ void HandContacts::collide(const WorldConfig& config, WorldState& state, std::ui
     add_push(config, state, hand, target);
 }
 
-/// Whether the hand holds the body: then it pulls and pushes in all directions where it took hold.
+/// True if the hand holds the body: then it pulls and pushes in all directions where it took hold.
 bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                             const Target& target)
 {
@@ -128,7 +128,7 @@ inline bool HandContacts::touch(const WorldConfig& config, const HandInput& inpu
     return find(config, input, target, near_body, spring);
 }
 
-/// The same on one part of several; the arm is from the body's centre.
+/// As find(), on one of several parts; the arm is from the body's centre.
 bool HandContacts::find_on_part(const WorldConfig& config, const HandInput& input,
                                 const Target& target, NearBody& near_body, HandSpring& spring) const
 {
@@ -139,8 +139,9 @@ bool HandContacts::find_on_part(const WorldConfig& config, const HandInput& inpu
     return !is_inner(input, target, spring);
 }
 
-/// Whether where the hand touches lies within another part, or on it, which it goes as deep into:
-/// that one pushes it. So two faces that lie flush feel like one.
+/// True if the point that the hand touches lies within another part, or on it, and the hand goes at
+/// least as deep into that part. Then that part pushes the hand, so that two faces that lie flush
+/// feel like one. Of parts at the same depth, the one with the lower id pushes.
 bool HandContacts::is_inner(const HandInput& input, const Target& target, const HandSpring& spring)
 {
     const Bodies& bodies = *target.with_parts;
@@ -206,8 +207,8 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
     return true;
 }
 
-/// What is left of an overlap where faces are internal: behind such a face the nearest outer one
-/// pushes, and beside it the neighbour does.
+/// Returns the part of an overlap that is left where faces are internal: behind such a face the
+/// nearest outer one pushes, and beside it the neighbour does.
 std::optional<LocalOverlap> HandContacts::outer_overlap(const InternalFaces& internal,
                                                         const Target& target, const FoundNear& near,
                                                         const LocalOverlap& found)
@@ -217,7 +218,8 @@ std::optional<LocalOverlap> HandContacts::outer_overlap(const InternalFaces& int
     LocalOverlap overlap = found;
     if (internal.leads_inside(target.part, half, found, lean)) {
         const glm::dvec3 beyond = glm::abs(near.place) - half;
-        // On the border it is in: is_shared() leaves the point to one of two neighbours.
+        // A point on the border counts as inside: is_shared() leaves the point to one of two
+        // neighbours.
         constexpr double border = 2e-12;
         const double most = border * std::max({half.x, half.y, half.z});
         if (std::max({beyond.x, beyond.y, beyond.z}) > most) return std::nullopt;
@@ -229,7 +231,7 @@ std::optional<LocalOverlap> HandContacts::outer_overlap(const InternalFaces& int
     return overlap;
 }
 
-/// On a sphere or a capsule: by the nearest point of its core.
+/// Finds the spring on a sphere or a capsule, by the nearest point of its core.
 bool HandContacts::find_round(const WorldConfig& config, const HandInput& input,
                               const Target& target, HandSpring& spring) const
 {
@@ -340,7 +342,8 @@ void HandContacts::feel_planes_with(const WorldConfig& config, WorldState& state
     }
 }
 
-/// What the hand feels at the start of the tick; and of that push no more than friction leaves.
+/// Notes the force that the hand feels at the start of the tick, and limits its push to the part
+/// that friction leaves.
 void HandContacts::note_friction(WorldState& state, const HandProxies::Touch& touch,
                                  const FrictionSpring& friction, const Press& press)
 {
@@ -427,7 +430,7 @@ void HandContacts::rub_planes(const WorldConfig& config, WorldState& state, std:
     }
 }
 
-/// On what goes its way whatever hands do.
+/// Adds the friction of a hand on something whose motion hands do not change.
 void HandContacts::rub_unmoved(const WorldConfig& config, WorldState& state,
                                const HandProxies::Touch& touch, const HandFriction& limits,
                                const Press& press)
@@ -473,7 +476,7 @@ void HandContacts::store_friction(WorldState& state, BodyId body)
     }
 }
 
-/// Whether a body takes another spring: as many as there can be hands. So a hand pushes several
+/// True if a body takes another spring: as many as there can be hands. So a hand pushes several
 /// parts of it only as long as there is one left for each hand that is still to come.
 bool HandContacts::has_room(const WorldConfig& config, std::uint32_t index,
                             const Target& target) const
@@ -536,7 +539,7 @@ void HandContacts::forget_departed(std::uint32_t index)
     hand.count = kept;
 }
 
-/// Of one hand, of all its springs there.
+/// Returns the impulse of one hand on a body, by all its springs there.
 glm::dvec3 HandContacts::impulse_on_body(const Spring& one) const
 {
     glm::dvec3 sum{0.0};

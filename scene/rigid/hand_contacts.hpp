@@ -38,7 +38,7 @@ public:
     /// Starts a tick with no hand touching anything.
     void begin_step(const WorldConfig& config, WorldState& state);
 
-    /// Where a part of a body is and how that moves.
+    /// The place and the motion of a part of a body.
     struct Target {
         BodyId body = 0;
         PartId part = 0;
@@ -51,7 +51,8 @@ public:
         {
             return with_parts == nullptr ? nullptr : &with_parts->parts[part];
         }
-        /// Of the body, which is that of the box but where there are several parts.
+        /// The centre of the body. It differs from the box's centre only if the body has several
+        /// parts.
         [[nodiscard]] glm::dvec3 centre() const
         {
             return with_parts == nullptr ? now.box.centre : now.box.centre - now.offset;
@@ -71,19 +72,20 @@ public:
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
-    /// Whether all springs of this tick, one or two, press amid faces of one body that no other
+    /// True if all springs of this tick, one or two, press amid faces of one body that no other
     /// hand is near: then the next tick may begin with press_again().
     [[nodiscard]] bool may_press_again(const WorldConfig& config);
-    /// What collide() would find. False when another face or none is pressed.
+    /// Finds the same contacts as collide() would. Returns false when the hand presses another face
+    /// or none.
     [[nodiscard]] bool press_again(const WorldState& state, const SweptBox& now,
                                    const glm::dvec3& velocity);
     [[nodiscard]] const PressingHands& pressing() const { return pressing_; }
     [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
-    /// Adds what the hands feel of planes.
+    /// Adds the forces of planes on the hands.
     static void feel_planes(const WorldConfig& config, WorldState& state);
     [[nodiscard]] bool any_friction() const { return any_friction_; }
-    /// Adds the friction of what was found: of the springs, and what the hands feel of fixed bodies
-    /// and planes. `target_of` says where a body is.
+    /// Adds the friction of the springs, and that which hands feel of fixed bodies and planes.
+    /// `target_of` says where a body is.
     template <typename TargetOf>
     void add_friction(const WorldConfig& config, WorldState& state, const TargetOf& target_of)
     {
@@ -105,19 +107,20 @@ public:
     void forget_departed(std::uint32_t index);
 
     [[nodiscard]] std::span<const Spring> springs() const { return springs_.all(); }
-    /// Those on one body, and where their impulses go; valid until the next call.
+    /// The springs on one body, and the place for their impulses. Both are valid until the next
+    /// call.
     struct BodySprings {
         std::span<const HandSpring> springs;
         std::span<SpringImpulse> work;
     };
     [[nodiscard]] BodySprings springs_on(BodyId body);
-    /// The friction of those; empty where they are smooth.
+    /// The friction of the springs on a body; empty where they are smooth.
     [[nodiscard]] std::span<FrictionSpring> frictions_on(BodyId body);
-    /// Keeps what has become of it.
+    /// Keeps the new state of the friction.
     void store_friction(WorldState& state, BodyId body);
-    /// Keeps the impulses that were found for them.
+    /// Keeps the impulses that were found for the springs.
     void store_impulses(BodyId body);
-    /// Of one that has some.
+    /// Returns the first spring on a body, which has at least one.
     [[nodiscard]] const Spring& first_spring_on(BodyId body) const;
     /// Reports to the hands what the springs did.
     void report_forces(const WorldConfig& config, WorldState& state);
@@ -125,7 +128,7 @@ public:
     void forget(const Bodies& bodies, BodyId body);
 
 private:
-    /// What is remembered of a part of a body near a hand.
+    /// The memory of a body's part near a hand.
     struct NearBody {
         PartId part = 0;
         bool is_current = false; // in this tick
@@ -170,7 +173,7 @@ private:
         HandProxies::Touch touch;
         FrictionSpring friction;
     };
-    /// What a hand does across a surface at the start of a tick.
+    /// A hand's press on a surface at the start of a tick.
     struct Press {
         const HandDescription& hands;
         glm::dvec3 velocity{0.0}; // of the hand over the surface where it touches

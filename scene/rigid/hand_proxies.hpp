@@ -8,15 +8,16 @@
 
 namespace hapnet::scene {
 
-/// Where hands stick: a proxy for each hand and body or plane that it rubs against. A proxy is kept
-/// as a point of the body and a point of the hand's sphere, which does not turn; they were together
-/// when it began, and what they are apart now, along the surface, stretches the spring. So nothing
-/// drifts while it sticks, and a body that rolls under a hand slides by nothing.
+/// The points where hands stick: a proxy for each hand and body or plane that it rubs against. A
+/// proxy is kept as a point of the body and a point of the hand's sphere, which does not turn; they
+/// were together when it began, and what they are apart now, along the surface, stretches the
+/// spring. So nothing drifts while it sticks, and a body that rolls under a hand slides by nothing.
 class HandProxies {
 public:
     explicit HandProxies(const WorldConfig& config);
 
-    /// Where a hand touches, seen from the centre of a body, or from the origin with a plane.
+    /// The place where a hand touches, seen from the centre of a body, or from the origin with a
+    /// plane.
     struct Touch {
         std::uint32_t hand = 0;
         std::uint32_t other = 0; // a part of a body, or planes_from and a plane's index on
@@ -32,7 +33,7 @@ public:
     void begin_step();
     /// The friction with which the tick begins.
     [[nodiscard]] FrictionSpring begin(const Touch& touch, const HandFriction& limits);
-    /// Keeps what has become of it.
+    /// Keeps the new state of the friction.
     void end(const Touch& touch, const FrictionSpring& friction);
     void forget(PartId part);
 

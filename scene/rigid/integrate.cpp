@@ -15,8 +15,8 @@ namespace hapnet::scene {
 
 namespace {
 
-/// How far the correction of overlaps may throw such a body off its way, in half edges of the
-/// smallest body: one contact may move it by so much, see correction_max.
+/// The distance by which the correction of overlaps may throw such a body off its way, in half
+/// edges of the smallest body. One contact may move it that far, see correction_max.
 constexpr double stray_max = 0.1;
 
 /// The part of a displacement or velocity along unlocked axes.
@@ -162,7 +162,7 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
                              response.inverse_inertia * integration.angular_momentum,
                              glm::dvec3{0.0}};
     if (!rotates_uniformly(state.bodies.properties[slot])) {
-        // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
+        // A body's moments of inertia turn with it: the angular momentum stays, the spin does not.
         // For a body that rotates far in a tick this rate is wrong: it fades out. It is that of the
         // momentum at the start: what wedged contacts add may be anything.
         constexpr double far = 0.3; // radians
@@ -176,7 +176,7 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
                         0.5 * (integration.start.spin + integration.predicted.spin),
                         glm::dvec3{0.0}};
     if (integration.drag == 0.0) return;
-    // Against the drag the velocity along the plane goes exponentially to where it would stay.
+    // Under drag the velocity along the plane approaches its final value exponentially.
     const glm::dvec3& light = response.inverse_mass;
     const double keeps = base::exp(-integration.drag * tick);
     const glm::dvec3 driven =
@@ -249,7 +249,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.mean.spin = 0.5 * (integration.start.spin + integration.predicted.spin);
     integration.mean.angular_impulse = glm::dvec3{0.0};
     integration.mean_to_there = integration.mean;
-    // What it has more than constant forces gave it.
+    // The energy that the body gained beyond the work of constant forces.
     const double more = kinetic_energy(bodies.properties[slot], body) -
                         kinetic_energy(bodies.properties[slot], start) -
                         bodies.properties[slot].mass *

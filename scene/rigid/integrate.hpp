@@ -15,7 +15,7 @@
 
 namespace hapnet::scene {
 
-/// What a body that goes far meets first on the way that it began.
+/// The first touch of a body that goes far in a tick, on the way that it began.
 struct FirstTouch {
     double time = std::numeric_limits<double>::infinity(); // s, within the tick
     glm::dvec3 normal{0.0};                                // from it to the other
@@ -43,13 +43,13 @@ struct BodyIntegration {
     double least_near = 0.0; // m: the smallest half edge of it and what it may meet
     DrivenEnergy driven{};   // of kinematic bodies, in contacts
 
-    // Where it was and what it had before it moved: see IslandEnergy.
+    // The body's place and energy before it moved: see IslandEnergy.
     glm::dvec3 start_position{0.0};
     glm::dquat start_orientation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 start_angular_momentum{0.0};
     double start_energy = 0.0; // J, kinetic
 
-    // Where a body with hands on it would be at the end.
+    // The place at the end of a body with hands on it.
     bool has_hands = false;
     bool hands_are_braked = false;
     std::size_t hand_rows = 0; // see HandEnergy
@@ -64,7 +64,8 @@ struct BodyIntegration {
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
 
-/// The same in the middle of a tick, for one that is solved anew: with what a torque adds alone.
+/// As reset(), but in the middle of a tick, for a body that is solved again. It keeps only the
+/// effect of a torque.
 void begin_again(BodyIntegration& integration, const glm::dvec3& twist);
 
 /// Starts with no bounce yet.
@@ -83,8 +84,9 @@ struct HandForces {
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
                         const BodyResponse& response, const WorldConfig& config);
 
-/// What a change of a body's velocity, with a share of the tick left, is at the end and adds to the
-/// mean: along the plane that supports it drag takes from it what it takes from any velocity.
+/// The effect of a change of a body's velocity at a time within the tick: the change that is left
+/// at the end, and the part that it adds to the mean velocity. On a plane that supports the body,
+/// drag reduces the change as it does any velocity.
 struct VelocityChange {
     glm::dvec3 at_end{0.0};
     glm::dvec3 mean{0.0};
@@ -93,28 +95,29 @@ struct VelocityChange {
                                            const BodyResponse& response, const glm::dvec3& change,
                                            double share_left, double tick);
 
-/// What acts on a body with hands on it, beside those.
+/// Returns everything that acts on a body with hands on it, except the hands.
 [[nodiscard]] BodyDynamics dynamics_of(const BodyIntegration& integration, const WorldState& state,
                                        Slot slot, const BodyResponse& response,
                                        const WorldConfig& config);
 
-/// The same with the hands' springs on it, which tell their work.
+/// As integrate_velocity(), with the hands' springs on the body. The springs report their work.
 void integrate_velocity_with_hands(BodyIntegration& integration, const WorldState& state, Slot slot,
                                    const BodyResponse& response, const HandForces& hands);
 
-/// What slides on something that does not turn.
+/// A body that slides on something that does not turn.
 struct SlidingBody {
     const BodyIntegration& integration;
     const glm::dvec3& ground; // the velocity of what it slides on
     bool is_second = true;    // of the contact
 };
 
-/// A contact that stops slipping within the tick does so at its moment: until then friction has
-/// its full strength, and not a mean one until the end. For a body whose only friction it is.
+/// Stops a contact that ceases to slip within the tick at its moment. Until then friction has its
+/// full strength, instead of a mean strength until the end. The contact must be the body's only
+/// friction.
 void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
-/// The same for all bodies with but one such contact, once the impulses are known.
+/// Calls apply_stop() for all bodies with only one such contact, once the impulses are known.
 void stop_sliding_contacts(const Bodies& bodies, const Scales& scales, ContactSolver& solver,
                            std::span<const BodyIntegration> integrations);
 
@@ -126,13 +129,13 @@ void warm_start(ContactSolver& solver, std::span<BodyIntegration> integrations);
 /// could pass through something.
 inline constexpr double far_way = 0.5;
 
-/// What keep_within_swept_path() saw.
+/// The results of keep_within_swept_path().
 struct Ways {
     bool any_kept = false; // some body was held back
     bool any_far = false;  // some body goes far, turning included: ContinuousCollision has work
 };
 
-/// Whether a body that meets planes alone does, turning included.
+/// True if a body that meets only planes goes far in a tick, turning included.
 [[nodiscard]] inline bool goes_far(const BodyProperties& body, const BodyMotion& mean,
                                    const Scales& scales)
 {
@@ -147,12 +150,12 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales);
 
-/// The spin with which integrate_position() will turn the body steadily through the tick, but for
-/// one with hands on it.
+/// Returns the spin with which integrate_position() will turn the body steadily through the tick.
+/// Not for a body with hands on it.
 [[nodiscard]] glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies,
                                            Slot slot, const BodyMotion& mean, double tick);
 
-/// Where integrate_position() will move the body.
+/// The place to which integrate_position() will move the body.
 struct Placement {
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};

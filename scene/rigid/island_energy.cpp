@@ -14,18 +14,18 @@ namespace hapnet::scene {
 
 namespace {
 
-// Of all amounts that are there: what their sum may be off by.
+// The error of a sum, as a share of all amounts in it.
 constexpr double sum_rounding = 1e-14;
 // Two surfaces that close at a small angle squeeze a body out faster than they move, without limit
-// as the angle goes to 0. In contacts the speed of a surface counts as up to so many times what it
-// is, but not as more than so many smallest half edges in a tick, unless it is faster itself: what
-// goes farther leaves them within the tick.
+// as the angle goes to 0. In contacts the speed of a surface counts as up to `squeezed_max` times
+// its value, but not as more than `squeezed_way` smallest half edges in a tick, unless it is faster
+// itself. A body that goes farther leaves them within the tick.
 constexpr double squeezed_max = 5.0, squeezed_way = 0.05;
 // A solver that ends its sweeps early leaves this share of what is there, or this multiple of the
 // speed that gravity adds in a tick: no reason to solve again.
 constexpr double unfinished_share = 1e-6, unfinished_speeds = 2.0;
 
-/// What acts on a body's centre from outside, N.
+/// Returns the force on a body's centre from outside, N.
 glm::dvec3 load_on(const WorldConfig& config, const WorldState& state,
                    const BodyProperties& properties)
 {
@@ -40,7 +40,7 @@ DrivenEnergy with_squeezing(const Scales& scales, const DrivenEnergy& driven,
     return {driven.energy, std::max(driven.speed, std::min(squeezed_max * driven.speed, most))};
 }
 
-/// Whether it keeps no momentum along some axis.
+/// True if it keeps no momentum along some axis.
 bool is_locked(const BodyProperties& properties)
 {
     const glm::dvec3& light = properties.inverse_mass;
@@ -110,7 +110,7 @@ void IslandEnergy::Account::add(const Account& other)
     mass += other.mass;
 }
 
-/// By the velocities that were solved for: the body has not moved yet.
+/// Returns a body's account by the velocities that were solved for: the body has not moved yet.
 IslandEnergy::Account IslandEnergy::velocities_of(const Tick& tick, Slot slot)
 {
     const Bodies& bodies = tick.state.bodies;
@@ -152,7 +152,7 @@ std::span<const std::uint8_t> IslandEnergy::gaining(const Tick& tick)
     if (!any) return {};
     join_islands(tick, slots);
     sum_islands(slots);
-    // What a moving surface drives begins with the impulses that it needs.
+    // A body that a moving surface drives begins with the impulses that it needs.
     for (const ContactBlock& block : tick.solver.blocks()) {
         if (tick.solver.is_kinematic(block.a) || tick.solver.is_kinematic(block.b))
             accounts_[islands_.root_of(tick.solver.responding_of(block))].allowed = HUGE_VAL;
@@ -306,9 +306,9 @@ bool IslandEnergy::find_gaining(const Tick& tick, const ContinuousCollision* tou
     return any;
 }
 
-/// What an island that gained keeps in any case: the centre of one that nothing holds goes by its
-/// momentum, and a body turns to where its angular momentum means no more energy than at the start.
-/// Overlaps that were moved apart may have led away from both.
+/// Restores two laws in an island that gained energy. The centre of an island that nothing holds
+/// moves by its momentum. A body turns to where its angular momentum means no more energy than at
+/// the start. Moving overlaps apart may have violated both.
 void IslandEnergy::mend_ways(const Tick& tick, const ContinuousCollision* touches)
 {
     Bodies& bodies = tick.state.bodies;
@@ -345,8 +345,9 @@ void IslandEnergy::mend_ways(const Tick& tick, const ContinuousCollision* touche
     }
 }
 
-/// What a kinematic body wedges along its locks may have gone as fast as it liked within the tick.
-/// It stays where it began if it went farther than it can be fast.
+/// Cuts the way of a body that a kinematic body wedged along its locks. Such a body may have been
+/// arbitrarily fast within the tick. If it went farther than its speeds allow, it goes back to
+/// where it began.
 void IslandEnergy::cut_way(const Tick& tick, const ContinuousCollision* touches, Slot slot)
 {
     const Account& island = accounts_[islands_.root_of(slot + 1)];
@@ -373,7 +374,8 @@ void IslandEnergy::join_islands(const Tick& tick, std::span<const Slot> slots)
     }
 }
 
-/// What something fixed or kinematic pushed in the tick has no momentum to keep.
+/// Notes islands that something fixed or kinematic pushed in the tick: they have no momentum to
+/// keep.
 void IslandEnergy::note_held(const Tick& tick)
 {
     for (const ContactBlock& block : tick.solver.blocks()) {
@@ -435,7 +437,7 @@ glm::dvec3 IslandEnergy::about_centre(const Account& island)
     return island.angular - glm::cross(island.centre, island.momentum);
 }
 
-/// How much of the velocities beside those of the rigid body is left.
+/// Finds the share that is left of the velocities beside those of the rigid body.
 void IslandEnergy::find_share(Account& island, Interventions& interventions)
 {
     double rigid = 0.0, due = 0.0;
@@ -446,7 +448,7 @@ void IslandEnergy::find_share(Account& island, Interventions& interventions)
     }
     const double beside = island.kinetic - rigid;
     const double lost = island.kinetic - island.allowed_at(1.0) - island.lifted;
-    // What touches may have given shrinks with the velocities.
+    // The energy that touches may have given shrinks with the velocities.
     constexpr int rounds_max = 32;
     double share = 1.0;
     for (int round = 0; round < rounds_max; ++round) {

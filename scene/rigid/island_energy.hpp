@@ -67,10 +67,10 @@ private:
         double mass = 0.0;
         glm::dmat3 inertia{0.0}; // kg m^2, about the centre
         double share = 1.0;      // of the velocities beside those of the rigid body
-        // The same of the start, where nothing but gravity acts from outside.
+        // Momenta at the start, where nothing but gravity acts from outside.
         glm::dvec3 momentum_before{0.0}, moment_before{0.0}, angular_before{0.0};
         bool is_closed = true;
-        // Of the rigid body, and the spin that it has to have.
+        // The motion of the island as one rigid body, and the spin that it must have.
         glm::dvec3 centre{0.0}, velocity{0.0}, spin{0.0}, spin_due{0.0};
 
         void add(const Account& other);

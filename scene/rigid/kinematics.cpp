@@ -20,8 +20,9 @@ bool is_at_rest(const BodyMotion& motion)
     return motion.velocity == glm::dvec3{0.0} && motion.spin == glm::dvec3{0.0};
 }
 
-/// How far a change agrees with the mean of what changes: 1 where that is midway, 0 where the mean
-/// is so far off that it would have to become faster or slower than at both ends.
+/// Returns how far a change agrees with the mean of the changing quantity: 1 where the mean is
+/// midway, 0 where it is so far off that the quantity would have to become faster or slower than at
+/// both ends.
 double agreement(const glm::dvec3& start, const glm::dvec3& mean, const glm::dvec3& end)
 {
     const double gain = length(end - start);
@@ -29,7 +30,7 @@ double agreement(const glm::dvec3& start, const glm::dvec3& mean, const glm::dve
     return off < gain ? 1.0 - off / gain : 0.0;
 }
 
-/// Where in its period something is at a time: 0..1.
+/// Returns the phase at a time in a period: 0..1.
 double phase_at(double time, double period)
 {
     const double turns = time / period;
@@ -117,7 +118,7 @@ void Kinematics::begin_contacts(const Bodies& bodies, ContactSolver& solver,
 
 namespace {
 
-/// From the centres of two that touch to where they do.
+/// The vectors from the centres of two that touch to the place of the touch.
 struct Arms {
     const glm::dvec3& of_body;
     const glm::dvec3& of_surface;

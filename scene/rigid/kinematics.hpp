@@ -21,7 +21,7 @@ struct KinematicTick {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     bool moves = false;
 
-    /// In the tick: its mean, and about that what it changes by.
+    /// The motion at a time within the tick: the mean, and the change about it.
     [[nodiscard]] BodyMotion motion_at(double time, double tick) const;
 };
 
@@ -40,12 +40,12 @@ public:
     /// Puts them where they come to.
     void end_tick(WorldState& state);
 
-    /// Of a slot in [movable, moving).
+    /// Returns the tick of a slot in [movable, moving).
     [[nodiscard]] const KinematicTick& of(const Bodies& bodies, Slot slot) const
     {
         return ticks_[slot - bodies.movable];
     }
-    /// Whether one goes so far in this tick that it could pass something.
+    /// True if one goes so far in this tick that it could pass something.
     [[nodiscard]] bool any_far() const { return any_far_; }
 
 private:

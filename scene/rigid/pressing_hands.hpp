@@ -34,20 +34,20 @@ public:
         const HandSpring& spring;
     };
     PressingHands() = default;
-    /// The same hand twice, or two.
+    /// `a` and `b` may be the same hand.
     PressingHands(BodyId body, const Hand& a, const Hand& b);
 
     [[nodiscard]] std::uint32_t hand(std::size_t lane) const { return hand_[lane]; }
     [[nodiscard]] const PressingSprings& springs() const { return springs_; }
-    /// Whether a hand, one of these or not, may do what it did; `near`: the bodies that it may
-    /// reach.
+    /// True if a hand, one of these or not, may act as in the last tick. `near`: the bodies that it
+    /// may reach.
     [[nodiscard]] bool is_where_it_was(std::uint32_t hand, const HandInput& input,
                                        std::span<const PartId> near) const;
     /// Finds the springs of this tick, and where the hands are from the body's centre; nullopt when
     /// a hand is not amid its face any more, or does not press it.
     [[nodiscard]] std::optional<TwoVectors> press(const WorldState& state, const SweptBox& now,
                                                   const glm::dvec3& velocity);
-    /// Reports to all hands what came of it, with the impulses on the body.
+    /// Reports the results to all hands, with the impulses on the body.
     void report(const WorldConfig& config, WorldState& state, const TwoVectors& impulse) const;
 
 private:

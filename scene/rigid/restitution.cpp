@@ -23,21 +23,22 @@ struct Impact {
     double speed = 0.0; // m/s, approaching
 };
 
-/// How a contact's two bodies move towards each other while none of its points hits.
+/// The motion of a contact's two bodies towards each other while none of its points hits.
 struct Approach {
     ContactVector from;   // at the start of the tick, were the last bounces before it
     ContactVector to;     // at its end
     ContactVector offset; // m, rad: what those bounces were too late for
     double begin = 0.0;   // s: the last of them
 
-    /// Of a point: its gap at the start of the tick, on that path.
+    /// The gap of a point at the start of the tick, on that path.
     [[nodiscard]] double separation(const ContactBlock& block, std::size_t point) const
     {
         return block.separation[point] + block.normal_speed(offset, point);
     }
 };
 
-/// When a point comes down on the surface: from `from` to `to` its normal speed changes evenly.
+/// Returns when a point comes down on the surface. Its normal speed changes evenly from `from` to
+/// `to`.
 std::optional<Impact> impact(double separation, double from, double to, double time_left)
 {
     if (from >= 0.0) return std::nullopt;
@@ -109,7 +110,7 @@ void add(const BounceTarget& target, const Wrench& push, double time, double tic
     integration.bounce_angular_impulse_mean += share_left * change.angular_impulse;
 }
 
-/// A body's motion when so much of the tick has gone by, after `from` at its start.
+/// Returns a body's motion after a share of the tick. `from` is the motion at its start.
 BodyMotion motion_at(double share, const BodyMotion& from, const BodyMotion& to)
 {
     return {from.velocity + share * (to.velocity - from.velocity),
@@ -154,7 +155,7 @@ Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration>
             std::max(a.last_bounce, b.last_bounce)};
 }
 
-/// Whether forces act on the body that would be others after a bounce: hands, other contacts. They
+/// True if forces act on the body that would differ after a bounce: hands, other contacts. They
 /// count as constant over the tick, so a bounce may gain energy against none of its velocities.
 bool is_driven(const BodyIntegration& body)
 {

@@ -36,7 +36,8 @@ public:
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     static constexpr double never = std::numeric_limits<double>::infinity();
-    /// Of one contact in a tick. After these it is left to the solver.
+    /// The greatest number of bounces of one contact in a tick. Further ones are left to the
+    /// solver.
     static constexpr std::uint32_t bounces_max = 4;
 
     struct Bouncing {

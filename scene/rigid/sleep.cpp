@@ -12,7 +12,8 @@ namespace hapnet::scene {
 namespace {
 
 constexpr double rest_s = 0.1;
-// How often islands are looked for while a body could sleep and its neighbours do not rest.
+// The number of searches for islands in the time of rest, while a body could sleep and its
+// neighbours do not rest.
 constexpr double looks_per_rest = 4.0;
 constexpr double gravity_share = 0.1;
 constexpr double size_share = 1e-3;
@@ -132,7 +133,8 @@ void Sleep::update(Bodies& bodies, PairFinder<broad_phase>& pair_finder, std::ui
         const BodyId id = bodies.properties[slot].id;
         if (island_rested_[islands_.root_of(id)] >= rest_ticks_) queue_.add(id);
     }
-    // By their ids, so that the order of the slots has one reason less to depend on the past.
+    // Bodies fall asleep in the order of their ids, so that the order of the slots depends less on
+    // the past.
     std::sort(queue_.begin(), queue_.end());
     for (const BodyId id : queue_) fall_asleep(id, bodies, pair_finder);
     pair_finder.apply_changes();
@@ -166,7 +168,7 @@ bool Sleep::count_rest(const Bodies& bodies)
     return may_sleep;
 }
 
-/// How fast a body moves and turns, squared, in shares of what counts as rest.
+/// The squared motion and turning of a body, in shares of the limits of rest.
 double Sleep::motion_of(const Bodies& bodies, Slot slot) const
 {
     const glm::dvec3 v = bodies.velocity.at(slot), l = bodies.angular_momentum.at(slot);

@@ -11,14 +11,14 @@
 
 namespace hapnet::scene {
 
-/// Which bodies sleep. A body that has been at rest for a tenth of a second, together with
+/// Decides which bodies sleep. A body that has been at rest for a tenth of a second, together with
 /// everything movable that it touches, falls asleep: its velocity becomes exactly zero, its
 /// contacts keep their impulses, and it costs nothing until it is woken. Fixed bodies connect
 /// nothing. Two touch when their contact had an impulse in the last tick (touches() of its memory).
 ///
 /// At rest: the centre, and the corners as they turn, no faster than a tenth of what gravity adds
-/// in a tick plus a thousandth of sqrt(gravity * size). Without gravity: not moving at all. What
-/// moves more than when this time began does not rest: a box on its edge tips.
+/// in a tick plus a thousandth of sqrt(gravity * size). Without gravity: not moving at all. A body
+/// that moves more than when this time began does not rest: a box on its edge tips.
 ///
 /// In a tick: wake() what a hand reaches or a push moves; wake_touched() once the manifolds are
 /// known; at the end of the tick, with the contacts' memories written, update().
@@ -26,14 +26,14 @@ class Sleep {
 public:
     Sleep(const WorldConfig& config, const Bodies& bodies);
 
-    /// Wakes a part's body and all that touches it, one through the other, and starts its time at
-    /// rest anew. Slots change.
+    /// Wakes a part's body and all that touches it, one through the other, and restarts its time at
+    /// rest. Slots change.
     template <BroadPhase broad_phase>
     void wake(PartId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
 
     /// Wakes the sleepers that an awake body touches which is not at rest, what touches them, and
-    /// so on: one that slept on would bear the others like a wall. `touching(index)`: whether the
-    /// pair's manifold of this tick has points. Returns whether it woke any. Each pair is looked at
+    /// so on: one that slept on would bear the others like a wall. `touching(index)` is true if the
+    /// pair's manifold of this tick has points. Returns true if it woke any. Each pair is looked at
     /// once, and once more if it came to the list by a body that woke.
     template <BroadPhase broad_phase, typename Touching>
     bool wake_touched(Bodies& bodies, PairFinder<broad_phase>& pair_finder, Touching touching)
@@ -55,7 +55,7 @@ public:
     template <BroadPhase broad_phase>
     void update(Bodies& bodies, PairFinder<broad_phase>& pair_finder, std::uint64_t ticks);
 
-    /// Starts the time at rest of an awake body anew: a hand touches it.
+    /// Restarts the time at rest of an awake body: a hand touches it.
     void keep_awake(const Bodies& bodies, BodyId body) { rested_[bodies.slot_of[body]] = 0.0; }
 
     /// Ticks for which an awake body has been at rest.
@@ -72,7 +72,7 @@ private:
     void move_to_awake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
     template <BroadPhase broad_phase>
     void fall_asleep(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
-    /// Counts; whether any body has been at rest long enough.
+    /// Counts the time at rest. Returns true if any body has been at rest long enough.
     [[nodiscard]] bool count_rest(const Bodies& bodies);
     [[nodiscard]] double motion_of(const Bodies& bodies, Slot slot) const;
     template <BroadPhase broad_phase>
@@ -82,7 +82,7 @@ private:
     bool sleeping_;
     double rest_ticks_;      // how long before it sleeps
     std::uint64_t interval_; // ticks between two looks at the islands
-    // By slot, moving with their bodies.
+    // Values by slot, which move with their bodies.
     std::vector<double> speed2_;    // (m/s)^2: at rest up to this
     std::vector<double> momentum2_; // (kg m^2/s)^2: likewise
     std::vector<double> rested_;    // ticks at rest so far

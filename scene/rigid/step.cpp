@@ -156,7 +156,7 @@ TickCost RigidStepper<broad_phase>::tick_cost_bound(const WorldConfig& config) c
     const std::uint64_t pushed =
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
     // Overlaps are looked at once more where a body is held back, sleepers by what carries them, by
-    // what touches them and when that woke, velocities and springs where an island is solved anew.
+    // what touches them and when that woke, velocities and springs where an island is solved again.
     return {.pairs = 4 * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = 2 * solver_.visits_bound(velocity_limits()) +
@@ -307,7 +307,7 @@ void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
         block.speed_min[i] = velocity_bias(block, i, scales_);
 }
 
-/// The same of the mean velocities.
+/// As set_least_speeds(), for the mean velocities.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_least_ways(ContactBlock& block)
 {

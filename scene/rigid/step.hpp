@@ -44,7 +44,7 @@ public:
     /// The most that a tick can take.
     [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& config) const;
 
-    /// What was done, for tests and measurements.
+    /// Counts of the work done, for tests and measurements.
     struct Counts {
         std::uint64_t contacts_left_out = 0; // beyond the bound
         std::uint64_t steady_ticks = 0;      // in which everything went on as before
@@ -117,8 +117,8 @@ private:
     Restitution restitution_;
     IslandEnergy energy_;
     ContinuousCollision continuous_;
-    /// What the last tick leaves for one in which everything goes on; the rest of it lies where
-    /// that left it.
+    /// The results of the last tick for a tick in which everything goes on as before. All other
+    /// results stay where the last tick left them.
     struct Steady {
         bool is_possible = false; // in this scene
         bool is_likely = false;   // the last tick was in balance

@@ -17,7 +17,7 @@
 
 namespace hapnet::scene {
 
-/// What a scene must not have for that.
+/// True if the scene has nothing that rules out ticks in which everything goes on as before.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::can_be_steady(const WorldConfig& config,
                                               const WorldState& state) const
@@ -28,14 +28,14 @@ bool RigidStepper<broad_phase>::can_be_steady(const WorldConfig& config,
            !hand_contacts_.any_friction() && config.hands.count > 0;
 }
 
-/// Whether the next tick may go on as the last one, which ended in balance.
+/// Finds out if the next tick may go on as the last one, which ended in balance.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::look_for_steadiness(const WorldConfig& config,
                                                     const WorldState& state)
 {
     const Bodies& bodies = state.bodies;
     const BodyProperties& body = bodies.properties[0];
-    // One visit: of the velocities, and none of overlaps.
+    // The solver made one visit for velocities and none for overlaps.
     const bool is_alone = bodies.awake == 1 && state.pushed.is_empty() && pairs_.pairs().empty() &&
                           !any_far_ && state.tick_cost.contacts == 1 && state.tick_cost.visits == 1;
     if (!is_alone || body.turning != Turning::free || !body.is_isotropic || body.drag > 0.0) return;
@@ -47,7 +47,7 @@ void RigidStepper<broad_phase>::look_for_steadiness(const WorldConfig& config,
                dynamics_of(integration, state, 0, solver_.response(1), config)};
 }
 
-/// Whether the hands and the plane touch the body as they did.
+/// True if the hands and the plane touch the body as they did.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::finds_the_same(const WorldConfig& config, WorldState& state)
 {
@@ -122,7 +122,7 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
         goes_far(properties, mean, scales_))
         return false;
 
-    // Nothing is new: that was the tick.
+    // Nothing turned out to be new, so that the tick is complete.
     ContactMemory& memory = pairs_.plane_pair(pairs_.plane_pairs()[0]).memory;
     ++memory.ticks;
     memory.normal_impulse_of_tick = push_sum + 0.0;

@@ -93,10 +93,10 @@ void RigidStepper<broad_phase>::set_mean_motions()
     }
 }
 
-/// Last tick's contact forces count as constant forces. Where they do not fit any more, bodies that
-/// bore them are gone or a wedge has opened, and the sweeps may end before they have given way:
-/// they drive bodies. Islands that gain so begin the tick again without them. From nothing every
-/// visit takes energy away, so that stopping anywhere is valid.
+/// Solves again, without warm start, islands that gain energy. Last tick's contact forces count as
+/// constant forces. They may be wrong when the bodies that bore them are gone or a wedge has
+/// opened, and the sweeps may end before these forces have decayed: they then drive bodies. Without
+/// a warm start every visit takes energy away, so that stopping at any time is valid.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_anew_what_gains(const WorldConfig& config, WorldState& state)
 {

@@ -65,8 +65,8 @@ void Anderson::learn(std::span<const double> in, std::span<const double> out)
     ++seen_;
 }
 
-/// With each column of steps_. A sum waits for itself at every step, so they go side by side, also
-/// those of columns that are not known yet.
+/// Returns the products with each column of steps_. A sum waits for itself at every step, so they
+/// go side by side, also those of columns that are not known yet.
 std::array<double, Anderson::depth> Anderson::products_with(const double* one) const
 {
     std::array<double, depth> sums{};
@@ -78,7 +78,8 @@ std::array<double, Anderson::depth> Anderson::products_with(const double* one) c
     return sums;
 }
 
-/// Of the columns, so that with them taken away the last step is shortest.
+/// Returns the weights with which the columns, subtracted from the last step, leave the shortest
+/// step.
 std::array<double, Anderson::depth> Anderson::weights()
 {
     const std::size_t columns = std::min(seen_ - 1, depth);

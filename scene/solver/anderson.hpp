@@ -30,8 +30,9 @@ public:
     /// Forgets, for a problem of another size.
     void begin(std::size_t size);
 
-    /// What was put in, and what came out of it. The mixture is in `next`, which may be `in` or
-    /// `out`; whether it is another than `out`.
+    /// Mixes the outputs of the iterations so far. The last one had the input `in` and the output
+    /// `out`. The mixture is in `next`, which may be `in` or `out`. Returns false if it is just
+    /// `out`.
     bool mix(std::span<const double> in, std::span<const double> out, std::span<double> next);
 
 private:

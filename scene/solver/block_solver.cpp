@@ -27,7 +27,7 @@ Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
     return Ldl<5>{part};
 }
 
-/// Whether the last set of that size was another one.
+/// True if the last set of that size was another one.
 bool is_new(BlockFactors& factors, const PointSet& set)
 {
     std::uint32_t& known = factors.sets[set.count - 1];
@@ -129,7 +129,7 @@ public:
         now_ = velocity;
         is_at_limit_ = has_settled_ = false;
     }
-    /// Whether slip() has found the answer.
+    /// True if slip() has found the answer.
     [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
     [[nodiscard]] const ContactVector& impulse() const { return modal_; }
@@ -342,7 +342,7 @@ bool Trial::stick(double tolerance)
     return opens(tolerance);
 }
 
-/// Whether the points are at their least speeds or faster, with the answer as it is.
+/// True if the points are at their least speeds or faster, with the answer as it is.
 bool Trial::opens(double tolerance)
 {
     set_given();

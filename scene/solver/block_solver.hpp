@@ -6,15 +6,15 @@
 
 namespace hapnet::scene {
 
-/// Whether the impulses are an answer already, to `tolerance` m/s.
+/// True if the impulses are an answer already, to `tolerance` m/s.
 [[nodiscard]] bool is_solved(const ContactBlock& block, const ContactVector& velocity,
                              double tolerance);
 
-/// Whether friction is at its limit, or nearly, and opposes a slip faster than `tolerance` m/s.
+/// True if friction is at its limit, or nearly, and opposes a slip faster than `tolerance` m/s.
 [[nodiscard]] bool is_slipping(const ContactBlock& block, const ContactVector& velocity,
                                double tolerance);
 
-/// The same without regard to friction.
+/// True if the normal impulses are an answer already, without regard to friction.
 [[nodiscard]] bool normals_are_solved(const ContactBlock& block, const ContactVector& velocity,
                                       double tolerance);
 
@@ -24,11 +24,11 @@ namespace hapnet::scene {
 [[nodiscard]] ContactVector solve(ContactBlock& block, const ContactVector& velocity,
                                   double tolerance);
 
-/// Comes nearer to that at less cost: one iteration where it slips.
+/// Comes nearer to the result of solve() at less cost: one iteration where the contact slips.
 [[nodiscard]] ContactVector iterate(ContactBlock& block, const ContactVector& velocity,
                                     double tolerance);
 
-/// The same as `solve` for the normal impulses alone, friction held.
+/// As solve(), for the normal impulses alone. Friction is held.
 [[nodiscard]] ContactVector solve_normals(ContactBlock& block, const ContactVector& velocity,
                                           double tolerance);
 

@@ -12,7 +12,8 @@ namespace hapnet::scene {
 
 namespace {
 
-/// Returns the anchor.
+/// Sets the block's points and returns their anchor: the centre of last tick's normal impulses, or
+/// of all points when there are none.
 glm::dvec3 set_points(ContactBlock& block, const Manifold& manifold)
 {
     std::array<double, manifold_points_max> weight = block.impulse.normal;
@@ -21,7 +22,7 @@ glm::dvec3 set_points(ContactBlock& block, const Manifold& manifold)
         for (std::uint32_t i = 0; i < manifold.count; ++i) weight[i] = 1.0;
         sum = manifold.count;
     }
-    // From the first point, so that a contact far from the origin loses nothing.
+    // Sums are relative to the first point, so that a contact far from the origin loses no digits.
     const glm::dvec3 first = manifold.points[0].position;
     glm::dvec3 centre{0.0};
     for (std::uint32_t i = 1; i < manifold.count; ++i) {
@@ -47,10 +48,10 @@ glm::dvec3 friction_impulse_of(const ContactBlock& block)
     return block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
 }
 
-/// How much of a tick's correction to keep. A small one also stops the speed that has gathered
-/// since the last: kept whole, it would be that much too much in the next tick, and a contact in
-/// balance would be corrected again and again, to and fro. What was missing in each tick is an even
-/// share of it.
+/// Returns the share of a tick's correction to keep. A small correction also stops the speed that
+/// has gathered since the last one. If it were kept as a whole, it would be too large by that part
+/// in the next tick, and a contact in balance would be corrected to and fro again and again. Each
+/// tick lacked an even share of it.
 double share_to_keep(const ContactBlock& block, double weight, ContactMemory& memory)
 {
     constexpr double small = 1e-8;
@@ -100,10 +101,10 @@ std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& ar
             push(block.tangent_1), push(block.tangent_2),           Jacobian{none, block.normal}};
 }
 
-// Along a normal, or about a lever, of what a body does where it is not locked.
+// The share of a body's response along a normal, or about a lever, below which it counts as locked.
 constexpr double hair = 1e-6;
 
-/// Whether a body's locks leave it almost no motion along the normal. Then it counts as locked:
+/// True if a body's locks leave it almost no motion along the normal. Then it counts as locked:
 /// else it would be thrown aside as by a wedge.
 bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
 {
@@ -111,7 +112,7 @@ bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_
     return glm::dot(normal, inverse_mass * normal) <= hair * most;
 }
 
-/// The same of turning.
+/// As is_nearly_locked_along(), for turning.
 bool is_nearly_locked_about(const glm::dvec3& lever, const glm::dmat3& inverse_inertia)
 {
     const double most = inverse_inertia[0][0] + inverse_inertia[1][1] + inverse_inertia[2][2];
@@ -214,7 +215,7 @@ void forget_impulses(ContactBlock& block)
 
 namespace {
 
-/// Of `b` against `a` where they touch.
+/// The motion of `b` relative to `a` where they touch.
 struct Slip {
     glm::dvec3 velocity{0.0}, spin{0.0};
 };
@@ -251,7 +252,7 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                               const glm::dvec3& spin_b, double tick)
 {
     block.centripetal_velocity = {};
-    // What hardly turns: less than rounding, and less than a contact may miss.
+    // A body that hardly turns: less than rounding, and less than a contact may miss.
     constexpr double hardly = 1e-10; // radians
     const auto hardly_turns = [&](const glm::dvec3& spin) {
         return tick * tick * glm::dot(spin, spin) <= hardly * hardly;
@@ -278,7 +279,8 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
         block.centripetal_velocity[3] += anchor.y;
         block.centripetal_velocity[4] += anchor.z;
     };
-    // What of a round body touches is always as far from its core, whichever way that turns.
+    // The touching point of a round body always has the same distance from its core, whichever way
+    // that turns.
     const auto core_arm = [&](const glm::dvec3& arm, double rounding) {
         return rounding != 0.0 ? arm + rounding * block.normal : arm;
     };

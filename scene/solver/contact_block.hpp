@@ -17,7 +17,7 @@
 
 namespace hapnet::scene {
 
-/// How a body responds to impulses. A plane, a fixed body and a sleeper do not.
+/// The response of a body to impulses. A plane, a fixed body and a sleeper do not respond.
 struct BodyResponse {
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame
@@ -30,7 +30,7 @@ struct BodyMotion {
     glm::dvec3 angular_impulse{0.0}; // about the centre, of all that changed `spin`: N m s
 };
 
-/// Where the solver keeps a body; 0 stands for everything that does not move.
+/// The solver's index of a body; 0 stands for everything that does not move.
 using SolverIndex = std::uint32_t;
 
 /// Six numbers of a contact in its own frame, about its anchor: along the normal, about the first
@@ -126,7 +126,7 @@ struct ContactBlock {
 /// is a contact's torsion arm.
 inline constexpr double even_pressure = 0.5410;
 
-/// Two directions along a contact, across its normal.
+/// Two directions in the plane of a contact, across its normal.
 struct Tangents {
     glm::dvec3 first, second;
 };
@@ -139,7 +139,7 @@ struct Tangents {
 /// Sets the geometry, and starts from last tick's impulses.
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory);
-/// Whether a block was in balance and the next tick has all that it starts from: the impulses are
+/// True if a block was in balance and the next tick has all that it starts from: the impulses are
 /// as they were, and so is the normal. Counts the tick.
 [[nodiscard]] inline bool keeps_impulses(const ContactBlock& block, ContactMemory& memory)
 {
@@ -150,9 +150,9 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
     ++memory.ticks;
     return true;
 }
-/// Keeps the impulses for the next tick, to start from: not those of a hit, which will not come
-/// again. So they at most double from tick to tick, but for `weight` (N s), about what carrying the
-/// two bodies takes.
+/// Keeps the impulses as the start of the next tick, except those of a hit, which will not come
+/// again. They therefore at most double from tick to tick, plus `weight` (N s), which is about the
+/// impulse that carries the two bodies.
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory);
 
 /// Starts from no impulses.
@@ -160,13 +160,13 @@ void forget_impulses(ContactBlock& block);
 
 [[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
                                         const BodyMotion& b);
-/// The same without friction's part.
+/// As velocity_at(), without friction's part.
 [[nodiscard]] ContactVector normal_velocity_at(const ContactBlock& block, const BodyMotion& a,
                                                const BodyMotion& b);
-/// While a body turns, the points of it that touch go around its centre: what that adds to their
-/// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
-/// order; left out for what turns farther than a tenth of a radian. Lowers the least speeds to
-/// what is met by standing still.
+/// Sets the centripetal velocity: while a body turns, its touching points go around its centre,
+/// which adds to their velocity within a tick. Without it, a box that tips over an edge would gain
+/// energy. Second order; left out for bodies that turn farther than a tenth of a radian. Lowers the
+/// least speeds so that a contact that stands still meets them.
 void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                               const glm::dvec3& spin_b, double tick);
 
@@ -174,26 +174,27 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                                            const ContactImpulse& impulse);
 
 [[nodiscard]] Wrench wrench(const ContactBlock& block, const ContactVector& impulse);
-/// What an impulse on a body does while the other side moves so: J. `arm` is from that one's
-/// centre.
+/// The work of an impulse on a body while the other side moves as `motion` says, J. `arm` starts at
+/// that other side's centre.
 [[nodiscard]] double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion);
-/// Of a point so far from the centre.
+/// Returns the velocity of a point of a body. `arm` is its place from the body's centre.
 [[nodiscard]] inline glm::dvec3 velocity_at(const BodyMotion& motion, const glm::dvec3& arm)
 {
     return motion.velocity + glm::cross(motion.spin, arm);
 }
-/// On one body: `arm` from its centre to the anchor.
+/// Applies an impulse to one body. `arm` goes from its centre to the anchor.
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
            BodyMotion& motion);
 
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
 
-/// What an impulse of the contact does to the energy of its two bodies, with which they have these
-/// velocities without it. Needs the matrix.
+/// The change that an impulse of the contact makes to the energy of its two bodies. `velocity` is
+/// that of the contact without the impulse. Needs the matrix.
 [[nodiscard]] EnergyOfShare energy_of(const ContactBlock& block, const ContactVector& impulse,
                                       const ContactVector& velocity);
 
-/// Of a block's matrix, whose columns are its rows: so two numbers are worked on at once.
+/// Multiplies by a block's matrix. The matrix is symmetric, so that its rows serve as columns and
+/// two numbers are computed at once.
 [[nodiscard]] inline ContactVector times(const Square<6>& matrix, const ContactVector& impulse)
 {
     ContactVector velocity;

@@ -17,7 +17,7 @@ constexpr std::size_t numbers_per_block = 7;
 // Islands larger than this are swept without mixing: what they may cost is used up before it helps.
 constexpr std::size_t mixed_max = 1024;
 
-// What a HeldIsland takes, in sweeps.
+// The cost of a HeldIsland, in sweeps.
 constexpr std::uint32_t held_sweeps = 6;
 
 void read(const ContactBlock& block, const ContactImpulse& impulse, double* to)
@@ -37,8 +37,8 @@ void write(ContactBlock& block, const double* from)
     if (block.torsion_arm > 0.0) impulse.torsion = from[6] * block.torsion_arm;
 }
 
-/// The sum of square(i). To be compared with another alone: of its last digits nothing depends, so
-/// four parts of it go side by side.
+/// Returns the sum of square(i). Use it only to compare one sum with another: nothing may depend on
+/// its last digits, because it is added up in four parts side by side.
 template <typename Square>
 double sum_of(std::size_t size, Square square)
 {
@@ -183,7 +183,7 @@ SolverOutcome ContactSolver::run(const Task& task)
     return outcome;
 }
 
-/// Those that move share the visits evenly.
+/// Islands that move share the visits evenly.
 SolverOutcome ContactSolver::run_islands(const Task& task)
 {
     SolverOutcome outcome{.sweeps = 1};
@@ -246,7 +246,8 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         read_impulses(island, after_.all());
         if (first2 < 0.0) first2 = size2(after_.all());
         const double step2 = distance2(before_.all(), after_.all());
-        // A mixture that leads astray, because something opens or slips there, is taken back.
+        // A mixture that makes the result worse, because something opens or slips there, is taken
+        // back.
         constexpr double astray = 4.0;
         if (has_jumped && !(step2 <= astray * shortest2)) {
             undo_mixture(task, island);
@@ -257,7 +258,8 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         }
         shortest2 = std::min(shortest2, step2);
         if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
-        // It is checked by the next pair of sweeps, as a mixture is; and one more if it is astray.
+        // The next pair of sweeps checks the result, as it does a mixture. If it is worse, one more
+        // pair of sweeps follows.
         if (!has_tried_to_hold && outcome.sweeps + held_sweeps + 4 <= task.limits.sweeps_max &&
             may_hold(task, island)) {
             has_tried_to_hold = true;
@@ -281,7 +283,8 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
     return outcome;
 }
 
-/// To and fro.
+/// Solves the blocks of an island once in order and once in reverse order. Returns the largest
+/// change of a contact's speed, as in SolverOutcome.
 double ContactSolver::sweep(const Task& task, Island island)
 {
     double change = 0.0;
@@ -304,13 +307,13 @@ HeldIsland::Task ContactSolver::held_task(const Task& task, Island island)
     return {blocks_.all(), island, responses_.all(), task.motions};
 }
 
-/// Whether an island stands as far as its contacts know.
+/// True if an island stands as far as its contacts know.
 bool ContactSolver::may_hold(const Task& task, Island island)
 {
     return task.mode == Mode::contacts && held_.begin(held_task(task, island));
 }
 
-/// From after_ to what HeldIsland found.
+/// Changes the blocks' impulses from those in after_ to the result of HeldIsland.
 void ContactSolver::take_held(const Task& task, Island island)
 {
     for (std::size_t i = 0; i < island.size(); ++i)
@@ -318,7 +321,8 @@ void ContactSolver::take_held(const Task& task, Island island)
     take_mixture(task, island);
 }
 
-/// From after_ to before_; the way back is kept.
+/// Changes the blocks' impulses from those in after_ to those in before_, and the motions with
+/// them. Keeps what undo_mixture() needs.
 void ContactSolver::take_mixture(const Task& task, Island island)
 {
     std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
@@ -411,7 +415,7 @@ void ContactSolver::count_contacts()
     }
 }
 
-/// Whether no other block has to do with its bodies.
+/// True if no other block has to do with its bodies.
 bool ContactSolver::is_alone(const ContactBlock& block) const
 {
     return (!responds(block.a) || contacts_[block.a] == 1) &&

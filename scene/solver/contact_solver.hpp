@@ -14,7 +14,7 @@
 
 namespace hapnet::scene {
 
-/// When to stop.
+/// The limits at which the solver stops.
 struct SolverLimits {
     double tolerance = 0.0;       // m/s: a contact that misses by less is left alone
     double converged = 0.0;       // m/s: when no contact changed its speed by more, that was it
@@ -24,7 +24,7 @@ struct SolverLimits {
         std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond the least sweeps
 };
 
-/// What a solve took, and how much it still changed at the end.
+/// The effort of a solve, and the change of its last sweep.
 struct SolverOutcome {
     std::uint32_t sweeps = 0; // of the island that needed most
     double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
@@ -45,9 +45,9 @@ public:
     /// move by themselves: their responses have to be zero.
     void begin(std::size_t bodies, std::size_t kinematic = 0);
 
-    /// Whether impulses move it. What does not answer joins no bodies to an island.
+    /// True if impulses move it. A body that does not respond joins no bodies to an island.
     [[nodiscard]] bool responds(SolverIndex body) const { return body - 1 < responding_; }
-    /// One that responds of the block's bodies.
+    /// Returns a body of the block that responds to impulses.
     [[nodiscard]] SolverIndex responding_of(const ContactBlock& block) const
     {
         return responds(block.a) ? block.a : block.b;
@@ -55,7 +55,7 @@ public:
     [[nodiscard]] bool is_kinematic(SolverIndex body) const { return body > responding_; }
 
     [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
-    /// At the end of the tick.
+    /// The body's motion at the end of the tick.
     [[nodiscard]] BodyMotion& end_motion(SolverIndex body) { return end_motions_[body]; }
     /// The mean over the tick: what moves the bodies.
     [[nodiscard]] BodyMotion& mean_motion(SolverIndex body) { return mean_motions_[body]; }
@@ -74,9 +74,10 @@ public:
     /// Once more, of the islands with `picked` bodies (1 at their solver index).
     SolverOutcome solve_velocities_anew(const SolverLimits& limits,
                                         std::span<const std::uint8_t> picked);
-    /// The same for the mean velocities, without friction, and impulses that begin at zero.
+    /// As solve_velocities(), for the mean velocities: without friction, and with impulses that
+    /// begin at zero.
     SolverOutcome correct_positions(const SolverLimits& limits);
-    /// Whether a contact with such mean velocities overlaps more than it may at the end. The limits
+    /// True if a contact with such mean velocities overlaps more than it may at the end. The limits
     /// of corrections are rates: they hold for a contact of size 1 m, and for others by their size.
     [[nodiscard]] static bool overlaps(const ContactBlock& block, const ContactVector& velocity,
                                        const SolverLimits& limits)
@@ -95,18 +96,18 @@ public:
 
 private:
     enum class Mode : std::uint8_t { contacts, positions };
-    /// What is solved, and for which velocities.
+    /// The problem to solve: the velocities and the mode.
     struct Task {
         Mode mode = Mode::contacts;
         std::span<BodyMotion> motions;
         SolverLimits limits;
     };
 
-    /// How exactly a slipping block is solved: fully, or by one iteration, as the next sweep goes
-    /// on.
+    /// The exactness of a slipping block's solution: full, or by one iteration, which the next
+    /// sweep continues.
     enum class Effort : std::uint8_t { full, one_iteration };
 
-    /// Its blocks.
+    /// The blocks of an island.
     using Island = std::span<const std::uint32_t>;
 
     SolverOutcome run(const Task& task);

@@ -40,7 +40,7 @@ public:
         begins_.add() = size_;
         size_ += row - first;
     }
-    /// When all rows have been added.
+    /// Begins the factorisation. Call it when all rows have been added.
     void begin()
     {
         entries_.resize(size_);
@@ -50,11 +50,11 @@ public:
 
     [[nodiscard]] std::size_t rows() const { return first_.size(); }
     [[nodiscard]] std::uint32_t first(std::size_t row) const { return first_[row]; }
-    /// From the row's first column to its diagonal: to be set before factor().
+    /// The row from its first column to its diagonal. Set it before factor().
     [[nodiscard]] double* row(std::size_t i) { return entries_.all().data() + begins_[i]; }
     [[nodiscard]] bool is_left_out(std::size_t row) const { return inverse_[row] == 0.0; }
 
-    /// To be called for one row after the other.
+    /// Factors a row. Call it for one row after the other.
     void factor(std::size_t i, double diagonal);
     void leave_out(std::size_t i)
     {
@@ -62,7 +62,7 @@ public:
         std::fill(lower, lower + (i - first_[i]), 0.0);
         inverse_[i] = 0.0;
     }
-    /// From the right side to the unknowns.
+    /// Replaces the right side by the unknowns.
     void solve(std::span<double> x) const;
 
 private:

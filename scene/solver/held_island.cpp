@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t rows_per_block = 6;
 
-// What one answer may take: so many blocks, and for each so many steps of its factors, which are
-// the squares of how long its rows are. A stack takes 450, a body under four others 1800. More
-// would not be worth six sweeps.
+// The limits of one answer: a number of blocks, and for each a number of steps of its factors,
+// which are the squares of the lengths of its rows. A stack takes 450, a body under four others
+// 1800. More would not be worth six sweeps.
 constexpr std::size_t blocks_held_max = 32;
 constexpr std::size_t work_per_block_max = 2000;
 
-/// So many entries can rows have whose squares are within the work (Cauchy, Schwarz); or all of
-/// them.
+/// Returns the most entries that rows can have while the squares of their lengths are within the
+/// work (Cauchy, Schwarz), or the number of all entries if that is less.
 std::size_t entries_max(std::size_t blocks)
 {
     const std::size_t rows = rows_per_block * blocks;
@@ -39,7 +39,7 @@ double scaled_torsion(const ContactBlock& block, double torsion)
     return block.torsion_arm > 0.0 ? torsion / block.torsion_arm : 0.0;
 }
 
-/// Whether friction is within a share of its limit.
+/// True if friction is within a share of its limit.
 bool sticks(const ContactBlock& block, const ContactImpulse& impulse, double share)
 {
     const double sum =
@@ -51,13 +51,13 @@ bool sticks(const ContactBlock& block, const ContactImpulse& impulse, double sha
            limit * limit;
 }
 
-/// Whether no impulse moves a body: a kinematic one.
+/// True if no impulse moves a body: a kinematic one.
 bool is_unmoved(const BodyResponse& response)
 {
     return response.inverse_mass == glm::dvec3{0.0} && response.inverse_inertia == glm::dmat3{0.0};
 }
 
-/// What an impulse of one block does to the velocity of another, through the bodies of both.
+/// Returns the change of one block's velocity by an impulse of another, through the bodies of both.
 ContactVector response_of(const ContactBlock& to, const ContactBlock& from, const Wrench& push,
                           std::span<const BodyResponse> responses)
 {

@@ -13,26 +13,26 @@
 namespace hapnet::scene {
 
 /// The impulses with which an island stands, all at once: if the points that push go on to push and
-/// no contact slips, they are the answer of linear equations. What sweeps need longest for is a
-/// tall stack that tilts as a whole: its modes converge with the fourth power of its height.
+/// no contact slips, they are the answer of linear equations. Sweeps need longest for a tall stack
+/// that tilts as a whole: its modes converge with the fourth power of its height.
 class HeldIsland {
 public:
-    /// Of a scene with so many.
+    /// Reserves memory for a scene with this number of bodies and blocks.
     HeldIsland(std::size_t bodies, std::size_t blocks);
 
-    /// What to solve: an island's blocks, with what moves their bodies.
+    /// The problem to solve: an island's blocks, and the responses and motions of their bodies.
     struct Task {
         std::span<ContactBlock> blocks; // of the whole scene
         std::span<const std::uint32_t> island;
         std::span<const BodyResponse> responses;
         std::span<const BodyMotion> motions;
     };
-    /// Whether these are such equations: not where a contact slips, as all do without friction, or
-    /// pushes with less than three points or with points on a line, nor where the island is too
-    /// large or too much of it meets in one body.
+    /// Prepares the equations. Returns false if the island has none: where a contact slips, as all
+    /// do without friction, where one pushes with less than three points or with points on a line,
+    /// and where the island is too large or too much of it meets in one body.
     [[nodiscard]] bool begin(const Task& task);
-    /// After that: whether there is an answer, in which nothing pulls and friction is within its
-    /// limit.
+    /// Solves the equations after begin(). Returns true if there is an answer in which nothing
+    /// pulls and friction is within its limit.
     [[nodiscard]] bool solve(const Task& task);
     /// The impulses of the island's blocks, in its order.
     [[nodiscard]] std::span<const ContactImpulse> impulses() const { return impulses_.all(); }

@@ -9,8 +9,8 @@
 
 namespace hapnet::scene {
 
-/// Which bodies belong together: a union-find. An island is known by the lowest of its numbers,
-/// whatever the order in which its bodies were joined.
+/// Groups bodies that belong together, by a union-find. An island is known by the lowest of its
+/// numbers, whatever the order in which its bodies were joined.
 class Islands {
 public:
     using Body = std::uint32_t;

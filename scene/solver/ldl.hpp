@@ -13,8 +13,8 @@ using Square = std::array<std::array<double, rows>, rows>;
 
 /// One over a pivot of L D L'; 0 where the row depends on those before it. A pivot this small
 /// beside its diagonal is rounding: that of the rows before it is multiplied by what their own
-/// pivots lost, so a dependent row was seen to leave 1e-11. What is kept has seven digits at least.
-/// Nor is one kept whose inverse is no number.
+/// pivots lost, so a dependent row was seen to leave 1e-11. Kept pivots have seven digits at least,
+/// and their inverses are finite.
 [[nodiscard]] inline double inverse_of_pivot(double pivot, double diagonal)
 {
     constexpr double dependent = 1e-9;

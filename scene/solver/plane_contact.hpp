@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-/// Where a box lies over a plane.
+/// The place of a box over a plane.
 struct BoxOverPlane {
     std::uint32_t body = 0, plane = 0; // which: their sizes and the normal never change
     const glm::dvec3& normal;
@@ -23,28 +23,28 @@ struct BoxOverPlane {
     double rounding = 0.0; // see OrientedBox
 };
 
-/// A box's contact with a plane, for the solver. Mostly only the height is new: the corners are
-/// those of last tick as long as the box has not turned, and the points from the pressure's centre
-/// as long as last tick's impulses are those of the tick before. Both follow from what is given
-/// alone, so that it does not matter of which tick they are kept: without them the bits are the
-/// same.
+/// A box's contact with a plane, for the solver. It keeps two results of the last tick. The corners
+/// stay valid as long as the box does not turn. The points relative to the pressure's centre stay
+/// valid as long as last tick's impulses are those of the tick before. Both results follow from the
+/// input alone: computing them again would give the same bits.
 class PlaneContact {
 public:
-    /// How many corners are up to the margin above the plane, or below it.
+    /// Finds the corners that are below the plane or at most the margin above it. Returns their
+    /// number.
     std::uint32_t find(const BoxOverPlane& box);
-    /// Whether one of them is at most so far above it.
+    /// True if one of the corners is at most `within` above the plane.
     [[nodiscard]] bool lies_on(double within) const;
     /// Sets the block's geometry, and starts it from last tick's impulses.
     void prepare(ContactBlock& block, const ContactMemory& memory);
-    /// The same for a block that prepare() has set, since when only the height is new. False, and
-    /// the block is as it was, when more is.
+    /// Updates a block that prepare() has set if only the height has changed since. Otherwise
+    /// returns false and leaves the block as it was.
     [[nodiscard]] bool prepare_again(ContactBlock& block, const ContactMemory& memory) const;
 
 private:
     template <typename T>
     using Each = std::array<T, manifold_points_max>;
 
-    /// What follows from how the box is turned. Heights are over its centre.
+    /// The corners' geometry that follows from the box's orientation. Heights are over its centre.
     struct Corners {
         std::uint32_t body = 0, plane = 0;
         glm::dvec3 normal{0.0};
@@ -53,7 +53,8 @@ private:
         Each<double> rise{}, along_1{}, along_2{};
         Each<std::uint32_t> feature{};
     };
-    /// What follows from those and from last tick's impulses. The points that touch stand first.
+    /// Geometry that follows from the corners and from last tick's impulses. The points that touch
+    /// come first.
     struct Pressure {
         std::uint32_t touching = 0; // in bits; 0: not found yet
         std::uint32_t count = 0;
@@ -74,7 +75,7 @@ private:
 
     Corners corners_;
     Pressure pressure_;
-    // Of this tick.
+    // Values of this tick.
     double height_ = 0.0;
     std::uint32_t touching_ = 0, count_ = 0;
     Each<double> separation_{};

@@ -12,7 +12,7 @@ namespace hapnet::scene {
 /// A number at each point of a contact.
 using PointNumbers = std::array<double, manifold_points_max>;
 
-/// Which of the points push, in their order.
+/// The points that push, in their order.
 struct PointSet {
     std::array<std::uint8_t, manifold_points_max> at{};
     std::uint16_t count = 0;
@@ -26,7 +26,7 @@ struct PointSet {
     [[nodiscard]] static constexpr const PointSet& of(std::uint32_t bits);
 };
 
-/// All sets: to be looked up, as building one takes a branch for each point.
+/// All sets, made at compile time: building one takes a branch for each point.
 inline constexpr auto point_sets = [] {
     std::array<PointSet, 1U << manifold_points_max> sets{};
     for (std::uint32_t bits = 0; bits < sets.size(); ++bits) {
@@ -70,7 +70,7 @@ public:
 
     [[nodiscard]] const PointSet& set() const { return set_; }
 
-    /// Whether the points lie on a line, to rounding.
+    /// True if the points lie on a line, to rounding.
     [[nodiscard]] bool is_flat() const
     {
         constexpr double thin = 1e-10;

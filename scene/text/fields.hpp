@@ -183,19 +183,19 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
 
 namespace text {
 
-/// What may be written instead of a mass.
+/// The density that may be written instead of a mass.
 struct Density {
     std::optional<double> kg_per_m3{};
 };
 constexpr auto fields_of(base::Tag<Density>)
 {
-    // Of the smallest and of the largest mass.
+    // The densities of the smallest and of the largest mass.
     return base::fields("density", base::field("density", &Density::kg_per_m3,
                                                base::Quantity{base::density_kind, 1e-9, 1e18},
                                                "instead of `mass`"));
 }
 
-/// How many equal bodies there are, and how far apart.
+/// The number of equal bodies, and their distances.
 struct Array {
     Counts::Value count{1, 1, 1};
     glm::dvec3 spacing{0.0};

@@ -12,7 +12,7 @@
 
 namespace hapnet::scene::text {
 
-// How the values of a scene are written that have a notation of their own (proto/base/formats.hpp).
+// Formats of a scene's values that have a notation of their own (proto/base/formats.hpp).
 
 /// Three of a quantity: ["0m", "22.5mm", "0m"].
 struct PerAxis {
@@ -22,7 +22,7 @@ struct PerAxis {
     [[nodiscard]] std::string print(const glm::dvec3& value) const;
     [[nodiscard]] std::string describe() const;
 
-    /// Of a place or a velocity, which keep their numbers in `value`.
+    /// Reads a place or a velocity, which keep their numbers in `value`.
     template <typename V>
     requires requires(V v) { v.value; }
     void read(const base::Node& node, V& target, base::Reading& reading) const

@@ -22,7 +22,7 @@ using base::TableReader;
 
 constexpr std::size_t scene_bytes_max = 64U << 20U; // of the most bodies, each on its own
 
-/// What is written as a density, instead of as a mass.
+/// Reads a density that is written instead of a mass.
 void read_density(TableReader& table, BodyDescription& body)
 {
     text::Density density;
@@ -75,7 +75,7 @@ BodyDescription read_body_keys(TableReader& table)
     return body;
 }
 
-/// To be called once all other keys are known: a misspelt one is the better complaint.
+/// Call it once all other keys are known: a misspelt key is the better complaint.
 void require_mass(TableReader& table, bool is_movable)
 {
     if (!is_movable || table.find("mass") != nullptr || table.find("density") != nullptr) return;
@@ -174,7 +174,8 @@ void refuse_joints(TableReader& table)
     }
 }
 
-/// Where that stands which check() finds wrong, as far as one part alone is.
+/// Returns the place of the first plane or body that check() refuses even on its own, or else
+/// `otherwise`.
 Place culprit(const Growing& growing, Place otherwise)
 {
     Description alone;
@@ -198,7 +199,7 @@ bool has_key(std::string_view key)
                        [key](const base::FieldRow& row) { return row.key == key; });
 }
 
-/// Where a key belongs, or by what other key a scene says the same; "" for a key of no table.
+/// Says where a key belongs, or by which other key a scene says the same; "" for a key of no table.
 std::string advice_on_key(std::string_view key)
 {
     if (key == "radius" || key == "diameter") {
@@ -250,7 +251,7 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
 
 namespace {
 
-/// Where a scene went that earlier versions had; "" for others.
+/// Says what became of a scene that earlier versions had; "" for others.
 std::string removed_scene(std::string_view name)
 {
     constexpr std::array<std::string_view, 3> with_joints{"door", "drawer", "button"};

@@ -13,15 +13,14 @@ namespace hapnet::scene {
 
 // Scenes as people write them, in TOML: docs/formats/scene.md. Every quantity has its unit.
 
-/// Reads a scene. `source` is the name of its file in errors, which begin with
-/// "FILE:LINE:COLUMN: " and say what is wrong and what would be right. What is read may be frozen:
-/// check() finds nothing wrong with it.
+/// Reads a scene. `source` is the name of its file in errors, which begin with "FILE:LINE:COLUMN: "
+/// and say what is wrong and what would be right. The result may be frozen: check() accepts it.
 [[nodiscard]] base::Result<Description> parse_scene(std::string_view text,
                                                     const std::string& source);
 
-/// The scene as TOML, each body on its own. Of a description that check() accepts, also with its
-/// fixed bodies movable, and whose normals and orientations are of length 1 within rounding, it
-/// reads back as the same bits.
+/// Prints the scene as TOML, each body on its own. It reads back as the same bits if check()
+/// accepts the description, also with its fixed bodies movable, and if normals and orientations
+/// have length 1 within rounding.
 [[nodiscard]] std::string to_text(const Description& description);
 
 /// A scene that every program carries with it: a file of scripts/scenes.
@@ -30,7 +29,7 @@ struct BuiltInScene {
     std::string_view text;
 };
 
-/// All of them, by name.
+/// All built-in scenes, by name.
 [[nodiscard]] std::span<const BuiltInScene> built_in_scenes();
 
 /// Reads the built-in scene of that name, or else the file that `open` gives the text of: what

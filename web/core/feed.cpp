@@ -305,7 +305,7 @@ void Feed::note_history(double at_s, const std::vector<Pair>& pairs)
              heard != nullptr ? heard->delay_mean_ms : unknown);
         note(fmt::format("heard_lost:{}", id), heard != nullptr ? heard->lost : unknown);
     }
-    // The same columns while the emulator is away for a moment.
+    // The columns stay the same while the emulator is away for a moment.
     for (std::size_t i = 0; i < known_paths_.size(); ++i) {
         const auto path = emulator_.frame ? emulator_.frame->paths[i]
                                           : EmulatorFrame::Path{known_paths_[i], {}, {}};

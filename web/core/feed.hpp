@@ -15,7 +15,7 @@
 namespace hapnet::web {
 
 /// Figures of a live frame by the names that a trap's condition uses: "apart_mm", "a.late_us.max".
-/// What is not known is not among them.
+/// Unknown figures are left out.
 using Figures = std::map<std::string, double, std::less<>>;
 
 /// Joins the frames of all peers and of the emulator to live frames: docs/formats/live.md. Does no

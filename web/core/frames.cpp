@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Beyond them something else speaks than a daemon of ours.
+// Above these limits the other program is not a daemon of this project.
 constexpr std::size_t line_bytes_max = std::size_t{64} << 10;
 constexpr double number_max = 1e12;
 constexpr std::size_t entries_max = 64;
@@ -29,7 +29,7 @@ public:
     [[nodiscard]] bool is_good() const { return wrong_.empty(); }
     [[nodiscard]] const std::string& wrong() const { return wrong_; }
 
-    /// At a pointer such as "/late_us/max"; NaN where there is none, or null.
+    /// Reads the number at a pointer such as "/late_us/max"; NaN where there is none, or null.
     double optional_number(const char* pointer) { return number_in(json_, pointer); }
 
     double number(const char* pointer)
@@ -153,7 +153,7 @@ EmulatorFrame::Way way_in(const Json& json, const std::string& way, FrameReader&
     return out;
 }
 
-/// As it may stand in the name of a column.
+/// Returns the name as it may stand in the name of a column.
 std::string plain_name(const Json& json, FrameReader& in)
 {
     const auto found = json.find("name");

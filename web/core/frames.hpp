@@ -67,8 +67,8 @@ struct EmulatorFrame {
     std::vector<Path> paths;
 };
 
-/// Read what a daemon, or whatever stands in its place, has sent as a frame. Every number is in its
-/// range then, and the text a JSON object.
+/// Parses a frame of a daemon, or of another program in its place. Every number of the result is in
+/// its range, and the text is a JSON object.
 [[nodiscard]] base::Result<PeerFrame> parse_peer_frame(std::string_view line);
 [[nodiscard]] base::Result<EmulatorFrame> parse_emulator_frame(std::string_view line);
 

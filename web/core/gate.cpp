@@ -104,7 +104,7 @@ bool Gate::is_token(std::string_view text) const
     return difference == 0;
 }
 
-/// Whether "name:port" is one under which this server is meant to be asked.
+/// True if "name:port" is one under which this server is meant to be asked.
 bool Gate::is_own(std::string_view authority) const
 {
     if (std::ranges::any_of(setup_.hosts, [&](const std::string& host) {
@@ -133,7 +133,7 @@ bool Gate::is_own_origin(std::string_view origin) const
            });
 }
 
-/// Whether a page of another site asks.
+/// Refuses a request from a page of another site.
 std::optional<Refusal> Gate::refuses_site(const Asked& asked) const
 {
     const bool must_say = asked.is_upgrade || asked.method == posting;
@@ -141,7 +141,7 @@ std::optional<Refusal> Gate::refuses_site(const Asked& asked) const
     if (asked.origin && !is_own_origin(*asked.origin)) {
         return Refusal{403, "the page of another site may not ask"};
     }
-    // Somebody may follow a link to the page.
+    // A user may follow a link to the page.
     const auto path = path_of(asked.target);
     if (path == "/" || path.starts_with("/a/")) return std::nullopt;
     if (asked.fetch_site && *asked.fetch_site != "same-origin" && *asked.fetch_site != "none") {

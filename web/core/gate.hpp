@@ -42,7 +42,7 @@ public:
 
     explicit Gate(Setup setup);
 
-    /// nullopt: it is let in.
+    /// Returns the refusal of a request; nullopt: it is let in.
     [[nodiscard]] std::optional<Refusal> refuses(const Asked& asked) const;
 
     /// True if the text is the token. The time of the comparison depends on the length alone.

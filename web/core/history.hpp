@@ -10,7 +10,7 @@
 namespace hapnet::web {
 
 /// The figures of past live frames, so that a page that comes later sees its charts at once: all of
-/// two minutes, and the extremes of every eight of twenty. Of bounded size. NaN: not known.
+/// two minutes, and the extremes of every eight of twenty. Its size is bounded. NaN: not known.
 class History {
 public:
     static constexpr std::size_t rows_max = 120UL * 60UL;

@@ -33,7 +33,7 @@ public:
     void clear() { samples_.clear(); }
 
     [[nodiscard]] std::optional<base::TimePoint> newest() const;
-    /// nullopt: the track does not reach there, or has a gap.
+    /// The place at a time; nullopt: the track does not reach there, or has a gap.
     [[nodiscard]] std::optional<glm::dvec3> at(base::TimePoint time) const;
 
 private:

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Why the run of that program is not valid; none: it is.
+/// Returns the reasons why the run of that program is not valid; empty when it is valid.
 std::vector<std::string> reasons_of(const std::string& text)
 {
     const auto json = Json::parse(text, nullptr, /*allow_exceptions*/ false);

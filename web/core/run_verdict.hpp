@@ -14,7 +14,7 @@ struct ProgramStatistics {
     std::string text; // of the file; empty: it wrote none
 };
 
-/// The verdict on a run of the stage: whether it is a valid measurement.
+/// The verdict on a run of the stage: valid, or the reasons why it is not.
 struct RunVerdict {
     int run = 0;
     std::vector<std::string> because; // it is not valid; empty: it is

@@ -89,8 +89,9 @@ struct Start {
 /// The emulator of a choice: one path of two peers, a link for every two of more.
 [[nodiscard]] Start emulator_start(const Choice& choice, const StageFolders& folders);
 
-/// Where peers send to, by "1-2": what peer 1 sends to reach peer 2. Of the line that the emulator
-/// prints when it is ready. The error says that it is not that line.
+/// The places to which peers send. "1-2" is the place to which peer 1 sends to reach peer 2. They
+/// are read from the line that the emulator prints when it is ready. The error says that the line
+/// is another one.
 using Places = std::map<std::string, std::string, std::less<>>;
 [[nodiscard]] base::Result<Places> places_in(std::string_view ready_line, int peers);
 

@@ -139,7 +139,7 @@ std::optional<DeviceError> error_with(Candidate& candidate)
 {
     if (!candidate.handle) return candidate.handle.error();
     libusb_device_handle* const handle = candidate.handle->get();
-    // Not from the kernel's driver: this only looks.
+    // A device that the kernel's driver holds is left to it: this only looks.
     if (libusb_kernel_driver_active(handle, 0) == 1) return std::nullopt;
     const int result = libusb_claim_interface(handle, 0);
     if (result != LIBUSB_SUCCESS) return error_of(result, "Falcon " + candidate.serial);

@@ -11,8 +11,8 @@
 namespace hapnet::device::falcon {
 
 /// The Falcons on this computer's USB ports. One without a serial number, or whose number may not
-/// be read, is called by its port, such as "usb-1-2". Whether their firmware runs only shows when
-/// they are opened.
+/// be read, is called by its port, such as "usb-1-2". The state of their firmware is known only
+/// after they are opened.
 [[nodiscard]] std::vector<Found> find_falcons();
 
 /// Opens the one with this serial or port, or, by "", the first that is usable, and waits until its

@@ -94,7 +94,7 @@ void UsbLink::send_now(const Packet& packet) noexcept
 
 void UsbLink::interrupt(const Packet& packet) noexcept
 {
-    // The one before may have left long since, without anyone who has looked.
+    // The transfer before may have ended long ago, without any look at its events.
     if (interrupts_) handle_events(0);
     if (interrupts_.exchange(true)) return;
     put(packet, urgent_buffer_);

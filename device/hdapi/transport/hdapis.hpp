@@ -19,7 +19,7 @@ namespace hapnet::device::hdapi {
                                                          const std::string& library);
 
 /// Opens several at once, all or none: they share the library's one scheduler, so that one process
-/// can own them. Whether two processes can each own one is not known.
+/// can own them. It is not known whether two processes can each own one.
 [[nodiscard]] Opened<std::vector<std::unique_ptr<Device>>>
 open_hdapis(const std::vector<std::string>& names, const std::string& library);
 

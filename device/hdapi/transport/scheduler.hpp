@@ -28,8 +28,8 @@ class Scheduler {
 public:
     explicit Scheduler(const Functions& functions) : functions_{functions} {}
 
-    /// Opens devices by their names, all or none. Those that are open already stand still for a
-    /// moment, with zero force.
+    /// Opens devices by their names, all or none. The scheduler stops for that moment: devices that
+    /// are open already have no cycles then, and zero force.
     [[nodiscard]] Opened<std::vector<Opening>> open(const std::vector<std::string>& names);
     /// Leaves it at zero force and gives it back.
     void close(const Opening& opening);

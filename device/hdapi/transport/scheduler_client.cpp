@@ -76,7 +76,7 @@ void SchedulerClient::pace(const std::function<bool()>& beat)
     }
 }
 
-/// Whether a cycle has called for a beat; false: none came for 100 ms.
+/// True if a cycle has called for a beat; false: none came for 100 ms.
 bool SchedulerClient::is_called()
 {
     std::unique_lock lock{mutex_};

@@ -19,7 +19,7 @@ namespace hapnet::device::hid {
 
 namespace {
 
-/// What is not of the 7 bits that serial numbers are made of becomes '?'.
+/// Replaces each character that is not printable ASCII by '?'. Serial numbers consist of ASCII.
 std::string narrow(const wchar_t* text)
 {
     std::string narrowed;

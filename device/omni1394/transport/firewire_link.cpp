@@ -26,8 +26,9 @@ constexpr base::Duration answer_within = 500ms;
 constexpr base::Duration channel_within = 2s;
 // Channels 0 to 30: the next one is the broadcast channel.
 constexpr std::uint64_t channels_to_choose_from = 0x7fffffff;
-// Of a packet besides its data: header and two checksums; and what each needs on the bus (as the
-// kernel's own sound drivers reckon it).
+// The bytes of a packet besides its data, which are a header and two checksums, and the bandwidth
+// that each packet needs on the bus besides its bytes (as the kernel's own sound drivers compute
+// it).
 constexpr std::uint32_t packet_overhead_bytes = 12;
 constexpr std::uint32_t bandwidth_overhead = 512;
 
@@ -124,7 +125,7 @@ Opened<std::uint8_t> FirewireLink::allocate_channel(std::uint32_t bytes)
 {
     fw_cdev_allocate_iso_resource wanted{};
     wanted.channels = channels_to_choose_from;
-    // In quadlets at 1600 Mbit/s: at 100 Mbit/s four for each byte.
+    // The unit is quadlets at 1600 Mbit/s: at 100 Mbit/s four for each byte.
     wanted.bandwidth = 4 * (packet_overhead_bytes + bytes) + bandwidth_overhead;
     const std::string what = "a channel of the FireWire bus";
     if (const int error = node_.control(FW_CDEV_IOC_ALLOCATE_ISO_RESOURCE, &wanted); error != 0) {

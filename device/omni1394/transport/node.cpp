@@ -105,7 +105,7 @@ int Node::control(unsigned long request, void* argument) const noexcept
 
 ReadOutcome Node::read(Event& event, base::Duration within) const noexcept
 {
-    // read() of such a node waits, whatever it is told: so it is asked first.
+    // read() of such a node blocks in any mode, so the node is polled first.
     pollfd ready{descriptor_, POLLIN, 0};
     const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(within).count();
     if (::poll(&ready, 1, static_cast<int>(milliseconds)) <= 0) return ReadOutcome::nothing;

@@ -16,8 +16,8 @@ struct Options {
     bool uncalibrated_force = false; // a quarter of full scale without such a file
 };
 
-/// All on the computer's buses. The serial is that printed on the device, or, where the device
-/// cannot be asked for it, that of its bus interface, "0x000b99...".
+/// Finds all Omnis on the computer's buses. The serial is that printed on the device. Where the
+/// device cannot be asked for it, it is that of its bus interface, "0x000b99...".
 [[nodiscard]] std::vector<Found> find_omnis();
 
 /// Opens the Omni with this serial (either of the two serials), or with "" the first usable Omni.

@@ -12,11 +12,12 @@ namespace hapnet::device {
 
 namespace {
 
-// A walk takes so long, also that out of the inkwell to where the person waits.
+// The time of a walk, also of the walk out of the inkwell to where the person waits.
 constexpr double walk_s = 1.0;
 constexpr base::Position waiting_place{{0.0, 0.0, 0.035}};
 constexpr int encoder_jump_counts = 500;
-// Paths of tasks go so far beyond the workspace to the side; the joints get there.
+// The greatest distance to the side by which paths of tasks leave the workspace. The joints can
+// reach it.
 constexpr double aside_m = 0.025;
 
 Capabilities capabilities_of(const JointPlantFigures& plant)
@@ -89,7 +90,7 @@ Grip JointOmni::grip_at(base::TimePoint now, base::Duration elapsed)
     }
     const double seconds = base::to_seconds(elapsed);
     const HandImpedance& hand = person_.hand();
-    // What the hand does besides its impedance is to it as if it meant to be elsewhere.
+    // Forces besides the hand's impedance have the same effect as an intention elsewhere.
     const glm::dvec3 aside = effort.force / hand.stiffness_n_per_m;
     const glm::dvec3 change = (effort.target - intended_).value;
     const Grip grip{{intended_.value + aside}, {change / seconds}, hand};

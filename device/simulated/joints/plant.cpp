@@ -11,7 +11,7 @@ namespace hapnet::device {
 
 namespace {
 
-// Of the friction's impulses against each other: they are nearly independent.
+// The rounds that settle the friction's impulses against each other: they are nearly independent.
 constexpr int friction_rounds = 4;
 
 /// The tip's acceleration while the joints turn evenly.

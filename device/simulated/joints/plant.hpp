@@ -12,8 +12,8 @@
 
 namespace hapnet::device {
 
-/// The Omni's mechanism and motors, joint by joint. What the data sheet does not say is estimated,
-/// and says so.
+/// The Omni's mechanism and motors, joint by joint. Figures that the data sheet does not have are
+/// estimates, and are marked as such.
 struct JointPlantFigures {
     double tip_mass_kg = omni::tip_mass_kg;
     double tip_damping_ns_per_m = 0.2; // estimate
@@ -46,7 +46,7 @@ public:
 
     /// The commanded motor torques, N m; they saturate.
     void set_torque(const glm::dvec3& newton_metres);
-    /// nullopt: no hand holds it.
+    /// Sets the hand's grip; nullopt: no hand holds it.
     void set_grip(const std::optional<Grip>& grip) { grip_ = grip; }
 
     /// Lives through a time, in equal steps of 50 us at most. The grip's target moves on evenly.
@@ -78,7 +78,7 @@ private:
     glm::dvec3 torque_{0.0};
     std::optional<Grip> grip_;
     bool is_docked_;
-    // What follows from the angles.
+    // Values that follow from the angles.
     glm::dmat3 jacobian_{0.0};
     base::Position tip_;
     base::Velocity velocity_;

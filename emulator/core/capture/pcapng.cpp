@@ -85,7 +85,7 @@ constexpr std::size_t v4_header_bytes = 20;
 constexpr std::size_t udp_header_bytes = 8;
 constexpr char udp_protocol = 17;
 
-/// What an IPv4 address begins with as an IPv6 address.
+/// The beginning of an IPv4 address that is written as an IPv6 address.
 constexpr std::string_view mapped_prefix{"\0\0\0\0\0\0\0\0\0\0\xff\xff", 12};
 
 std::string_view v4_bytes(const UdpAddress& address)

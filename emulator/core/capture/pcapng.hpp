@@ -43,7 +43,7 @@ struct CapturedPacket {
     static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
 };
 
-/// What the two interfaces of a pair are called.
+/// The names of a pair's two interfaces.
 struct CaptureNames {
     std::string a = "side A";
     std::string b = "side B";

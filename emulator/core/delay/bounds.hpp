@@ -32,11 +32,11 @@ struct LawMoments {
     std::optional<base::Duration> sd{}; // nullopt: infinite, or longer than any delay
 };
 
-// What the parameters of a law have to be, in words that follow the name of the setting.
+// Requirements of a law's parameters, in words that follow the name of the setting.
 
 [[nodiscard]] base::Result<void> require(bool condition, std::string_view words);
 
-/// That each time is in the range of its field.
+/// Requires each time of a law to be in the range of its field.
 template <base::Described Law>
 [[nodiscard]] base::Result<void> require_ranges(const Law& law)
 {

@@ -45,7 +45,8 @@ concept DelaySamplerOf = std::constructible_from<Sampler, const Law&> &&(
         requires std::same_as<decltype(sampler.at(packet)), base::Duration>;
     });
 
-/// What every law of delay has. fields_of() names it in profiles, and its parameters.
+/// Requirements that every law of delay meets. fields_of() gives its name in profiles, and its
+/// parameters.
 template <typename Law>
 concept LawOfDelay = base::Described<Law> && std::equality_comparable<Law> &&
     DelaySamplerOf<typename Law::Sampler, Law> && requires(const Law& law)
@@ -68,7 +69,7 @@ using DelaySampler = SamplersOf<DelayLaw>::type;
 /// "uniform", "log-normal", ...: the name of a law in profiles.
 [[nodiscard]] std::string_view name_of(const DelayLaw& law);
 
-/// How a delay, or the jitter around it, varies from datagram to datagram.
+/// The variation of a delay, or of the jitter around it, from datagram to datagram.
 struct Variation {
     DelayLaw law = ConstantLaw{};
     /// Draws that lie t apart in arrival time are correlated by exp(-t / correlation_time)
@@ -85,10 +86,11 @@ struct Variation {
     return {UniformLaw{{}, half_width}, {}};
 }
 
-/// Whether it can be drawn. The error follows the name of the setting: "sd must be more than 0".
+/// Refuses a variation that cannot be drawn. The error follows the name of the setting: "sd must be
+/// more than 0".
 [[nodiscard]] base::Result<void> validate(const Variation& variation);
 
-/// Whether it adds nothing to any datagram.
+/// True if it adds nothing to any datagram.
 [[nodiscard]] bool is_nothing(const Variation& variation);
 
 /// Draws the delay, or the jitter, of one datagram after the other: the quantile of the law at the
@@ -96,7 +98,7 @@ struct Variation {
 /// of its datagram, with it also on when the datagrams arrived.
 class DelayProcess {
 public:
-    /// `variation` is one that validate() accepts, but for what a ramp loses by rounding.
+    /// `variation` is one that validate() accepts, except for rounding in a ramp.
     DelayProcess(const Variation& variation, const base::RandomStream& stream);
 
     /// The delay of the next datagram; that of a jitter may be negative. Every datagram of the

@@ -21,7 +21,7 @@ class QuantileTable {
 public:
     static constexpr std::size_t values_max = trace_rows_max;
 
-    /// What its values are: in units of the file's own, or nanoseconds of delay.
+    /// The unit of its values: the file's own, or nanoseconds of delay.
     enum class Unit { own, nanoseconds };
 
     /// 1 to values_max finite values in any order.
@@ -30,7 +30,8 @@ public:
     /// 0 <= u <= 1.
     [[nodiscard]] double quantile(double u) const;
 
-    /// Of the distribution as it is drawn: of the straight lines, not of the values.
+    /// Mean and standard deviation of the drawn distribution: of the straight lines between the
+    /// values, not of the values.
     [[nodiscard]] double mean() const { return mean_; }
     [[nodiscard]] double sd() const { return sd_; }
 
@@ -63,7 +64,7 @@ struct TableLaw {
     [[nodiscard]] base::Result<void> validate() const;
     [[nodiscard]] LawMoments moments() const;
 
-    /// By its contents: the same file read twice is the same law.
+    /// Compares the contents: the same file read twice is the same law.
     friend bool operator==(const TableLaw&, const TableLaw&);
 };
 

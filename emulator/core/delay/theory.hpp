@@ -10,8 +10,9 @@
 
 namespace hapnet::emulator {
 
-/// What a law promises before anything is drawn. Leaves out the order of departure, and that
-/// nothing leaves before it arrives (see clipped_share). A correlation changes none of it.
+/// Theoretical properties of a law, known before anything is drawn. They leave out the order of
+/// departure, and that nothing leaves before it arrives (see clipped_share). A correlation changes
+/// none of it.
 class DelayTheory {
 public:
     /// `law` is one that validate() accepts.
@@ -19,7 +20,7 @@ public:
 
     [[nodiscard]] base::Duration mean() const { return mean_; }
 
-    /// nullopt: infinite, or longer than any delay.
+    /// The standard deviation; nullopt: infinite, or longer than any delay.
     [[nodiscard]] std::optional<base::Duration> sd() const { return sd_; }
 
     /// The delay that a share q of all delays stays below, 0 < q < 1.

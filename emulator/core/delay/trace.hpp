@@ -27,22 +27,23 @@ namespace hapnet::emulator {
 /// holds for ever.
 class DelayTrace {
 public:
-    /// By packet; at least one.
+    /// A trace by packet. `delays` has at least one.
     explicit DelayTrace(std::vector<base::Duration> delays);
 
-    /// By time: as many times as delays, ascending from 0.
+    /// A trace by time. `times` ascend from 0, and there is one for each delay.
     DelayTrace(std::vector<base::Duration> delays, std::vector<base::Duration> times);
 
-    /// Of datagram `number`, by packet; without repetition the last value holds.
+    /// The delay of datagram `number`, for a trace by packet. Without repetition the last value
+    /// holds.
     [[nodiscard]] base::Duration of(std::uint64_t number, bool repeats = true) const;
 
-    /// At a time since the trace began, by time.
+    /// The delay at a time since the trace began, for a trace by time.
     [[nodiscard]] base::Duration at(base::Duration time, Interpolation way = Interpolation::step,
                                     bool repeats = true) const;
 
     [[nodiscard]] bool is_by_time() const { return axis_.has_value(); }
 
-    /// In the order of the trace.
+    /// The delays in the order of the trace.
     [[nodiscard]] const std::vector<base::Duration>& delays() const { return delays_; }
 
     /// The share of the packets (by packet) or of the time (by time) to which a value belongs.
@@ -79,7 +80,7 @@ struct TraceLaw {
     /// The distribution function; ascending, the last share is 1. Straight lines count as 16 steps.
     [[nodiscard]] std::vector<Step> steps() const;
 
-    /// By its contents: the same file read twice is the same law.
+    /// Compares the contents: the same file read twice is the same law.
     friend bool operator==(const TraceLaw&, const TraceLaw&);
 };
 
@@ -106,7 +107,7 @@ public:
         return trace_->at(clock_.on_packet(packet.at), interpolate_, repeats);
     }
 
-    /// The same trace goes on.
+    /// Changes the law. The same trace with the same timing goes on.
     void change(const TraceLaw& law);
 
 private:

@@ -48,7 +48,7 @@ using RegimeNames = std::vector<std::string>;
 void append_row(std::string& text, Direction direction, std::uint64_t number, const Fate& fate,
                 const RegimeNames* regimes = nullptr);
 
-/// What became of the datagrams of both directions: fate n is that of datagram n.
+/// The fates of both directions: fate n is that of datagram n.
 struct Fates {
     std::vector<Fate> up;
     std::vector<Fate> down;
@@ -92,7 +92,7 @@ struct FateColumns {
 /// The first cells of each row of a path: "1-2,voice,".
 [[nodiscard]] std::string row_begin(FateColumns columns, std::string_view path);
 
-/// By the names of the paths.
+/// The fates by the names of the paths.
 using FatesOfPaths = std::map<std::string, Fates, std::less<>>;
 
 [[nodiscard]] std::string to_text(const FatesOfPaths& fates);

@@ -12,7 +12,7 @@
 namespace hapnet::emulator {
 
 /// Gives the datagrams of one direction the fates of a run that was recorded, number by number,
-/// instead of drawing them; whoever comes after the last of them is dropped.
+/// instead of drawing them. Datagrams after the last of them are dropped.
 class Replay {
 public:
     /// `fates` is not null.

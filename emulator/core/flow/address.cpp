@@ -98,7 +98,7 @@ std::string ipv4_text(const Address& address)
                        address.low >> 8U & 255U, address.low & 255U);
 }
 
-/// With "::" for the first longest run of at least two zeros (RFC 5952).
+/// Prints an address with "::" for the first longest run of at least two zeros (RFC 5952).
 std::string ipv6_text(const Address& address)
 {
     std::array<std::uint16_t, 8> groups{};

@@ -40,7 +40,7 @@ struct Address {
 /// All addresses with the same first bits, of one version of IP.
 class Net {
 public:
-    /// Nothing but ::, of no version.
+    /// The address :: alone, of no version of IP.
     Net() = default;
 
     /// Reads "10.0.0.0/8", "fe80::/10", or a single address. The error says what to write.
@@ -53,7 +53,7 @@ public:
                ((address.low ^ first_.low) & mask_.low) == 0;
     }
     [[nodiscard]] bool is_single() const { return mask_.low == ~std::uint64_t{0}; }
-    /// As parse() reads it; a single address without a length.
+    /// The text that parse() reads; a single address without a length.
     [[nodiscard]] std::string text() const;
 
     friend bool operator==(const Net&, const Net&) = default;

@@ -20,7 +20,7 @@ std::optional<NumberRange> just(const auto& number)
     return NumberRange{*number, *number};
 }
 
-/// Without a protocol, all of IP.
+/// Returns the protocols of a match. A match without a protocol takes all of IP.
 std::optional<NumberRange> protocols_of(const Match& match)
 {
     return match.protocol ? just(match.protocol) : NumberRange{0, PacketFacts::arp - 1};

@@ -23,7 +23,7 @@ namespace hapnet::emulator {
 /// (bit vectors: Lakshman and Stiliadis, SIGCOMM 1998). Several paths share them.
 class FlowFilters {
 public:
-    /// At most flows_max, all valid.
+    /// `matches` has at most flows_max, all valid.
     explicit FlowFilters(std::span<const Match> matches);
 
     /// The first flow that takes such a packet, from 0; nullopt: none.
@@ -32,7 +32,7 @@ public:
 private:
     using Flows = std::uint16_t; // a bit for each
 
-    /// Which flows take each number; empty: all take all.
+    /// Says which flows take each number; empty: all take all.
     class Table {
     public:
         /// `range_of(match)`: what it asks of the number; nullopt: nothing.
@@ -74,11 +74,12 @@ public:
         return filters_->first(facts);
     }
 
-    /// Later fragments of which no first one was remembered. They were classified by what they say
-    /// themselves, without ports.
+    /// The number of later fragments whose first fragment was not remembered. They were classified
+    /// by their own headers, without ports.
     [[nodiscard]] std::uint64_t unknown_fragments() const { return unknown_fragments_; }
 
-    /// As many fragmented packets are remembered at a time, each for so long (RFC 8200, 4.5).
+    /// The number of fragmented packets that are remembered at a time, and the time for which each
+    /// one is remembered (RFC 8200, 4.5).
     static constexpr std::size_t packets_max = 256;
     static constexpr base::Duration remembered_for = std::chrono::seconds{60};
 

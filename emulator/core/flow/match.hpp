@@ -27,7 +27,7 @@ struct NumberRange {
     friend bool operator==(const NumberRange&, const NumberRange&) = default;
 };
 
-// How the values of a match are written.
+// The notation of the values of a match.
 
 /// A name such as "udp", or the number of IANA.
 struct ProtocolFormat {

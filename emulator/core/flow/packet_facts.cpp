@@ -27,7 +27,7 @@ enum HeaderKind : std::uint8_t {
     shim6 = 140,
 };
 
-// In one load each, as compilers know this form.
+// Compilers turn this form into one load.
 std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t at)
 {
     const std::byte* const b = bytes.subspan(at, 4).data();
@@ -83,7 +83,7 @@ std::optional<PacketFacts> facts_of_ipv4(std::span<const std::byte> packet)
     return facts;
 }
 
-/// How long the extension header at the beginning of `rest` is; nullopt: it is none.
+/// Returns the length of the extension header at the beginning of `rest`; nullopt: it is none.
 std::optional<std::size_t> extension_bytes(std::uint16_t kind, std::span<const std::byte> rest)
 {
     switch (kind) {

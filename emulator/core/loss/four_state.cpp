@@ -23,7 +23,7 @@ std::string at_least(double value)
     return fmt::format("{}", std::ceil(value * thousand) / thousand);
 }
 
-/// Whether the shares and lengths are possible, each by itself and to each other.
+/// Refuses shares and lengths that are impossible, each by itself or together.
 base::Result<void> validate_ranges(const FourState& law)
 {
     if (!(law.isolated < law.share && law.share < law.density)) {
@@ -45,8 +45,9 @@ base::Result<void> validate_ranges(const FourState& law)
     return {};
 }
 
-/// By renewal: the chain begins anew whenever it comes to received_in_gap. Over one cycle of T
-/// datagrams with R losses, the variance per datagram is E[(R - share T)^2] / E[T].
+/// Computes the variance by renewal: the chain begins again whenever it comes to received_in_gap.
+/// Over one cycle of T datagrams with R losses, the variance per datagram is E[(R - share T)^2] /
+/// E[T].
 double cycle_variance(const FourStateSteps& s, double share)
 {
     const auto square = [](double x) { return x * x; };

@@ -173,7 +173,8 @@ std::vector<LossProperty> GilbertElliott::properties(const RunFacts& /*facts*/) 
 
 TwoStateSteps TimedGilbertElliott::steps(base::Duration after) const
 {
-    // Of a chain in continuous time with the rates 1 / mean_good and 1 / mean_bad.
+    // The transition probabilities of a chain in continuous time.
+    // Its rates are 1 / mean_good and 1 / mean_bad.
     const auto good = static_cast<double>(mean_good.count());
     const auto bad = static_cast<double>(mean_bad.count());
     const double bad_share = bad / (good + bad);

@@ -65,7 +65,7 @@ public:
         steps_ = law.steps();
     }
 
-    /// In which the last datagram was judged.
+    /// The state in which the last datagram was judged.
     [[nodiscard]] LossState state() const { return state_; }
 
 private:
@@ -138,8 +138,8 @@ constexpr auto fields_of(base::Tag<GilbertElliott>)
         base::field("loss_bad", &GilbertElliott::loss_bad, "share lost in the bad state"));
 }
 
-/// The same chain in time instead of in datagrams: it stays good and bad for exponential times of
-/// these means (> 0), however fast datagrams come.
+/// A Gilbert-Elliott chain in time instead of in datagrams: it stays good and bad for exponential
+/// times of these means (> 0), however fast datagrams come.
 struct TimedGilbertElliott {
     base::Duration mean_good{};
     base::Duration mean_bad{};

@@ -15,7 +15,7 @@ LossTheory BlockLoss::theory(const Arrivals& /*arrivals*/) const
 {
     const double k = lost;
     const double n = of;
-    // Of n neighbouring pairs n - 1 lie within a block and one across its end.
+    // Among n neighbouring pairs, n - 1 lie within a block and one across its end.
     auto theory = theory_from_pairs(k / n, (k * (k - 1.0) / n + k * k / (n * n)) / n);
     // Two sequences in blocks of n meet the variance of independent ones times 1 + 1 / (n - 1).
     theory.memory = 1.0 / std::sqrt(n);

@@ -48,8 +48,8 @@ concept LossModelOf = requires(Model model, const Law& law, const base::RandomSt
     model.change(law, stream);
 };
 
-/// What every law of loss has. fields_of() names it, in profiles and in the name of its stream, and
-/// its parameters.
+/// Requirements that every law of loss meets. fields_of() gives its name in profiles and streams,
+/// and its parameters.
 template <typename Law>
 concept LawOfLoss = base::Described<Law> && std::equality_comparable<Law> &&
     LossModelOf<typename Law::Model, Law> &&
@@ -67,9 +67,9 @@ concept LawOfLoss = base::Described<Law> && std::equality_comparable<Law> &&
     requires std::same_as<decltype(law.properties(facts)), std::vector<LossProperty>>;
 };
 
-/// Runs one of some laws: one datagram after the other. What becomes of datagram n is a function of
-/// the stream, of n, and for laws with a state or in time of the datagrams before. Allocates
-/// nothing. The law has to be one that validate() accepts.
+/// Runs one of some laws: one datagram after the other. The fate of datagram n is a function of the
+/// stream, of n, and for laws with a state or in time of the datagrams before. Allocates nothing.
+/// The law has to be one that validate() accepts.
 template <typename Laws>
 class LossProcessOf;
 
@@ -95,7 +95,7 @@ public:
             running_);
     }
 
-    /// In which the law judged the last datagram.
+    /// The state in which the law judged the last datagram.
     [[nodiscard]] LossState state() const { return state_; }
 
     /// Holds from the next datagram on. A law of the same kind goes on from its state.
@@ -141,11 +141,11 @@ using LossProcess = LossProcessOf<LossLaw>;
 /// "random", "k-of-n", ...: the name of a law in profiles and in the name of its stream.
 [[nodiscard]] std::string_view name_of(const LossLaw& law);
 
-/// Whether the law can be done. The error says what is impossible and what would be right, in the
+/// Refuses an impossible law. The error says what is impossible and what would be right, in the
 /// units that a person writes, without naming the law or the place.
 [[nodiscard]] base::Result<void> validate(const LossLaw& law);
 
-/// Whether the losses depend on when datagrams come.
+/// True if the losses depend on when datagrams come.
 [[nodiscard]] bool is_in_time(const LossLaw& law);
 
 [[nodiscard]] LossTheory theory_of(const LossLaw& law, const Arrivals& arrivals);

@@ -10,7 +10,7 @@
 
 namespace hapnet::emulator {
 
-/// Each datagram on its own, with one probability.
+/// Loses each datagram on its own, with one probability.
 struct RandomLoss {
     base::Probability share{};
 

@@ -17,8 +17,8 @@
 
 namespace hapnet::emulator {
 
-// What a law of loss states about itself before anything is drawn: closed forms for people, and
-// the properties by which a run is tested.
+// Theoretical properties of a law of loss, known before anything is drawn: closed forms for people,
+// and the properties by which a run is tested.
 
 /// Datagrams at even distances, the first at the beginning of the run.
 struct Arrivals {
@@ -26,7 +26,7 @@ struct Arrivals {
     std::uint64_t count = 0;  // > 0
 };
 
-/// What a law of loss amounts to in the long run; for lists and outages, which have an end, over
+/// The behaviour of a law of loss in the long run; for lists and outages, which have an end, over
 /// the arrivals in question. Only the laws in time depend on the spacing.
 struct LossTheory {
     double share = 0.0;
@@ -46,13 +46,13 @@ struct LossTheory {
 /// `both`: the probability that two neighbours are lost.
 [[nodiscard]] LossTheory theory_from_pairs(double share, double both);
 
-/// Of losses that are not drawn, in `runs` runs.
+/// The theory of losses that are not drawn at random, in `runs` runs.
 [[nodiscard]] LossTheory theory_from_counts(double count, double losses, double runs);
 
-/// The same with the memory of losses that are drawn one by one.
+/// Adds the memory of losses that are drawn one by one.
 [[nodiscard]] LossTheory with_memory(LossTheory theory);
 
-/// Of what repeats after `size` datagrams.
+/// The theory of losses that repeat after `size` datagrams.
 template <typename IsLost>
 [[nodiscard]] LossTheory theory_of_period(std::size_t size, IsLost&& is_lost)
 {
@@ -68,7 +68,7 @@ template <typename IsLost>
 
 // Properties, each a test that emulator/tools/verify knows how to do.
 
-/// Each datagram on its own: the number of losses, and whether neighbours are independent.
+/// Losses of each datagram on its own. Their number is tested, and that neighbours are independent.
 struct IndependentLosses {
     double share = 0.0;
 };
@@ -78,7 +78,7 @@ struct LongRunShare {
     LossTheory theory;
 };
 
-/// How long runs of losses are, for runs of up to at_least.size() datagrams.
+/// The lengths of runs of losses, for runs of up to at_least.size() datagrams.
 struct RunLengths {
     static constexpr std::size_t most = 10'000; // longer runs share the last bin
 
@@ -110,14 +110,14 @@ struct LossesInState {
     double share = 0.0;
 };
 
-/// How often one state follows another. Can be told whatever other laws do.
+/// The probability that one state follows another. It can be tested whatever other laws do.
 struct StateStep {
     LossState from = LossState::none;
     LossState to = LossState::none;
     double probability = 0.0;
 };
 
-/// Nothing can be told, for this reason.
+/// The reason why nothing can be tested.
 struct Untestable {
     std::string_view reason;
 };
@@ -126,13 +126,14 @@ using LossProperty =
     std::variant<IndependentLosses, LongRunShare, RunLengths, ExactBlocks, RecurringBursts,
                  SameLosses, LossesInState, StateStep, Untestable>;
 
-/// What is known of a run besides its losses.
+/// Facts about a run besides its losses.
 struct RunFacts {
     std::uint64_t count = 0;                 // of datagrams
     std::optional<base::Duration> spacing{}; // of datagrams, if they came evenly; > 0
 };
 
-/// What a law that draws nothing takes of the first `count` datagrams, by running its model.
+/// Returns the losses of a law without random draws among the first `count` datagrams. It runs the
+/// law's model.
 template <typename Law>
 [[nodiscard]] SameLosses same_losses(const Law& law, std::uint64_t count)
 {

@@ -16,13 +16,13 @@
 
 namespace hapnet::emulator {
 
-/// Which share of the datagrams is lost at each time.
+/// The share of the datagrams that is lost at each time.
 class LossSeries {
 public:
-    /// As many times as shares, ascending from 0.
+    /// `times` ascend from 0, and there is one for each share.
     LossSeries(std::vector<double> shares, std::vector<base::Duration> times);
 
-    /// At a time since the trace began: from 0 to 1.
+    /// Returns the share that is lost at a time since the trace began, from 0 to 1.
     [[nodiscard]] double at(base::Duration time, Interpolation way, bool repeats) const;
 
     friend bool operator==(const LossSeries&, const LossSeries&) = default;
@@ -37,7 +37,7 @@ private:
 [[nodiscard]] base::Result<LossSeries> parse_loss_series(std::string_view text,
                                                          const TableFormat& format = {});
 
-/// Each datagram is lost with the share that a trace has at its time.
+/// Loses each datagram with the share that a trace has at its time.
 struct TimedTraceLoss {
     std::string file;
     std::shared_ptr<const LossSeries> trace; // never null
@@ -55,7 +55,7 @@ struct TimedTraceLoss {
     [[nodiscard]] LossTheory theory(const Arrivals& arrivals) const;
     [[nodiscard]] std::vector<LossProperty> properties(const RunFacts& facts) const;
 
-    /// By its contents: the same file read twice is the same law.
+    /// Compares the contents: the same file read twice is the same law.
     friend bool operator==(const TimedTraceLoss& a, const TimedTraceLoss& b);
 };
 
@@ -79,7 +79,7 @@ public:
 
     [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream& stream);
 
-    /// The same trace goes on.
+    /// Changes the law. The same trace with the same timing goes on.
     void change(const TimedTraceLoss& law, const base::RandomStream& stream);
 
 private:

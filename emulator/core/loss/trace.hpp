@@ -17,7 +17,8 @@
 
 namespace hapnet::emulator {
 
-/// Which datagrams of a recorded run were lost. Begins again at its end. Never empty.
+/// Says of each datagram of a recorded run if it was lost. It begins again at its end. It has at
+/// least one datagram.
 class LossTrace {
 public:
     static constexpr std::size_t datagrams_max = 10'000'000;
@@ -61,7 +62,7 @@ struct TraceLoss {
     [[nodiscard]] LossTheory theory(const Arrivals&) const;
     [[nodiscard]] std::vector<LossProperty> properties(const RunFacts&) const;
 
-    /// By its contents: the same file read twice is the same law.
+    /// Compares the contents: the same file read twice is the same law.
     friend bool operator==(const TraceLoss&, const TraceLoss&);
 };
 

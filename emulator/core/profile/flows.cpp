@@ -40,7 +40,7 @@ bool has_rate(const Patch& patch)
            (patch.regimes && std::ranges::any_of(patch.regimes->all, sets_rate));
 }
 
-/// What contradicts itself in a flow; "": nothing.
+/// Returns the contradiction within a flow; "": there is none.
 std::string contradiction_of(const Flow& flow, const PathPatch& own)
 {
     const bool has_settings = own.up != Patch{} || own.down != Patch{};

@@ -16,7 +16,7 @@ namespace hapnet::emulator {
 /// on each to `paths`.
 void read_flows(TableReader& table, Profile& profile);
 
-/// What a flow is, one key a line, without its conditions.
+/// Prints the properties of a flow, one key a line, without its conditions.
 [[nodiscard]] std::string flow_lines(const Flow& flow);
 
 /// The paths that `names` has, with these flows on each.

@@ -11,12 +11,12 @@
 
 namespace hapnet::emulator {
 
-/// Which of the two delays of a direction a text is about: "5ms" is 5 ms as a delay, and from
-/// -5 ms to 5 ms as a jitter.
+/// The role of a text among the two delays of a direction: "5ms" is 5 ms as a delay, and from -5 ms
+/// to 5 ms as a jitter.
 enum class Role { delay, jitter };
 
-/// "160ms", "none" or { law = ..., ..., correlation_time = ... }. What the table says of the order
-/// of departure is put into `order`.
+/// "160ms", "none" or { law = ..., ..., correlation_time = ... }. The table's order of departure,
+/// if it has one, is put into `order`.
 [[nodiscard]] Variation read_variation(const Node& node, Role role, std::optional<Order>& order,
                                        Reading& reading);
 [[nodiscard]] std::string variation_text(const Variation& variation, Role role);

@@ -20,7 +20,7 @@ const PathPatch* find_patch(const std::vector<PathPatch>& patches, std::string_v
     return found == patches.end() ? nullptr : &*found;
 }
 
-/// Takes what all of them set alike out of the patches of one way, and returns it.
+/// Removes the settings that all patches of one direction share, and returns them.
 Patch taken_in_common(std::vector<PathPatch>& patches, Patch PathPatch::*way)
 {
     Patch common;
@@ -36,7 +36,7 @@ Patch taken_in_common(std::vector<PathPatch>& patches, Patch PathPatch::*way)
     return common;
 }
 
-/// What a flow has at the beginning of what all have.
+/// Returns the conditions of all paths that a flow inherits at the beginning.
 Conditions inherited_by(const Flow* flow, const Conditions& of_all)
 {
     return flow != nullptr && flow->passes ? Conditions{} : Conditions{.mtu = of_all.mtu};
@@ -70,7 +70,7 @@ void leave_inherited(Profile& own, const Profile& profile, std::string_view path
     leave(&Path::down, &Change::down, &PathPatch::down);
 }
 
-/// Of each setting the value that most of them have, the first of those.
+/// Returns the most frequent value of each setting; the first one, if there are several.
 Conditions most_frequent(std::span<const NamedProfile> profiles, Conditions Path::*way)
 {
     Conditions conditions;
@@ -166,7 +166,8 @@ JoinedPatch joined(std::vector<PathPatch> patches)
 
 namespace {
 
-/// Of paths of one kind: all of the rest, or all of one flow.
+/// Joins the profiles of paths of one kind: all that carry the rest beside the flows, or all of one
+/// flow.
 Profile joined_of_kind(std::span<const NamedProfile> profiles)
 {
     Profile all;
@@ -174,7 +175,8 @@ Profile joined_of_kind(std::span<const NamedProfile> profiles)
     all.name = profiles.front().profile.name;
     all.seed = profiles.front().profile.seed;
     all.checks = profiles.front().profile.checks;
-    // A change by its time, its ramp, and which of those of one path that have both alike.
+    // The key of a change: its time, its ramp, and its number among the changes of one path that
+    // have both in common.
     using Key = std::tuple<base::Duration, std::size_t, base::Duration>;
     std::map<Key, std::vector<PathPatch>> changes;
     for (const auto& [path, profile] : profiles) {

@@ -17,9 +17,9 @@ namespace hapnet::emulator {
 /// The paths that have something of their own in it, ascending by their names.
 [[nodiscard]] std::vector<std::string> paths_in(const Profile& profile);
 
-/// What the profile is to this path, without the others; its timeline has the same changes, also
-/// those that change nothing here. A flow has nothing of the conditions of all paths but the MTU,
-/// and not even that if it passes untouched.
+/// Returns the profile of this path alone. Its timeline has the same changes, also those that
+/// change nothing here. A flow takes only the MTU from the conditions of all paths, and nothing if
+/// it passes untouched.
 [[nodiscard]] Profile profile_of(const Profile& profile, std::string_view path);
 
 /// Timeline::validate() of every path.
@@ -30,12 +30,13 @@ struct NamedProfile {
     std::string path;
     Profile profile;
 };
-/// One profile that is to each path what its own is. What most have at the beginning, and what
-/// changes alike on all of them, stands in it for all. `flows`: those that the paths have.
+/// Joins profiles into one that has the same effect on each path as its own. Settings that most
+/// paths have at the beginning, and equal changes on all of them, are written once for all.
+/// `flows`: those that the paths have.
 [[nodiscard]] Profile joined(std::span<const NamedProfile> profiles,
                              std::span<const Flow> flows = {});
 
-/// One patch for several paths: what all have alike, and what is left of each.
+/// One patch for several paths: the settings that are equal for all, and the rest of each.
 struct JoinedPatch {
     Patch up;
     Patch down;
@@ -43,7 +44,7 @@ struct JoinedPatch {
 };
 [[nodiscard]] JoinedPatch joined(std::vector<PathPatch> patches);
 
-/// What has to be set to come from one to the other.
+/// Returns the settings that lead from one to the other.
 [[nodiscard]] Patch difference(const Conditions& before, const Conditions& after);
 
 /// The patch of this path in `patches`, made if there is none; they stay in their order.

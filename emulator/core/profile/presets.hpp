@@ -13,7 +13,7 @@ struct Preset {
     std::string_view text;
 };
 
-/// All of them, by name.
+/// All presets, by name.
 [[nodiscard]] std::span<const Preset> presets();
 
 } // namespace hapnet::emulator

@@ -14,7 +14,7 @@
 
 namespace hapnet::emulator {
 
-/// What one of several paths has of its own, over what all have.
+/// The settings that one of several paths has of its own, over those of all paths.
 struct PathPatch {
     std::string path; // its name; see path_name.hpp
     Patch up;
@@ -36,7 +36,7 @@ struct Change {
     friend bool operator==(const Change&, const Change&) = default;
 };
 
-/// Everything that a profile file says.
+/// The contents of a profile file.
 struct Profile {
     std::string name;
     std::optional<base::Seed> seed;        // nullopt: the file does not say

@@ -24,8 +24,8 @@ std::optional<T> only_equal(const T& a, const T& b)
     return a == b ? std::optional{b} : std::nullopt;
 }
 
-/// Between two laws of one kind. The bounds of FourState are not convex; delays taken as they were
-/// measured have no mean and sd to go from or to.
+/// Interpolates between two laws of one kind. The bounds of FourState are not convex; delays taken
+/// as they were measured have no mean and sd to go from or to.
 template <typename Laws>
 std::optional<Laws> between_laws(const Laws& a, const Laws& b, double progress)
 {
@@ -75,7 +75,7 @@ std::optional<std::vector<LossLaw>> between(std::vector<LossLaw> a, std::vector<
     return b;
 }
 
-/// A share of zero goes with whatever else the other one says.
+/// A value with a share of zero takes over the other parameters of the other value.
 template <typename Stage>
 std::optional<Stage> between_shares(Stage a, Stage b, double progress)
 {
@@ -126,7 +126,8 @@ std::optional<Rate> between(const Rate& a, const Rate& b, double progress)
     return base::between(a, b, progress);
 }
 
-/// Why there is nothing between `a` and `b`, to stand after the key of the setting.
+/// Returns the reason why there is nothing between `a` and `b`, to stand after the key of the
+/// setting.
 template <typename Value>
 std::string obstacle(const Value&, const Value&)
 {

@@ -7,12 +7,12 @@
 
 namespace hapnet::emulator {
 
-/// Whether there is something in between `from` and what `to` sets. Between numbers of the same law
-/// there is, and a share, delay, width or deviation of zero goes with any.
+/// Refuses a ramp without values in between. There are values between numbers of the same law. A
+/// share, delay, width or deviation of zero goes with any law.
 [[nodiscard]] base::Result<void> validate_ramp(const Conditions& from, const Patch& to);
 
-/// `conditions` with what `to` sets, so far on the straight line from `from` to there as `progress`
-/// says, from 0 to 1. Ensures that it is a valid ramp.
+/// Returns `conditions` with the settings of `to`, at the share `progress` (0 to 1) of the straight
+/// line from `from` to there. Ensures that it is a valid ramp.
 [[nodiscard]] Conditions ramped(Conditions conditions, const Conditions& from, const Patch& to,
                                 double progress);
 

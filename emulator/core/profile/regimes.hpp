@@ -27,7 +27,7 @@ struct RegimePatch {
 [[nodiscard]] base::SharedVector<Regime> read_regimes(const Node& node, Reading& reading);
 /// A table of tables by their names: conditions of regimes that are there already.
 [[nodiscard]] std::vector<RegimePatch> read_regime_patches(const Node& node, Reading& reading);
-/// As TOML, on one line.
+/// Prints the regimes as TOML, on one line.
 [[nodiscard]] std::string regimes_text(const Regimes& regimes);
 
 /// The regimes with other conditions. The error: there is none of this name.

@@ -19,7 +19,7 @@ public:
     [[nodiscard]] const Profile& profile() const { return profile_; }
     [[nodiscard]] const Timeline& timeline() const { return timeline_; }
 
-    /// Whether both are the same text, seeds apart. By hashes: that two that differ pass for equal
+    /// True if both are the same text, seeds apart. By hashes: that two that differ pass for equal
     /// happens once in 2^64 pairs.
     [[nodiscard]] bool says_the_same_as(const Script& other) const { return hash_ == other.hash_; }
 

@@ -18,7 +18,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// How a law is written. `setting` is "loss", or "delay" for delay and jitter.
+/// An example of a law's notation. `setting` is "loss", or "delay" for delay and jitter.
 struct LawExample {
     std::string_view setting;
     std::string_view law;
@@ -102,7 +102,7 @@ std::string_view example_for(std::string_view name, std::string_view value)
     return "";
 }
 
-/// Whether a value of several words is what tc-netem takes: "80ms 10ms distribution normal".
+/// True if a value of several words is what tc-netem takes: "80ms 10ms distribution normal".
 bool is_netem(std::string_view value)
 {
     constexpr std::array<std::string_view, 12> words{

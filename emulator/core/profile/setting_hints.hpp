@@ -19,12 +19,12 @@ namespace hapnet::emulator {
 [[nodiscard]] std::string explained(std::string_view name, const std::string& value,
                                     const std::string& why);
 
-/// Where a key of a profile belongs that its table does not have: "write it below [both], [up] or
+/// Says where a misplaced key of a profile belongs: "write it below [both], [up] or
 /// [down]"; "" for a key that no table of a profile has.
 [[nodiscard]] std::string advice_on_key(std::string_view key);
 
-/// How a law is written, by its name or a word that other tools have for it; "" where the setting
-/// has no such law.
+/// Returns an example of a law's notation, by its name or a word that other tools have for it; ""
+/// where the setting has no such law.
 [[nodiscard]] std::string_view law_example(std::string_view name, std::string_view law);
 
 } // namespace hapnet::emulator

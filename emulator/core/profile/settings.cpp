@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view together = "together";
 constexpr std::string_view apart = "apart";
 
-/// Of the rate; a trace has none.
+/// A key of the rate; a trace has none.
 constexpr std::string_view limit_key = "limit";
 
 /// "none", the short form of the first parameter, or a table.
@@ -297,8 +297,9 @@ bool changes_regimes(const DirectionSettings& settings)
     return settings.patch.regimes || settings.are_together || !settings.of_regimes.empty();
 }
 
-/// Calls use(setting) for those that are for all paths or for the one of this name; of two that
-/// contradict, the one that wins comes last. Those of a flow are not those of the rest.
+/// Calls use(setting) for the settings that are for all paths or for the path of this name. Where
+/// two contradict, the one that wins comes last. A flow does not get the settings of the rest, nor
+/// the rest those of a flow.
 template <typename Use>
 void in_turn(std::span<const Setting> settings, std::string_view path, const Use& use)
 {

@@ -25,8 +25,8 @@ inline constexpr std::array<std::string_view, 14> setting_keys{
     "corrupt", "duplicate", "delay",  "jitter", "correlation_time",
     "order",   "reorder",   "regime", "regimes"};
 
-/// What the keys of one direction say. The outer optional: the key is there; an empty list: there
-/// is no such burst.
+/// The settings from the keys of one direction. The outer optional: the key is there; an empty
+/// list: there is no such burst.
 struct DirectionSettings {
     Patch patch;
     std::optional<std::vector<LossLaw>> burst_loss{};
@@ -41,11 +41,11 @@ struct DirectionSettings {
 inline constexpr std::string_view nothing_to_correlate =
     "correlation_time goes with a jitter, or with a delay that varies: write one beside it";
 
-/// What the entry of this key says, into `settings`. `key` is one of setting_keys.
+/// Reads the entry of a key into `settings`. `key` is one of setting_keys.
 void read_setting(std::string_view key, const Node& node, DirectionSettings& settings,
                   Reading& reading);
 
-/// What a table of such keys says. Complains of unknown keys, and of orders that contradict.
+/// Reads a table of such keys. Complains of unknown keys, and of orders that contradict.
 [[nodiscard]] DirectionSettings read_direction(const Node& node, Reading& reading);
 
 /// The values of the keys as TOML; nullopt: not set. burst_loss and correlation_time are never set:
@@ -82,8 +82,8 @@ struct Setting {
 [[nodiscard]] base::Result<void> ensure_own_settings(std::span<const Setting> settings,
                                                      std::string_view name, const Path& path);
 
-/// What the settings for all paths, or for this one, say one way; `after` are its conditions once
-/// they hold.
+/// Returns the patch of one direction from the settings for all paths and for this one. `after` are
+/// its conditions once they hold.
 [[nodiscard]] Patch patch_of(std::span<const Setting> settings, std::string_view name,
                              Direction direction, const Conditions& after);
 

@@ -99,8 +99,8 @@ private:
         }
     }
 
-    /// Of a pair, the settings of one way; else both, up and down, or the settings of both. Those
-    /// of flows stand among them.
+    /// Reads a table of a path. For a pair it has the settings of one way; else both, up and down,
+    /// or the settings of both. Settings of flows stand among them.
     void read_path_table(const Way& way, const Node& node)
     {
         const auto* entries = std::get_if<Node::Table>(&node.value);
@@ -133,7 +133,7 @@ private:
         }
     }
 
-    /// By the names of their ends, from one to the other.
+    /// Settings by the names of their ends, from one to the other.
     using SettingsOfWays = std::map<std::pair<std::string, std::string>, DirectionSettings>;
 
     void read_matrix(const Node& node)
@@ -217,7 +217,7 @@ private:
     std::vector<Placed> all_{};
 };
 
-/// Of a path by its own settings, over what all have.
+/// Returns the patch of a path by its own settings, over those of all paths.
 PathPatch path_patch(const std::vector<Setting>& settings, const std::string& name,
                      const Path& after)
 {
@@ -393,7 +393,7 @@ std::optional<base::Seed> read_seed(const Node* node, Reading& reading)
     return std::nullopt;
 }
 
-/// What both say alike.
+/// Returns the settings that are equal in both.
 SettingTexts common(const SettingTexts& a, const SettingTexts& b)
 {
     SettingTexts texts;
@@ -438,7 +438,8 @@ struct Section {
     SettingTexts but; // that stand elsewhere
 };
 
-/// What both ways say, first what they say alike. `prefix` is that of the path's names.
+/// Returns the sections of both directions, first of their common settings. `prefix` is that of the
+/// path's names.
 std::vector<Section> sections_of(const std::string& prefix, const Patch& up, const Patch& down)
 {
     const SettingTexts of_up = setting_texts(up);
@@ -470,7 +471,7 @@ std::vector<Section> sections_of(const PathPatch& own)
                        own.up, own.down);
 }
 
-/// With the conditions that it has on all paths.
+/// Prints a flow with the conditions that it has on all paths.
 void print_flow(std::string& out, const Flow& flow, const std::vector<PathPatch>& paths)
 {
     out += fmt::format("\n[[flow]]\n{}", flow_lines(flow));

@@ -24,12 +24,12 @@ inline constexpr std::size_t checks_max = 100;
                                                   const OpenFile& open,
                                                   const PathNames& names = {.any = true});
 
-/// What holds at the beginning, by the tables of conditions among others: both, all, up, down,
-/// matrix and those of single paths. Sets `path` and `paths` of the profile.
+/// Reads the conditions at the beginning from their tables, which stand among others: both, all,
+/// up, down, matrix and those of single paths. Sets `path` and `paths` of the profile.
 void read_conditions(TableReader& table, const PathNames& names, Profile& profile);
 
-/// What changes while it runs: [[at]], among other tables. Sets `timeline`, after
-/// read_conditions().
+/// Reads the changes during the run from the [[at]] tables, which stand among others. Sets
+/// `timeline`, after read_conditions().
 void read_timeline(TableReader& table, const PathNames& names, Profile& profile);
 
 /// The profile as TOML, in canonical form: it reads back as the same profile.

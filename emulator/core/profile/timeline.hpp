@@ -14,12 +14,12 @@
 
 namespace hapnet::emulator {
 
-/// What holds when, by a profile. A ramp goes in a straight line from what held at its beginning;
-/// a later change of the same setting takes over from wherever the ramp is. Changes at equal times
-/// hold in their order.
+/// The conditions over time, by a profile. A ramp goes in a straight line from the value at its
+/// beginning. A later change of the same setting takes over from the value that the ramp has by
+/// then. Changes at equal times hold in their order.
 class Timeline {
 public:
-    /// While a ramp lasts, the conditions change so often.
+    /// The time between two changes of the conditions while a ramp lasts.
     static constexpr base::Duration ramp_step = std::chrono::milliseconds{1};
 
     /// The most ramps that may follow each other without a pause, or go on at once.
@@ -31,13 +31,13 @@ public:
         std::string message;
     };
 
-    /// Whether all changes can be made, or the first that cannot. Ensures that they ascend in time.
+    /// Refuses the first change that cannot be made. Ensures that the changes ascend in time.
     [[nodiscard]] static tl::expected<void, BadChange> validate(const Profile& profile);
 
     /// Ensures that the profile is valid.
     explicit Timeline(const Profile& profile);
 
-    /// What holds at that time since the run began, which is not negative.
+    /// Returns the conditions at a time since the run began, which is not negative.
     [[nodiscard]] Path at(base::Duration since_start) const;
 
     /// The first time after `after` at which something else may hold; nullopt: never again.
@@ -55,7 +55,7 @@ private:
     /// Adds the next change, or says why it cannot be made.
     [[nodiscard]] base::Result<void> add(const Change& change);
     [[nodiscard]] Path at(base::Duration since_start, std::size_t steps) const;
-    /// How many steps have a time <= since_start.
+    /// The number of steps with a time <= since_start.
     [[nodiscard]] std::size_t steps_until(base::Duration since_start) const;
 
     Path start_;

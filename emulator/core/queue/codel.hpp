@@ -13,8 +13,8 @@
 namespace hapnet::emulator {
 
 /// Controlled delay (RFC 8289, section 5.5): drops at the head of the queue once datagrams have
-/// waited longer than the target for an interval, and then ever more often until they do not. What
-/// can be marked is marked instead, and then sent, as Linux does it (codel_impl.h).
+/// waited longer than the target for an interval, and then ever more often until they do not.
+/// Datagrams that can be marked are marked instead, and then sent, as in Linux (codel_impl.h).
 ///
 /// Each time the line is free, show it the datagram at the head, and as long as it drops, the next.
 class Codel {
@@ -24,7 +24,7 @@ public:
 
     Codel(base::Duration target, base::Duration interval) : target_{target}, interval_{interval} {}
 
-    /// What it may know of the datagram at the head.
+    /// The facts that CoDel may use about the datagram at the head.
     struct Head {
         base::Duration waited{};
         std::size_t bytes_behind = 0; // in the queue
@@ -96,7 +96,7 @@ private:
         return QueueVerdict::mark;
     }
 
-    /// Begins to drop, as often as it did at last if that was not long ago.
+    /// Begins to drop. If it dropped a short time ago, it continues with the last drop rate.
     void begin(base::TimePoint now)
     {
         begins_ = false;

@@ -13,14 +13,14 @@
 
 namespace hapnet::emulator {
 
-/// Which datagrams the queue before a bottleneck drops while it still has room.
+/// The law by which the queue before a bottleneck drops datagrams while it still has room.
 enum class QueueLaw : std::uint8_t { drop_tail, codel, pie, fq_codel };
 constexpr auto names_of(base::Tag<QueueLaw>)
 {
     return base::names("drop-tail", "codel", "pie", "fq-codel");
 }
 
-/// What a law makes of a datagram.
+/// A law's verdict on a datagram.
 enum class QueueVerdict : std::uint8_t {
     pass,
     mark, // CE instead of a drop: its sender understands that
@@ -89,8 +89,9 @@ constexpr auto fields_of(base::Tag<QueueControl>)
 
 [[nodiscard]] base::Result<void> validate(const QueueControl& queue);
 
-/// The verdict of a law on a datagram that has waited so long, and above it the step at which
-/// datagrams are marked (RFC 9331 and Linux's ce_threshold; ECT(0) and ECT(1) alike).
+/// Returns the verdict of a law. Where it lets an ECN-capable datagram pass that has waited longer
+/// than `mark_above`, it is a mark (RFC 9331 and Linux's ce_threshold; the same for ECT(0) and
+/// ECT(1)).
 [[nodiscard]] inline QueueVerdict with_threshold(QueueVerdict verdict, const QueueControl& control,
                                                  base::Duration waited, base::IpMarks marks)
 {

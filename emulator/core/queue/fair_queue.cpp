@@ -120,7 +120,8 @@ Queued FairQueue::next(base::TimePoint now)
     for (;;) {
         Turns& turns = new_.first != none ? new_ : old_;
         if (dropping_from_) {
-            // Its CoDel goes on where it was, whatever has become first in turn at this moment.
+            // Its CoDel goes on where it was, whichever flow has become first in turn at this
+            // moment.
             Flow& flow = flows_[*dropping_from_];
             if (flow.first == none) {
                 flow.codel.on_empty(now);

@@ -29,11 +29,11 @@ public:
     /// Flows whose hashes agree by chance share a queue.
     void push(const Queued& entry, std::uint32_t flow_hash);
 
-    /// The one that is sent at `now`, or that is dropped by CoDel (`dropped`). Ensures that there
-    /// is one.
+    /// Takes out the datagram that is sent at `now`, or that CoDel drops (`dropped`). Ensures that
+    /// there is one.
     [[nodiscard]] Queued next(base::TimePoint now);
 
-    /// The line is free and there is none.
+    /// Tells the queue that the line is free and no datagram waits.
     void on_empty(base::TimePoint now);
 
     /// Takes out the first half of the longest queue, at most 64, to be dropped (section 4.1).

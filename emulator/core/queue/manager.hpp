@@ -22,15 +22,15 @@ public:
     QueueManager() = default;
     QueueManager(const QueueControl& control, const base::RandomStream& stream);
 
-    /// Another law begins anew, the same one goes on.
+    /// Changes the settings. The same law goes on; another one starts from its beginning.
     void change(const QueueControl& control);
 
     [[nodiscard]] const QueueControl& control() const { return control_; }
 
-    /// Whether it may drop what a bound in bytes lets pass.
+    /// True if it may drop what a bound in bytes lets pass.
     [[nodiscard]] bool is_on() const { return control_ != QueueControl{}; }
 
-    /// What the law makes of a datagram that arrives and for which there is room.
+    /// Judges a datagram that arrives and for which there is room.
     [[nodiscard]] QueueVerdict judge_arrival(const Datagram& datagram, std::size_t bytes_waiting)
     {
         auto* pie = std::get_if<Pie>(&law_);
@@ -42,7 +42,7 @@ public:
         return is_marked ? QueueVerdict::mark : QueueVerdict::drop;
     }
 
-    /// What the law makes of the datagram at the head of the queue, for which the line is free.
+    /// Judges the datagram at the head of the queue when the line is free: sent, marked or dropped.
     [[nodiscard]] QueueVerdict judge_head(Codel::Head head, base::IpMarks marks,
                                           base::TimePoint now)
     {
@@ -53,7 +53,7 @@ public:
         return with_threshold(verdict, control_, head.waited, marks);
     }
 
-    /// It has dropped the last datagram of the queue.
+    /// Tells the law that it has dropped the last datagram of the queue.
     void on_empty(base::TimePoint now)
     {
         if (auto* codel = std::get_if<Codel>(&law_)) codel->on_empty(now);

@@ -25,7 +25,7 @@ public:
 
     explicit Pie(base::Duration target) : target_{base::to_seconds(target)} {}
 
-    /// Whether a datagram that arrives is dropped. `uniform`: its draw, from 0 to 1.
+    /// True if a datagram that arrives is dropped. `uniform`: its draw, from 0 to 1.
     [[nodiscard]] bool drops(base::TimePoint now, std::size_t bytes_waiting, double uniform)
     {
         advance(now);
@@ -50,11 +50,12 @@ public:
     [[nodiscard]] double probability() const { return probability_; }
 
 private:
-    /// All updates that were due by now; the first one is 15 ms after the first datagram.
+    /// Runs all updates that were due by `now`. The first one is 15 ms after the first datagram.
     void advance(base::TimePoint now)
     {
         if (!next_update_) next_update_ = now + update_every;
-        // After a long rest nothing is left of the probability: 0.98 a step, less the controller.
+        // The number of steps after which nothing is left of the probability in a long rest. Each
+        // step takes 2 % of it, and the controller's change besides.
         constexpr int steps_max = 10'000;
         for (int step = 0; *next_update_ <= now; ++step) {
             if (step == steps_max) {
@@ -80,7 +81,7 @@ private:
         burst_ = std::max(burst_ - update_every, base::Duration{0});
     }
 
-    /// By which a small probability changes more slowly.
+    /// The divisor that makes a small probability change more slowly.
     [[nodiscard]] double scale() const
     {
         struct Scale {

@@ -16,8 +16,8 @@ namespace hapnet::emulator {
 enum class Measure : std::uint8_t { delay, loss, rate, lost };
 [[nodiscard]] std::string_view name_of(Measure measure);
 
-/// "time=stamp:s, delay=rtt:ms": see base::parse_columns(). What a column may hold: time, delay,
-/// loss, lost or rate.
+/// "time=stamp:s, delay=rtt:ms": see base::parse_columns(). A column may hold time, delay, loss,
+/// lost or rate.
 [[nodiscard]] base::Result<base::Columns> parse_columns(std::string_view text);
 
 /// The layout of the table that begins with the next line: of the measure and of times, if there

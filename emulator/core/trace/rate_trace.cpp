@@ -28,7 +28,7 @@ Work product(std::uint64_t rate, base::Duration time)
     return rate * nanoseconds;
 }
 
-/// The work of so many opportunities, at most what a line ever needs.
+/// Returns the work of a number of opportunities, at most what a line ever needs.
 Work work_of(std::uint64_t opportunities)
 {
     return std::min(opportunities, most_work / work_per_opportunity) * work_per_opportunity;

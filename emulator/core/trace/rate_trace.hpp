@@ -19,12 +19,12 @@
 
 namespace hapnet::emulator {
 
-/// What a line sends, as bits times 10^9: bits a second times nanoseconds.
+/// The amount that a line sends, as bits times 10^9: bits a second times nanoseconds.
 using Work = std::uint64_t;
 inline constexpr Work work_per_byte = 8 * 1'000'000'000ULL;
 
-/// When a line is through with some work, and what it could have sent besides by then: a part of a
-/// nanosecond, or of an opportunity.
+/// The time when a line has finished some work, and the amount that it could have sent besides by
+/// then: a part of a nanosecond, or of an opportunity.
 struct Completion {
     base::Duration at{};
     Work spare = 0;
@@ -32,11 +32,11 @@ struct Completion {
     friend bool operator==(const Completion&, const Completion&) = default;
 };
 
-/// Moments at which so many bytes may leave: the rule of Mahimahi (Netravali et al., USENIX ATC
-/// 2015, src/frontend/link_queue.cc). An opportunity that finds nothing waiting is lost; one that a
-/// datagram does not fill goes to the next that waits; a larger datagram takes several. What
-/// arrives at the moment of an opportunity comes too late for it. The trace begins again at its
-/// last opportunity.
+/// Moments at which a fixed number of bytes may leave: the rule of Mahimahi (Netravali et al.,
+/// USENIX ATC 2015, src/frontend/link_queue.cc). An opportunity is lost if no datagram waits. One
+/// that a datagram does not fill goes on to the next datagram that waits. A larger datagram takes
+/// several opportunities. A datagram that arrives at the moment of an opportunity is too late for
+/// it. The trace begins again at its last opportunity.
 class Opportunities {
 public:
     static constexpr std::size_t bytes_each = 1504;
@@ -49,8 +49,8 @@ public:
         friend bool operator==(const Moment&, const Moment&) = default;
     };
 
-    /// At least one; both ascend, times from 0 on, the last above 0. Memory: 16 B a moment, however
-    /// many opportunities it has.
+    /// `moments` has at least one. Both numbers ascend: times from 0 on, with the last above 0. It
+    /// takes 16 B for each moment, however many opportunities there are.
     explicit Opportunities(std::vector<Moment> moments);
 
     [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
@@ -72,7 +72,7 @@ private:
 /// Rates that hold from their time until that of the next one.
 class RateSteps {
 public:
-    /// As many times as rates, ascending from 0; at least one rate is above 0.
+    /// `times` ascend from 0, and there is one for each rate. At least one rate is above 0.
     RateSteps(std::vector<std::uint64_t> rates, std::vector<base::Duration> times);
 
     [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
@@ -96,23 +96,24 @@ private:
     Work per_period_ = 0; // at most 2^63
 };
 
-/// What a line may send over time, as it was recorded.
+/// The recorded capacity of a line over time.
 class RateTrace {
 public:
     explicit RateTrace(std::variant<Opportunities, RateSteps> trace);
 
-    /// When the line is through with work that it begins at `from`, both since the trace began;
-    /// nullopt: never, or not within 10^6 s.
+    /// The time when the line has finished work that it begins at `from`, both since the trace
+    /// began; nullopt: never, or not within 10^6 s.
     [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
                                                    bool repeats) const;
 
-    /// What the line can send after `from`, up to and including `to`; at most 2^63.
+    /// Returns the amount that the line can send after `from`, up to and including `to`; at most
+    /// 2^63.
     [[nodiscard]] Work sent(base::Duration from, base::Duration to, bool repeats) const;
 
-    /// In bits a second.
+    /// The mean rate in bits a second.
     [[nodiscard]] double mean_rate() const;
 
-    /// After which it begins again; 0: one rate for ever.
+    /// The time after which the trace begins again; 0: it has one rate for ever.
     [[nodiscard]] base::Duration period() const;
 
     friend bool operator==(const RateTrace&, const RateTrace&) = default;
@@ -137,7 +138,7 @@ struct RateTraceLaw {
     [[nodiscard]] base::Result<void> load(const base::Reading& reading);
     [[nodiscard]] base::Result<void> validate() const;
 
-    /// By its contents: the same file read twice is the same law.
+    /// Compares the contents: the same file read twice is the same law.
     friend bool operator==(const RateTraceLaw& a, const RateTraceLaw& b);
 };
 

@@ -62,7 +62,7 @@ public:
         return tl::unexpected{delay.error()};
     }
 
-    /// What there is; nullopt: not one value.
+    /// Returns the rows that were read; nullopt: not one value.
     [[nodiscard]] std::optional<TraceRows> finished()
     {
         const auto first = std::ranges::find(rows_.lost, false);

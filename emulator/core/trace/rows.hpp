@@ -20,18 +20,18 @@ inline constexpr std::string_view without_times =
     "line 1: no column is named time_ns, time_us, time_ms or time_s: name it, such as "
     "columns \"time=stamp:s\", or say how long each value lasts, such as slot = \"10ms\"";
 
-/// What a file of measured values holds.
+/// The contents of a file of measured values.
 struct TraceRows {
     std::vector<double> values; // 1 to trace_rows_max; in ns, as shares, in bits a second, 0 or 1
-    /// Of each value: the datagram did not arrive, and the value is that of a neighbour.
+    /// True for a value whose datagram did not arrive. The value is then that of a neighbour.
     std::vector<bool> lost;
-    /// Of each value, counted from the first, ascending; empty when there are none.
+    /// The time of each value, counted from the first, ascending; empty when there are none.
     std::vector<base::Duration> times;
 
     [[nodiscard]] std::vector<base::Duration> delays() const;
 };
 
-/// How the columns of a file are called and timed, where the file does not say so.
+/// The names and the timing of a file's columns, where the file does not state them.
 struct TableFormat {
     base::Columns columns{};
     base::Duration slot{}; // each value is a slot of this length later than the one before; 0: none

@@ -14,18 +14,18 @@
 
 namespace hapnet::emulator {
 
-/// When time 0 of a trace is.
+/// The moment at which time 0 of a trace lies.
 enum class TraceStart : std::uint8_t {
     run,   // when the run begins
     first, // when the first datagram of the direction arrives
 };
 constexpr auto names_of(base::Tag<TraceStart>) { return base::names("run", "first"); }
 
-/// What a value of a trace is until the next one.
+/// The value of a trace between two entries.
 enum class Interpolation : std::uint8_t { step, linear };
 constexpr auto names_of(base::Tag<Interpolation>) { return base::names("step", "linear"); }
 
-/// How a trace in time is laid on a run.
+/// The position of a trace in the time of a run.
 struct TraceTiming {
     bool repeat = true;
     base::Duration offset{}; // not negative
@@ -52,7 +52,8 @@ class TraceClock {
 public:
     explicit TraceClock(const TraceTiming& timing) : timing_{timing} {}
 
-    /// Of a datagram that arrives at `at`, since the run began; not before the one before it.
+    /// Returns the place in the trace for a datagram that arrives at `at` since the run began.
+    /// Arrivals must not go back in time.
     [[nodiscard]] base::Duration on_packet(base::Duration at)
     {
         if (!zero_) zero_ = timing_.start == TraceStart::first ? at : base::Duration{0};
@@ -84,7 +85,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return times_.size(); }
 
-    /// After which it begins again; 0: it has only one value.
+    /// The time after which the trace begins again; 0: it has only one value.
     [[nodiscard]] base::Duration period() const { return period_; }
     [[nodiscard]] base::Duration begin(std::size_t index) const { return times_[index]; }
     [[nodiscard]] base::Duration end(std::size_t index) const

@@ -23,7 +23,7 @@ std::uint32_t big(Bytes bytes, std::size_t at, std::size_t count)
     return value;
 }
 
-/// Numbers in the byte order of whoever wrote the file.
+/// Reads numbers in the byte order of the program that wrote the file.
 struct ByteOrder {
     bool is_big = false;
 
@@ -86,7 +86,7 @@ Bytes ip_packet_of(std::uint32_t link, Bytes frame)
     }
 }
 
-/// What stands behind the headers of IP: as much as was captured, and as it was on the wire.
+/// The payload behind the headers of IP: its captured bytes, and its length on the wire.
 struct IpPayload {
     std::uint8_t protocol = 0;
     Bytes captured{};
@@ -207,7 +207,7 @@ struct Interface {
     std::int64_t offset_s = 0;
 };
 
-/// The time of so many steps since 1970; nullopt: too far away.
+/// Returns the time of this number of steps since 1970; nullopt: too far away.
 std::optional<base::Duration> time_of(const Interface& interface, std::uint64_t steps)
 {
     constexpr std::uint64_t exact = std::uint64_t{1} << 32;
@@ -247,7 +247,7 @@ public:
         capture_.packets.push_back(*packet);
         return {};
     }
-    /// Of the packet that comes next, or at the end.
+    /// Returns an error that names the next packet. For use before add(), or at the end.
     [[nodiscard]] tl::unexpected<base::Error> fail_next(const std::string& why)
     {
         ++seen_;

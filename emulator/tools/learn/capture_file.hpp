@@ -16,7 +16,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// Who sent a packet, or to whom it went; an IPv4 address stands in the first four bytes.
+/// The sender or the receiver of a packet. An IPv4 address stands in the first four bytes.
 struct PacketEnd {
     std::array<std::byte, 16> address{};
     std::uint16_t port = 0; // of an ICMP echo: its identifier, at both ends
@@ -50,7 +50,7 @@ struct SeenPacket {
     std::size_t payload_bytes = 0;        // as it was on the wire
 };
 
-/// What a file of packets holds.
+/// The contents of a file of packets.
 struct Capture {
     std::vector<SeenPacket> packets; // their payloads lie in the bytes that were read
     std::size_t passed_over = 0;     // others: fragments, other protocols, acknowledgements
@@ -59,7 +59,7 @@ struct Capture {
 
 inline constexpr std::size_t captured_packets_max = 2'000'000;
 
-/// Whether the bytes begin as pcap or as pcapng does.
+/// True if the bytes begin as pcap or as pcapng does.
 [[nodiscard]] bool is_capture(std::string_view bytes);
 
 /// Reads pcap, with times in microseconds or nanoseconds, or pcapng, of either byte order, whose

@@ -41,7 +41,7 @@ private:
     std::uint64_t hash_ = 0xcbf2'9ce4'8422'2325U;
 };
 
-/// How datagrams are known again.
+/// The means by which datagrams are recognised.
 struct Identity {
     std::size_t payload_bytes = everything; // so many of each: the least that was captured of any
     bool is_of_exchange = false;            // a question and its answer have the same
@@ -75,7 +75,7 @@ std::size_t least_captured(const Packets& packets)
     return least;
 }
 
-/// What was sent, and what came of it.
+/// The packets that were sent, matched with those that arrived.
 struct Matched {
     MeasuredWay way{};
     std::vector<base::Duration> differences{}; // of those that arrived
@@ -113,7 +113,7 @@ only_ones(const Packets& packets, const Identity& identity, std::size_t& others)
     return only;
 }
 
-/// When a payload arrived first, and how often.
+/// The first arrival of a payload, and the number of its arrivals.
 struct Arrival {
     base::Duration at{};
     std::size_t count = 0;
@@ -301,8 +301,8 @@ private:
         remark_on(matched, is_up ? "up" : "down", measurement.remarks);
     }
 
-    /// Of two ways the one with the larger difference of stamps is that from a: the clocks add to
-    /// both what they differ by.
+    /// Between two ways, the one from a has the larger difference of stamps: the clocks add their
+    /// own difference to both.
     [[nodiscard]] bool sends_from_a(const PacketFlow& way, const Matched& matched) const
     {
         const base::Duration own = median_of(matched.differences);

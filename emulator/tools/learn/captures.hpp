@@ -7,13 +7,13 @@
 
 namespace hapnet::emulator::tools {
 
-/// What a capture tells of a path. With two interfaces that have seen the same payloads, as a
+/// Measures a path from one capture. With two interfaces that have seen the same payloads, as a
 /// capture of the emulator has, it is measured from one to the other, as by measure_ends();
 /// otherwise round trips are: from an echo of ping, a question of `probe`, or a UDP datagram whose
-/// payload comes back unchanged, to its answer. The error: there is nothing of the kind.
+/// payload comes back unchanged, to its answer. The error: the capture has none of these.
 [[nodiscard]] base::Result<Measurement> measure_capture(const Capture& capture);
 
-/// What the captures of both ends of a path tell: the delays and losses of each way of the
+/// Measures a path from captures at both its ends: the delays and losses of each way of the
 /// conversation with the most datagrams that both have seen. Datagrams are known by their payload,
 /// of TCP with the sequence number, whatever becomes of their addresses. One whose payload was sent
 /// more than once is left out. Before the first and behind the last that arrived nothing counts as

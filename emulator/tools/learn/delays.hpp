@@ -22,7 +22,7 @@ struct DelayModel {
     std::optional<double> p_value{}; // Kolmogorov and Smirnov; nullopt: too few delays to tell
 };
 
-/// What was found about the delays of a way.
+/// The models found for the delays of a direction.
 struct DelayFit {
     std::vector<DelayModel> models{};  // the nearest first; one, constant, if they do not vary
     double correlation = 0.0;          // of normal scores of neighbours
@@ -33,7 +33,7 @@ struct DelayFit {
 /// `way` has at least one delay.
 [[nodiscard]] DelayFit fit_delays(const MeasuredWay& way);
 
-/// So many quantiles of the model, in ns, ascending: the i-th at (i + 1/2) / points.
+/// Returns `points` quantiles of the model, in ns, ascending: the i-th is at (i + 1/2) / points.
 [[nodiscard]] std::vector<double> quantiles_of(const DelayModel& model, int points);
 
 } // namespace hapnet::emulator::tools

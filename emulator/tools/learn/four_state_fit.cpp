@@ -14,11 +14,12 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// Of a run: arrivals in the gap, or losses in a burst; arrivals in a burst, or a loss alone.
+/// The side of a run: arrivals in the gap, or losses in a burst; arrivals in a burst, or a loss
+/// alone.
 enum Side : std::size_t { usual, special };
 using Pair = std::array<double, 2>;
 
-/// How often each step was taken, and each state kept.
+/// The number of times that each step was taken, and each state kept.
 struct StepCounts {
     double gap_stays = 0.0;
     double gap_to_burst = 0.0;
@@ -202,7 +203,7 @@ StepCounts counted(std::span<const LossRun> runs, std::size_t gap)
     return counts;
 }
 
-/// At most so many steps uphill.
+/// Makes at most `iterations_max` steps uphill.
 void iterate(RunSums& sums, FourStateFit& fit, int iterations_max)
 {
     constexpr double enough = 1e-5; // of the log likelihood
@@ -215,7 +216,7 @@ void iterate(RunSums& sums, FourStateFit& fit, int iterations_max)
     }
 }
 
-/// With as many digits as a measurement can have.
+/// Rounds to the digits that a measurement can have.
 base::Probability rounded(double share)
 {
     return *base::Probability::from_fraction(std::clamp(std::round(share * 1e6) / 1e6, 0.0, 1.0));

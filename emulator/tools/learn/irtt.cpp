@@ -15,7 +15,7 @@ namespace {
 
 using Value = nlohmann::json;
 
-/// What has become of a question, as irtt writes it: "true" where it does not know the way.
+/// The fate of a question, as irtt writes it: "true" where irtt does not know the direction.
 enum class TripFate : std::uint8_t { answered, lost, lost_up, lost_down };
 
 struct RoundTrip {

@@ -26,7 +26,8 @@ double milliseconds_of(base::Duration duration)
     return std::chrono::duration<double, std::milli>{duration}.count();
 }
 
-/// So many arrived after one that was sent later, where times and delays say so.
+/// Returns the number of datagrams that arrived after one that was sent later, where times and
+/// delays are known.
 std::size_t overtaken(const MeasuredWay& way)
 {
     if (!way.spacing) return 0;
@@ -84,7 +85,8 @@ public:
         }
     }
 
-    /// Delays and losses in so many regimes. The error: they cannot be told.
+    /// Learns delays and losses in `count` regimes. The error: the regimes are too short, too few
+    /// stays were measured, or the regimes are not valid.
     base::Result<void> learn_regimes(const MeasuredWay& measured, std::size_t count,
                                      bool with_losses)
     {
@@ -144,7 +146,8 @@ public:
                             static_cast<double>(measured.lost.size())));
     }
 
-    /// Where laws do not do: the measured values themselves, which `conditions` read from a file.
+    /// Takes the measured values themselves instead of a law. `conditions` have read them from
+    /// `file`.
     void take(const Conditions& conditions, const std::string& file, LearnedForm form)
     {
         way_.delay = conditions.delay;
@@ -174,7 +177,7 @@ private:
         return own;
     }
 
-    /// Without its name and its stay.
+    /// Returns a regime without its name and its stay.
     [[nodiscard]] static Regime regime_of(const RegimeFit& fit, const MeasuredWay& own,
                                           bool with_losses)
     {
@@ -282,7 +285,7 @@ private:
                model.arrivals_p_value.value_or(1.0) < significance;
     }
 
-    /// Which model was taken, and what speaks against it.
+    /// Names the model that was taken, and the arguments against it.
     [[nodiscard]] static std::string choice_in_words(const std::vector<LossModel>& models)
     {
         const LossModel& best = models.front();

@@ -17,7 +17,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// What the delays of a way come from.
+/// The form in which the delays of a direction were learned.
 enum class LearnedForm : std::uint8_t {
     laws,    // drawn by a law with the parameters that were found
     regimes, // by the laws of several regimes
@@ -29,7 +29,7 @@ constexpr auto names_of(base::Tag<LearnedForm>)
     return base::names("laws", "regimes", "table", "trace");
 }
 
-/// What was learned of one way, or of a round trip.
+/// The lesson about one direction, or about a round trip.
 struct WayLesson {
     std::string way;
     LearnedForm form = LearnedForm::laws;
@@ -57,7 +57,7 @@ struct Lesson {
     std::vector<WayLesson> ways;
 };
 
-/// What --json prints.
+/// The output of --json.
 struct LearnReport {
     const Lesson* lesson = nullptr;
 
@@ -86,14 +86,13 @@ struct LearnSettings {
     bool replays = false; // traces, whatever laws would do
 };
 
-/// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law
-/// of delays is rejected when a right one would look so one time in a thousand; if all are, the
-/// nearest is taken, and a remark says so. Where what is learned from the first half does not give
-/// the delays of that half (see is_near), regimes take its place, as many as have the least BIC
-/// there; where those do not either, the measured values: drawn, or replayed if their correlation
-/// asks for it. How like the unseen second half the choice is, is told; then all
-/// rows are learned in the form that was chosen. The error: nothing arrived, or a table cannot be
-/// read.
+/// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law of
+/// delays is rejected when a right one would look so one time in a thousand; if all are, the
+/// nearest is taken, and a remark says so. Where the laws of the first half do not give the delays
+/// of that half (see is_near), regimes take their place, in the number with the least BIC there.
+/// Where those do not either, the measured values do: drawn, or replayed if their correlation
+/// requires it. The likeness of the choice to the unseen second half is reported. Then all rows are
+/// learned in the chosen form. The error: nothing arrived, or a table cannot be read.
 [[nodiscard]] base::Result<Lesson> learn(const Measurement& measurement,
                                          const LearnSettings& settings = {});
 

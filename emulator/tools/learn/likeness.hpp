@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator::tools {
 
-// How like a series is what was learned from another one of the same path.
+// The likeness of a series to a model that was learned from another series of the same path.
 
 /// Both halves of a series, in order; the first has the odd row.
 [[nodiscard]] std::pair<MeasuredWay, MeasuredWay> halves_of(const MeasuredWay& way);
@@ -27,8 +27,8 @@ namespace hapnet::emulator::tools {
 /// The step that all delays of a series are multiples of: 1 ms, 100 us, 10 us or 1 us.
 [[nodiscard]] base::Duration resolution_of(const MeasuredWay& way);
 
-/// What a measurement of one way under these conditions would say: so many datagrams at even
-/// distances, delays rounded to `resolution`. `spacing` > 0.
+/// Returns a simulated measurement of one direction under these conditions: `rows` datagrams at
+/// even distances, delays rounded to `resolution`. `spacing` > 0.
 [[nodiscard]] MeasuredWay played(const Conditions& conditions, std::size_t rows,
                                  base::Duration spacing, base::Duration resolution,
                                  base::Seed seed = base::Seed{1});
@@ -41,12 +41,13 @@ namespace hapnet::emulator::tools {
 /// is too short, or its spacing is not known. 0 where delays do not vary.
 [[nodiscard]] std::optional<double> autocorrelation(const MeasuredWay& way, base::Duration lag);
 
-/// The share of losses right after a delay above the 90th percentile, of so many such delays.
+/// The share of losses right after a delay above the 90th percentile, and the number of such
+/// delays.
 struct SlowLosses {
     double share = 0.0;
     std::size_t delays = 0;
 };
-/// nullopt: fewer than 30 losses, or no such delay.
+/// Returns nullopt for fewer than 30 losses, or when there is no such delay.
 [[nodiscard]] std::optional<SlowLosses> losses_when_slow(const MeasuredWay& way);
 
 /// The correlation of delays at one distance.
@@ -82,7 +83,7 @@ constexpr auto fields_of(base::Tag<LossWhenSlow>)
         base::member("second_half_high", &L::high, "Its upper end."));
 }
 
-/// How like the second half of a series is what was learned from its first half alone.
+/// The likeness of a series' second half to a model that was learned from its first half alone.
 struct Likeness {
     std::size_t rows = 0;
     double halves_apart = 0.0;
@@ -90,7 +91,7 @@ struct Likeness {
     std::vector<CorrelationAt> correlations;
     std::optional<LossWhenSlow> loss_when_slow;
 
-    /// Halves that differ so much are of no one law.
+    /// False if the halves differ so much that they cannot follow one law.
     [[nodiscard]] bool is_stationary() const { return halves_apart <= 0.1; }
 };
 constexpr auto fields_of(base::Tag<Likeness>)

@@ -32,8 +32,8 @@ double sum_of(const Row& row)
     return sum;
 }
 
-/// How many times the variance of a count of runs is that of independent ones: 1 + 2 times the
-/// correlations of their lengths, up to the first that is lost in the noise.
+/// Returns the ratio of the variance of a count of runs to that of independent ones: 1 + 2 times
+/// the correlations of their lengths, up to the first that is lost in the noise.
 double inflation_of(const std::vector<std::size_t>& lengths)
 {
     constexpr std::size_t lags_max = 100;
@@ -123,7 +123,7 @@ std::optional<double> test_runs(const std::vector<LossRun>& runs, const LossChai
     };
     for (std::size_t length = 1; length < at_least.size(); ++length) {
         const double to = at_least[length];
-        // What is left must be a class, too.
+        // The rest must be a class, too.
         if (n * (from - to) < expected_each || n * to < expected_min) continue;
         close(std::upper_bound(counted, lengths.end(), length), to);
     }

@@ -29,16 +29,16 @@ struct LossChain {
     Row shares{}; // of the datagrams that meet each state, in the long run
 };
 
-/// How long runs of losses, or of arrivals, are in a chain: [i] is the probability that one has
-/// i + 1 datagrams or more, up to `most` of them.
+/// The lengths of runs of losses, or of arrivals, in a chain, up to `most` datagrams: [i] is the
+/// probability that a run has at least (i + 1) datagrams.
 [[nodiscard]] std::vector<double> run_lengths(const LossChain& chain, bool of_losses,
                                               std::size_t most);
 
-/// How well runs of losses, or those of arrivals between them, follow a chain: Pearson's chi-square
-/// of their lengths, in classes where at least 5 are expected. Where runs come in clusters it is
-/// divided by what that adds to the variance (Rao and Scott, JASA 76, 1981). As the chain was
-/// fitted to the same runs, the probability is too large: a rejection can be trusted, a pass less.
-/// The first run and the last are cut off and do not count. nullopt: too few runs.
+/// Tests if runs of losses, or those of arrivals between them, follow a chain. Returns the p-value
+/// of Pearson's chi-square of their lengths, in classes where at least 5 are expected. Where runs
+/// come in clusters it is divided by what that adds to the variance (Rao and Scott, JASA 76, 1981).
+/// As the chain was fitted to the same runs, the p-value is too large: a rejection is more reliable
+/// than a pass. The first run and the last are cut off and do not count. nullopt: too few runs.
 [[nodiscard]] std::optional<double> test_runs(const std::vector<LossRun>& runs,
                                               const LossChain& chain, bool of_losses);
 

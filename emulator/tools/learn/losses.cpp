@@ -46,7 +46,7 @@ struct Chain {
     }
 };
 
-/// What one pass of Baum and Welch's iteration sums up.
+/// The sums of one pass of Baum and Welch's iteration.
 struct Expected {
     std::array<double, 2> visits{};
     std::array<double, 2> losses{};
@@ -142,13 +142,13 @@ FittedChain iterate(BaumWelch& sums, Chain chain)
     }
 }
 
-/// With as many digits as a measurement can have.
+/// Rounds to the digits that a measurement can have.
 base::Probability probability(double share)
 {
     return *base::Probability::from_fraction(std::clamp(std::round(share * 1e6) / 1e6, 0.0, 1.0));
 }
 
-/// How often each of 0 and 1 follows each.
+/// The number of times that each of 0 and 1 follows each.
 struct Pairs {
     std::array<std::array<double, 2>, 2> counts{};
 
@@ -171,7 +171,7 @@ double term(double count, double probability)
     return count > 0.0 ? count * base::log(probability) : 0.0;
 }
 
-/// With its BIC, over so many datagrams.
+/// Returns the model with its BIC. It was fitted to `count` datagrams.
 LossModel rated(LossModel model, double count)
 {
     model.bic = model.parameters * base::log(count) - 2.0 * model.log_likelihood;

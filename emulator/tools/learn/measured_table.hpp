@@ -32,7 +32,8 @@ struct MeasuredTable {
 [[nodiscard]] base::Result<Conditions> drawn_from(const MeasuredTable& table, base::Duration base,
                                                   base::Duration correlation_time);
 
-/// Delays and losses as they were, one after the other.
+/// Returns conditions that replay the measured delays and losses in their order. The error says why
+/// the table cannot be read.
 [[nodiscard]] base::Result<Conditions> replayed(const MeasuredTable& table);
 
 } // namespace hapnet::emulator::tools

@@ -70,7 +70,7 @@ void append(MeasuredWay& way, const MeasuredWay& later)
     way.spacing = is_alike ? std::optional{(*way.spacing + *later.spacing) / 2} : std::nullopt;
 }
 
-/// False when it is of other ways.
+/// Appends a later measurement. Returns false when it does not have the same ways.
 bool append(Measurement& measurement, const Measurement& later)
 {
     for (const auto way : {&Measurement::round_trip, &Measurement::up, &Measurement::down}) {

@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// What was measured of one way, or of a round trip, datagram by datagram.
+/// The measurements of one direction, or of a round trip, datagram by datagram.
 struct MeasuredWay {
     std::vector<std::optional<base::Duration>> delays{}; // nullopt: lost, or not known
     std::vector<bool> lost{};                            // as many
@@ -29,12 +29,13 @@ struct MeasuredWay {
     }
 };
 
-/// What was measured: a round trip, one way, or both. At least one of them is there.
+/// The measurements: a round trip, one direction, or both. At least one of them is there.
 struct Measurement {
     std::optional<MeasuredWay> round_trip{};
     std::optional<MeasuredWay> up{};
     std::optional<MeasuredWay> down{};
-    /// On which way a datagram was lost is not known: all losses are counted in down.
+    /// True if the direction in which a datagram was lost is not known. All losses are then counted
+    /// in down.
     bool mixes_losses = false;
     std::vector<std::string> remarks{}; // on what was read, for people
 };
@@ -56,8 +57,8 @@ struct MeasuredFile {
 [[nodiscard]] base::Result<Measurement> read_measurements(std::span<const MeasuredFile> files,
                                                           const base::Columns& columns = {});
 
-/// Where the ends of a path have clocks of their own, which a negative delay tells, both ways get
-/// the same least delay, and a remark says so.
+/// Gives both directions the same least delay where the ends of a path have clocks of their own,
+/// which a negative delay shows. One direction alone gets the least delay 0. A remark says so.
 void settle_clocks(Measurement& measurement);
 
 } // namespace hapnet::emulator::tools

@@ -85,7 +85,7 @@ std::vector<NamedNumber> pairs_in(std::string_view line)
 bool is_time_to_live(const NamedNumber& pair) { return pair.key == "ttl" || pair.key == "hlim"; }
 bool is_sequence(const NamedNumber& pair) { return pair.key.find("seq") != std::string::npos; }
 
-/// What one line tells: of an answer its time, of a question without one only its number.
+/// The contents of one line: an answer has its time, a question without one only its number.
 struct Told {
     std::optional<double> sequence{};
     std::optional<double> time_ms{};
@@ -456,7 +456,7 @@ base::Result<Measurement> read_windows(std::string_view text)
     return measurement;
 }
 
-/// The programs whose lines look alike.
+/// The groups of programs with similar lines.
 enum class Dialect : std::uint8_t { numbered, windows, fping };
 
 std::optional<Dialect> dialect_of_line(std::string_view line)
@@ -471,7 +471,8 @@ std::optional<Dialect> dialect_of_line(std::string_view line)
     return std::nullopt;
 }
 
-/// That of the first line that has one, if it comes soon: a table may have millions of lines.
+/// Returns the dialect of the first line that has one, if it comes soon: a table may have millions
+/// of lines.
 std::optional<Dialect> dialect_of(std::string_view text)
 {
     constexpr std::size_t lines_max = 10'000;

@@ -12,13 +12,13 @@ namespace hapnet::emulator::tools {
 inline constexpr std::string_view pings_that_are_read =
     "ping of Linux (iputils, BusyBox), BSD, macOS and Windows, and fping";
 
-/// Whether a text has a line in which one of those programs tells of an answer.
+/// True if a text has a line in which one of those programs tells of an answer.
 [[nodiscard]] bool is_ping(std::string_view text);
 
-/// Reads what one of those programs has printed, in any language: the programs translate words, but
-/// keep the order of the numbers. What has no answer is lost: a missing number, and each line
-/// between the answers of Windows, which has no numbers. "time<1ms" is taken for 0.5 ms. Errors
-/// name the line.
+/// Reads the output of one of those programs, in any language: the programs translate words, but
+/// keep the order of the numbers. Questions without an answer are lost: a missing number, and each
+/// line between the answers of Windows, which has no numbers. "time<1ms" is taken for 0.5 ms.
+/// Errors name the line.
 [[nodiscard]] base::Result<Measurement> read_ping(std::string_view text);
 
 } // namespace hapnet::emulator::tools

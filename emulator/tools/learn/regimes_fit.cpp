@@ -60,7 +60,7 @@ public:
         }
     }
 
-    /// Each class begins above one, but for the first.
+    /// Each class except the first begins above an edge.
     [[nodiscard]] std::vector<double> edges() const
     {
         std::vector<double> edges;
@@ -159,7 +159,7 @@ public:
     std::array<Vector, K> counts{};      // expected steps
     double log_likelihood = -std::numeric_limits<double>::infinity();
 
-    /// States that take the delays between shares of all, and lose alike.
+    /// Makes states that take the delays between shares of all, and lose equal shares.
     static HiddenChain split(const Series& series, const Vector& upper)
     {
         HiddenChain chain;
@@ -298,7 +298,7 @@ private:
         log_likelihood += base::log(product);
     }
 
-    /// After forward().
+    /// Call it after forward().
     void backward(const Series& series, std::size_t count, const auto& use)
     {
         Vector behind{};
@@ -371,7 +371,8 @@ HiddenChain<K> best_chain(const Series& series, std::size_t rows)
     return std::move(*best);
 }
 
-/// With equal classes these can be compared. The rows count that were looked at.
+/// Returns the BIC. It can be compared between chains with equal classes. The chain was fitted to
+/// the first `rows` rows, or to all if there are fewer.
 template <std::size_t K>
 double bic_of(const HiddenChain<K>& chain, const Series& series, std::size_t rows)
 {

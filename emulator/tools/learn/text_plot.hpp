@@ -9,12 +9,12 @@
 
 namespace hapnet::emulator::tools {
 
-// What was measured beside a law, as text of at most 78 columns: '#' are measured, '|' is the law.
+// Measured values beside a law, as text of at most 78 columns: '#' are measured, '|' is the law.
 
 /// A histogram of the delays between their 0.5 and 99.5 % quantiles, in 16 classes.
 [[nodiscard]] std::string delay_plot(const MeasuredWay& way, const DelayModel& model);
 
-/// How many runs of losses had each length; lengths of 8 and more share a line.
+/// The number of runs of losses of each length; lengths of 8 and more share a line.
 [[nodiscard]] std::string loss_plot(const MeasuredWay& way, const LossModel& model);
 
 } // namespace hapnet::emulator::tools

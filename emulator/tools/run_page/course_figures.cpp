@@ -77,7 +77,7 @@ base::Result<std::vector<Knot>> knots_of(const Path& start, const Json& statisti
     return knots;
 }
 
-/// On average over the regimes that there are.
+/// Returns the mean of a value over the regimes, by their shares; without regimes the value itself.
 double over_regimes(const Conditions& conditions,
                     const std::function<double(const Conditions&)>& value)
 {
@@ -98,7 +98,7 @@ double delay_ms(const Conditions& conditions)
     return 1e3 * base::to_seconds(std::max(mean, base::Duration{0}));
 }
 
-/// Not a number where there is no fixed limit.
+/// Returns the rate in Mbit/s; not a number where there is no fixed limit.
 double rate_mbits(const Conditions& conditions)
 {
     if (conditions.rate.bits_per_second == 0) return not_known;
@@ -148,7 +148,7 @@ struct Kind {
     std::string about;
 };
 
-/// What one figure is drawn from.
+/// The data of one figure.
 struct Course {
     std::vector<Knot> knots; // empty: they cannot be read
     double asked_until_s = 0.0;

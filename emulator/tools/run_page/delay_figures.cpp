@@ -20,7 +20,7 @@ using page::Point;
 
 constexpr page::Size half_page{520.0, 280.0};
 
-/// What the statistics have written of a histogram: [[low, high, count], ...].
+/// Returns the bins of a histogram in the statistics: [[low, high, count], ...].
 std::vector<Bin> bins_of(const Json& place)
 {
     std::vector<Bin> bins;

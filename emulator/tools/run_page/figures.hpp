@@ -39,10 +39,10 @@ struct RunDirection {
 [[nodiscard]] std::optional<page::Figure> lateness_figure(const RunDirection& run,
                                                           double budget_us);
 
-/// Where in the stream datagrams were lost; nullopt: none was.
+/// The places in the stream where datagrams were lost; nullopt: none was.
 [[nodiscard]] std::optional<page::Figure> loss_figure(const RunDirection& run);
 
-/// How long the runs of losses were, beside a geometric distribution with the law's mean.
+/// The lengths of the runs of losses, beside a geometric distribution with the law's mean.
 [[nodiscard]] std::optional<page::Figure> loss_runs_figure(const RunDirection& run);
 
 /// True if a change in the statistics is the last step of a ramp whose first step is the previous
@@ -56,9 +56,9 @@ struct CourseFigures {
     std::string why_not_asked; // empty: they have what was asked for, too
 };
 
-/// What was asked for and what was measured over time. A change is a step, a ramp is a straight
-/// line. A setting that cannot be read from the statistics, such as one that names a file, leaves
-/// what was measured.
+/// Figures of the conditions that were asked for and of the measurements over time. A change is a
+/// step, a ramp is a straight line. Where a setting cannot be read from the statistics, such as one
+/// that names a file, only the measurements are shown.
 [[nodiscard]] CourseFigures course_figures(const Path& start,
                                            const nlohmann::ordered_json& statistics);
 

@@ -19,7 +19,7 @@ constexpr page::Size half_page_of_runs{520.0, 280.0};
 constexpr page::Size strip_size{900.0, 96.0};
 constexpr std::size_t cells_max = 120;
 
-/// How many runs of losses have each length; the first place is that of length 1.
+/// Returns the number of runs of losses of each length; the first place is that of length 1.
 std::vector<std::uint64_t> run_lengths(std::span<const Fate> fates)
 {
     std::vector<std::uint64_t> counts;
@@ -55,7 +55,8 @@ std::vector<Point> at_least(const std::vector<std::uint64_t>& counts)
     return points;
 }
 
-/// From nearly nothing for a field without losses to a full colour for one with nothing else.
+/// Returns the opacity of a field: from nearly nothing without losses to a full colour for losses
+/// only.
 double opacity_of(std::size_t lost, std::size_t all)
 {
     constexpr double steps = 5.0;

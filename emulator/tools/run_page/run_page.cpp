@@ -57,7 +57,7 @@ Json table(std::string caption, const std::vector<std::string>& heads, const Row
     return json_of(table);
 }
 
-/// Whether the run kept its budget, met its checks and followed its laws.
+/// Returns the banner: it says if the run kept its budget, met its checks and followed its laws.
 Json banner(const RunRecord& run)
 {
     const auto& statistics = run.statistics;
@@ -144,7 +144,7 @@ Json regimes_table(const nlohmann::ordered_json& statistics, const Path& path)
                  false);
 }
 
-/// As verify prints it.
+/// Returns the word that verify prints.
 std::string_view in_words(Outcome outcome)
 {
     return outcome == Outcome::unable ? "cannot tell" : base::name_of(outcome);
@@ -214,7 +214,7 @@ struct Placed {
     Json strips = Json::array();
 };
 
-/// Whether other conditions came after those of the start.
+/// True if other conditions came after those of the start.
 bool has_changed(const RunRecord& run)
 {
     return !run.profile.timeline.empty() || run.statistics.value("generation", 1) != 1;
@@ -277,7 +277,7 @@ page::Section figures_of(const RunRecord& run)
     return section;
 }
 
-/// What was asked for and what was measured, on one axis of time.
+/// Shows the conditions and the measurements on one axis of time.
 page::Section course_of(const RunRecord& run)
 {
     page::Section section{"course", "What happened over time"};

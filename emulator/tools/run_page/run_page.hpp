@@ -12,7 +12,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// What a run has left behind.
+/// The files that a run has written.
 struct RunRecord {
     nlohmann::ordered_json statistics; // as --stats writes them; an object
     Profile profile;                   // of the start
@@ -25,7 +25,7 @@ struct RunRecord {
     std::string fates_file{};
 };
 
-/// One page about one run, without any other file: what was asked and what came out.
+/// Returns one page about one run, without any other file: its conditions and its results.
 [[nodiscard]] std::string run_page(const RunRecord& run);
 
 } // namespace hapnet::emulator::tools

@@ -12,15 +12,15 @@ namespace hapnet::emulator::tools {
 
 // Tests of delays.
 
-/// Whether two sets of independent delays follow one law, whatever it is (Kolmogorov and Smirnov).
-/// Of correlated ones take some far enough apart.
+/// Tests if two sets of independent delays follow one law, whatever it is (Kolmogorov and Smirnov).
+/// When delays are correlated, pass only those that are far enough apart.
 [[nodiscard]] TestResult test_same_law(std::vector<base::Duration> a, std::vector<base::Duration> b,
                                        double alpha);
 
 /// The normal quantile of each delay's rank; equal delays share a rank.
 [[nodiscard]] std::vector<double> rank_scores(const std::vector<base::Duration>& delays);
 
-/// Whether neighbouring normal scores are correlated as they should be: the innovations
+/// Tests if neighbouring normal scores are correlated as they should be, by the innovations
 /// (z[i+1] - rho z[i]) / sqrt(1 - rho^2) against z[i]. `rho`: expected, |rho| < 1.
 [[nodiscard]] TestResult test_correlation(std::span<const double> scores, double rho, double alpha);
 

@@ -17,18 +17,18 @@ namespace hapnet::emulator::tools {
 /// Datagram by datagram; also the numbers have to be equal.
 [[nodiscard]] TestResult test_equal(std::span<const Fate> expected, std::span<const Fate> observed);
 
-/// What is lost (1) of each datagram, index by index: for laws that draw nothing.
+/// Compares expected and observed losses (1: lost) index by index, for laws that draw nothing.
 [[nodiscard]] TestResult test_same_losses(std::span<const std::uint8_t> expected,
                                           std::span<const std::uint8_t> observed);
 
-/// Whether each whole block lost exactly its number.
+/// Tests if each whole block lost exactly its number.
 [[nodiscard]] TestResult test_blocks(std::span<const std::uint8_t> lost, const ExactBlocks& law);
 
-/// Whether each place in a block is lost equally often: chi-square over the places.
+/// Tests if each place in a block is lost equally often: chi-square over the places.
 [[nodiscard]] TestResult test_places(std::span<const std::uint8_t> lost, const ExactBlocks& law,
                                      double alpha);
 
-/// Whether the losses are bursts of one length that return with one period, wherever they begin.
+/// Tests if the losses are bursts of one length that return with one period, wherever they begin.
 [[nodiscard]] TestResult test_bursts(std::span<const std::uint8_t> lost,
                                      const RecurringBursts& law);
 

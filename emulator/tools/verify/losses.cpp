@@ -22,7 +22,7 @@ std::string shares(double expected, double observed, std::uint64_t datagrams)
 
 constexpr double expected_min = 5.0; // in a bin of a chi-square test
 
-/// What is left of a chi-square test when its bins have been filled.
+/// The result of a chi-square test once its bins have been filled.
 struct ChiSquare {
     double sum = 0.0;
     int bins = 0;

@@ -17,7 +17,7 @@ namespace hapnet::emulator::tools {
 /// the run is worth less than 100 independent losses (or datagrams that pass).
 [[nodiscard]] TestResult test_share(const LossTally& tally, const LossTheory& theory, double alpha);
 
-/// Whether a loss makes the next one more or less likely: chi-square of the 2x2 table of a
+/// Tests if a loss makes the next one more or less likely: chi-square of the 2x2 table of a
 /// datagram's fate and that of the next.
 [[nodiscard]] TestResult test_independence(const LossTally& tally, double alpha);
 
@@ -30,8 +30,8 @@ namespace hapnet::emulator::tools {
 [[nodiscard]] TestResult test_run_lengths(const LossTally& tally, const RunLengths& law,
                                           double alpha);
 
-/// Whether two sequences of losses have nothing to do with each other. `memory`: the product of
-/// how much the two are correlated with their own pasts, datagram by datagram.
+/// Tests if two sequences of losses are independent. `memory`: the product of the correlations of
+/// both with their own pasts, datagram by datagram.
 [[nodiscard]] TestResult test_unrelated(const PairTally& tally, double memory, double alpha);
 
 } // namespace hapnet::emulator::tools

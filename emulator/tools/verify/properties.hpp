@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// What is known of the losses of a direction: entry n is that of datagram n.
+/// The losses of a direction: entry n is that of datagram n.
 struct LossRecord {
     std::vector<std::uint8_t> lost;             // 1: lost
     std::vector<std::vector<LossState>> states; // of each law

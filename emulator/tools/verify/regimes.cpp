@@ -74,7 +74,8 @@ Results verify_passages(std::span<const Regime> regimes, std::size_t from,
     return results;
 }
 
-/// Runs of datagrams in one regime: of geometric lengths, and as many as that means.
+/// Tests the stays in a regime: their lengths have to be geometric, and their number as the law
+/// says.
 TestResult verify_stays(const Regime& regime, std::size_t index, std::span<const Fate> fates,
                         double remains, double alpha)
 {
@@ -97,7 +98,7 @@ TestResult verify_stays(const Regime& regime, std::size_t index, std::span<const
         left + stayed > 0 ? binomial_two_sided(left, left + stayed, 1.0 - remains) : 1.0;
     auto name = regime_words(regime) + " stays";
     if (left < stays_min) return unable(std::move(name), fmt::format("{} stays: too few", left));
-    // Of two tests the one that fails more clearly, which is twice as easy.
+    // The test that fails more clearly counts. With two tests a failure is twice as likely.
     const double p = std::min(1.0, 2.0 * std::min(of_number, lengths.p_value.value_or(1.0)));
     auto result = by_chance(std::move(name), static_cast<double>(left), p, alpha);
     result.sentence = fmt::format(
@@ -192,7 +193,8 @@ Results verify_delays_within(Conditions conditions, std::span<const Fate> fates,
 
 } // namespace
 
-/// By halving the time until it is short, and squaring (Moler and Van Loan, SIAM Review 45, 2003).
+/// Computes the exponential by halving the time until it is short, and squaring (Moler and Van
+/// Loan, SIAM Review 45, 2003).
 std::vector<std::vector<double>> passages_of(std::span<const Regime> regimes, base::Duration after)
 {
     const std::size_t n = regimes.size();

@@ -18,8 +18,8 @@ namespace hapnet::emulator::tools {
 [[nodiscard]] std::vector<std::vector<double>> passages_of(std::span<const Regime> regimes,
                                                            base::Duration after);
 
-/// Tests of the regimes of a direction by the regime that each fate has: whether they last and
-/// follow each other as they should, and the laws within each. `conditions` has regimes.
+/// Tests the regimes of a direction by the regime that each fate has: their lengths, their order,
+/// and the laws within each. `conditions` has regimes.
 [[nodiscard]] std::vector<TestResult> verify_regimes(const Conditions& conditions,
                                                      std::span<const Fate> fates,
                                                      std::optional<base::Duration> spacing,

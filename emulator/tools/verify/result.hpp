@@ -17,7 +17,7 @@ enum class Outcome : std::uint8_t {
 };
 constexpr auto names_of(base::Tag<Outcome>) { return base::names("passed", "failed", "unable"); }
 
-/// What one test says of what was observed.
+/// The result of one test on the observations.
 struct TestResult {
     std::string name;                // "share lost"
     double statistic = 0.0;          // what it is says the sentence

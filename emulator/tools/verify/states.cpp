@@ -32,7 +32,7 @@ TestResult test_step(const StateStep& step, std::span<const LossState> states, d
     std::uint64_t from = 0;
     std::uint64_t both = 0;
     for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-        // What stands without a state interrupts the chain.
+        // A datagram without a state interrupts the chain.
         if (states[i] != step.from || states[i + 1] == LossState::none) continue;
         ++from;
         if (states[i + 1] == step.to) ++both;

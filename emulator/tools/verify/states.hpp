@@ -13,11 +13,11 @@ namespace hapnet::emulator::tools {
 
 // Tests of the states of a chain: one per datagram, without a gap.
 
-/// How often the chain went from one state to another, against the binomial law.
+/// Tests the number of steps of the chain from one state to another against the binomial law.
 [[nodiscard]] TestResult test_step(const StateStep& step, std::span<const LossState> states,
                                    double alpha);
 
-/// How many datagrams were lost (1) in a state, likewise.
+/// Tests the number of datagrams that were lost (1) in a state against the binomial law.
 [[nodiscard]] TestResult test_losses_in_state(const LossesInState& losses,
                                               std::span<const LossState> states,
                                               std::span<const std::uint8_t> lost, double alpha);

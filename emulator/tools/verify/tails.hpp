@@ -6,19 +6,21 @@
 
 namespace hapnet::emulator::tools {
 
-// How probable a deviation at least as large is, when the law holds.
+// Probabilities of a deviation at least as large, when the law holds.
 
-/// Of z from 0, either side, for a standard normal variable.
+/// The probability of a distance of at least |z| from 0, on either side, for a standard normal
+/// variable.
 [[nodiscard]] double normal_two_sided(double z);
 
-/// Of so many successes or a rarer side, doubled, at most 1; exact. 0 <= share <= 1.
+/// The exact probability of this number of successes or a rarer one on the same side, doubled, at
+/// most 1. 0 <= share <= 1.
 [[nodiscard]] double binomial_two_sided(std::uint64_t successes, std::uint64_t trials,
                                         double share);
 
-/// Of x or more; degrees > 0.
+/// The probability of x or more; degrees > 0.
 [[nodiscard]] double chi_square_tail(double x, double degrees);
 
-/// Of a largest distance of `distance` between the distribution of n samples and the true one, by
+/// The probability that the distribution of n samples is at least `distance` from the true one, by
 /// Kolmogorov's limit with Stephens' correction for finite n.
 [[nodiscard]] double kolmogorov_tail(double distance, double n);
 

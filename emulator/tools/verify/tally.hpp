@@ -12,8 +12,8 @@ namespace hapnet::emulator::tools {
 /// other and keeps none.
 class LossTally {
 public:
-    /// Of runs of losses only every `stride`-th is kept: neighbouring runs of some laws depend on
-    /// each other.
+    /// Keeps only every `stride`-th run of losses: neighbouring runs of some laws depend on each
+    /// other.
     explicit LossTally(std::size_t stride = 1) : stride_{stride} {}
 
     void add(bool is_lost);

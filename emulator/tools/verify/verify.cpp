@@ -58,7 +58,7 @@ TestResult verify_seed(const Claim& claim, Direction direction, std::span<const 
     return result;
 }
 
-/// How much the losses of a direction remember; nullopt when they are not drawn one by one.
+/// Returns the memory of a direction's losses; nullopt when they are not drawn one by one.
 std::optional<double> memory_of(const std::vector<LossLaw>& laws,
                                 std::optional<base::Duration> spacing)
 {

@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// What a run was meant to do: the same from its first datagram to its last.
+/// The conditions that a run was meant to have, the same from its first datagram to its last.
 struct Claim {
     Path path;
     std::optional<base::Seed> seed{};        // known: the fates are drawn again and compared
@@ -24,7 +24,7 @@ struct Claim {
     std::string name{};                      // of the path, where there are several
 };
 
-/// What the tests say of the fates of a run.
+/// The test results for the fates of a run.
 struct Verification {
     std::vector<TestResult> up;
     std::vector<TestResult> down;

@@ -32,7 +32,8 @@ constexpr auto fields_of(base::Tag<SharedObjectOptions> /*struct*/)
                                     "text for the algorithm, which alone knows its meaning"));
 }
 
-/// What a loaded shared object describes; it stays loaded for as long as anybody has it.
+/// The algorithm that a loaded shared object describes. The object stays loaded as long as a copy
+/// of this pointer exists.
 using Loaded = std::shared_ptr<const hapnet_algorithm>;
 
 /// An algorithm that is no part of the program: a C function of peer/core/abi/algorithm.h does what
@@ -40,14 +41,14 @@ using Loaded = std::shared_ptr<const hapnet_algorithm>;
 /// loads it. A copy has memory of its own.
 class SharedObject {
 public:
-    /// What it may bring into a hand at an Omni: as base, whatever it does.
+    /// The energy that the algorithm may bring into a hand at an Omni: as base, whatever it does.
     static constexpr auto energy_limits = energy_at_an_omni(0.46);
 
     SharedObject() = default;
     explicit SharedObject(const SharedObjectOptions& options) : options_{options} {}
 
-    /// The same with what was loaded of the file. The error says what is wrong with that, or with
-    /// the parameters.
+    /// Returns a copy of this algorithm that runs the loaded code. The error says what is wrong
+    /// with the code or with the parameters.
     [[nodiscard]] base::Result<SharedObject> with(Loaded loaded) const;
 
     void hear(const ReceivedState& received);
@@ -57,7 +58,7 @@ public:
 
     [[nodiscard]] const SharedObjectOptions& options() const { return options_; }
     [[nodiscard]] bool is_loaded() const { return loaded_ != nullptr; }
-    /// Whether it can play with more than one other; before it is loaded nobody knows better.
+    /// True if it can play with more than one other. Before it is loaded this is assumed.
     [[nodiscard]] bool plays_with_many() const { return !loaded_ || loaded_->plays_with_many != 0; }
 
 private:

@@ -38,31 +38,33 @@ inline constexpr auto algorithm_names =
 
 static_assert(std::variant_size_v<Algorithm> == algorithm_names.size() + 1);
 
-/// One of algorithm_names, with all defaults; or "shared-object", which names no file yet.
+/// Returns the algorithm of a name in algorithm_names, with all defaults, or of "shared-object",
+/// which names no file yet.
 [[nodiscard]] base::Result<Algorithm> algorithm_named(std::string_view name);
 
 /// "base", "sep", "dead-reckoning", ..., "shared-object"
 [[nodiscard]] std::string_view name_of(const Algorithm& algorithm);
 
-/// What it does with states that were overtaken.
+/// The treatment of states that were overtaken.
 [[nodiscard]] Stale stale_of(const Algorithm& algorithm);
 /// Tells it how many others there are and what this copy is like, before the first tick. Ensures
 /// check_hands_of().
 void prepare(Algorithm& algorithm, std::size_t others, const scene::World& world);
-/// Whether it puts the hands of the others into this copy of the scene.
+/// True if it puts the hands of the others into this copy of the scene.
 [[nodiscard]] bool has_hands_of_others(const Algorithm& algorithm);
-/// Whether it can play with more than one other.
+/// True if it can play with more than one other.
 [[nodiscard]] bool plays_with_many(const Algorithm& algorithm);
 
-/// Whether it can be played: the file of one that is no part of the program has been loaded.
+/// True if it can be played: the file of one that is no part of the program has been loaded.
 [[nodiscard]] bool is_loaded(const Algorithm& algorithm);
 
-/// Whether it can play these bodies; the error says what it cannot. Bodies that turn, and several,
-/// are for remote-proxy, and for base with the readings of the paper that they have, too.
+/// Refuses bodies that the algorithm cannot play; the error says what it cannot. Bodies that turn,
+/// and several, are for remote-proxy. They are also for base, if only those of its readings of the
+/// paper differ from the defaults that hold for such bodies, too.
 [[nodiscard]] base::Result<void> check_bodies_of(const Algorithm& algorithm,
                                                  std::span<const SharedBody> bodies);
-/// The same of the scene's hands. Where they have dry friction, which comes from outside of the
-/// scene, its ticks cannot be computed late or again.
+/// Refuses hands of the scene that the algorithm cannot play. With dry friction, which comes from
+/// outside of the scene, the scene's ticks cannot be computed late or again.
 [[nodiscard]] base::Result<void> check_hands_of(const Algorithm& algorithm,
                                                 const scene::HandDescription& hands);
 

@@ -27,8 +27,8 @@ public:
     [[nodiscard]] const glm::dvec3& slope() const { return slope_; } // per second
 
 private:
-    /// For the interval between samples: mostly one tick, and an exponential costs more than the
-    /// rest.
+    /// The gains for the interval between samples. They are kept because it is mostly one tick, and
+    /// an exponential costs more than the rest.
     struct Gains {
         base::Duration apart{};
         double alpha = 0.0;

@@ -8,8 +8,8 @@
 
 namespace hapnet::peer {
 
-/// How copies agree again once no hand touches the body: some time later, the copy that yields goes
-/// on a straight line to where the remote has it.
+/// Makes copies agree again once no hand touches the body. Some time later, the copy that yields
+/// moves it on a straight line to where the remote has it.
 class AtRest {
 public:
     struct Times {
@@ -29,12 +29,12 @@ public:
         const BaseOptions base;
         return {base.settle_after, base.settle_within};
     }
-    /// Whether nothing has touched it for so long that copies that yield move to the others'.
+    /// True if nothing has touched it for so long that copies that yield move to the others'.
     [[nodiscard]] bool has_waited(base::TimePoint now, const Times& times = usual()) const
     {
         return untouched_since_ && times.after && now - *untouched_since_ >= *times.after;
     }
-    /// To where a body that no hand touches is to be put; nullopt: it is to be left alone.
+    /// Returns the place for a body that no hand touches; nullopt: leave the body alone.
     [[nodiscard]] std::optional<CombinedRemote::Pose> pose(base::Position body,
                                                            const CombinedRemote& remote,
                                                            const Situation& situation,

@@ -14,7 +14,7 @@ void BaseAlgorithm::hear(const ReceivedState& received)
     if (options_.displacement_from != DisplacementFrom::increments) return;
     const wire::BodyState* const body = received.state.bodies.first();
     const bool counts = received.state.touching || options_.follow_while == FollowWhile::always;
-    // What the sender's body moved in its tick; no message holds it, but its velocity tells it.
+    // The body's way in the sender's tick. No message holds it, but the velocity gives it.
     if (received.taken && body && counts) increments_ += body->velocity * received.span;
 }
 

@@ -20,7 +20,7 @@ namespace hapnet::peer {
 ///   within 100 ms, so that the copies agree again.
 class BaseAlgorithm {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.46);
 
     BaseAlgorithm() = default;
@@ -30,7 +30,7 @@ public:
     void hear(const ReceivedState& received);
     /// Moves the world by one tick.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
-    /// The same with the remote as `remote` shows it.
+    /// Moves the world by one tick, with the remote as `remote` shows it.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation,
                                const CombinedRemote& remote);
     /// The remote's run has ended; its next state is of another.

@@ -10,7 +10,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// Those who count as off after a silence left out.
+/// Returns the touching hands without those that count as off after a silence.
 SharedPoses::Touchers touchers_of(const Situation& situation, const BaseOptions& options)
 {
     SharedPoses::Touchers touchers = situation.poses->touchers(situation);
@@ -23,8 +23,8 @@ SharedPoses::Touchers touchers_of(const Situation& situation, const BaseOptions&
     return touchers;
 }
 
-/// What the others' hands do to the bodies, as they were last heard: faded with age, and each with
-/// no more force than a contact can exert, and no longer a lever than the body has.
+/// Applies the forces of the others' hands to the bodies, as they were last heard. They fade with
+/// age. None exceeds the greatest force of a contact, and no lever is longer than the body.
 void push(scene::World& world, const Situation& situation, const SharedPoses::Touchers& touchers,
           Outcome& outcome)
 {

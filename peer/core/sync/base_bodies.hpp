@@ -7,8 +7,8 @@
 
 namespace hapnet::peer {
 
-/// A tick of the base algorithm for bodies that turn, and for several. What is said there of the
-/// body holds here of each group of bodies that touch each other:
+/// A tick of the base algorithm for bodies that turn, and for several. The base algorithm's rules
+/// for the body hold here for each group of bodies that touch each other:
 /// - this hand touches one of them: all of them move by this copy's own dynamics. Another's force
 ///   acts where its hand is: on the body's centre, with the torque that it has about it;
 /// - only other hands touch one of them: each is where the lowest id of those has it;

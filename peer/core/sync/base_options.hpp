@@ -30,7 +30,7 @@ constexpr auto names_of(base::Tag<DisplacementFrom> /*enum*/)
     return base::names("positions", "increments");
 }
 
-/// When a body that this hand does not touch is where the remote has it.
+/// When a body that this hand does not touch is put where the remote has it.
 enum class FollowWhile : std::uint8_t { touching, always };
 constexpr auto names_of(base::Tag<FollowWhile> /*enum*/)
 {
@@ -65,7 +65,7 @@ struct BaseOptions {
     std::optional<base::Duration> bleed{std::chrono::milliseconds{500}};
     RemoteForceOn remote_force_on = RemoteForceOn::body;
     BothPush both_push = BothPush::sum;
-    /// For how long the stronger hand keeps the body at least; never less than the round trip,
+    /// The least time for which the stronger hand keeps the body. Never less than the round trip,
     /// which is twice the delay.
     base::Duration hysteresis{0};
     Stale stale = Stale::drop;
@@ -73,8 +73,8 @@ struct BaseOptions {
     /// until it is stale.
     std::optional<base::Duration> let_go_after{};
     Axes axes = Axes::all;
-    /// So long after both hands are off, the higher id's body begins to go to the lower id's place;
-    /// nullopt: never.
+    /// The time from when both hands are off until the higher id's body begins to go to the lower
+    /// id's place; nullopt: never.
     std::optional<base::Duration> settle_after{std::chrono::milliseconds{200}};
     base::Duration settle_within{std::chrono::milliseconds{100}};
 

@@ -23,8 +23,9 @@ void BaseTdpa::forget(std::size_t of)
     work_uj_[of].reset();
 }
 
-/// What this tick would take too much, by damping; no more than a contact can exert, and with less
-/// damping than would turn the body round within two ticks.
+/// Returns the damping force that takes out the excess of energy with which this tick would end. It
+/// does not exceed the greatest force of a contact, and its damping is less than would reverse the
+/// body within two ticks.
 base::Force BaseTdpa::damping_force(base::Force remote, base::Velocity velocity, double mass_kg,
                                     const Situation& situation) const
 {

@@ -34,20 +34,21 @@ constexpr auto fields_of(base::Tag<BaseTdpaOptions> /*struct*/)
 /// model and no clock. docs/design/algorithms.md has the equations.
 class BaseTdpa {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.5, 0.2);
 
     BaseTdpa() = default;
     explicit BaseTdpa(const BaseTdpaOptions& options) : options_{options}, base_{options.base} {}
 
-    /// Takes the memory for so many others.
+    /// Takes the memory for this number of others.
     void prepare(std::size_t others) { work_uj_.assign(others, std::nullopt); }
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
 
     [[nodiscard]] const BaseTdpaOptions& options() const { return options_; }
-    /// What the others have put in and this copy has not got, J; below 0 while damping is due.
+    /// The energy that the others have put in and this copy has not got, J; below 0 while damping
+    /// is due.
     [[nodiscard]] double observed_j() const { return observed_j_; }
 
 private:

@@ -22,7 +22,8 @@ void add(CombinedRemote& combined, const Remote& remote, const Situation& situat
     combined.touching = true;
 }
 
-/// Where those who touch have the body, on average; nobody touches it: where `remote` has it.
+/// Returns where those who touch have the body, on average. If no hand touches it, where `remote`
+/// has it.
 std::optional<CombinedRemote::Pose> pose_of(const Situation& situation, bool touching)
 {
     if (situation.others.size() > 1 && touching) {

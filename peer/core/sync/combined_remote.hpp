@@ -21,7 +21,8 @@ struct CombinedRemote {
                               // who touch have it, otherwise where the lowest id has it
 };
 
-/// As they were last heard: faded with age, and each with no more force than a contact can exert.
+/// Returns the other hands as they were last heard. Their forces fade with age, and none exceeds
+/// the greatest force of a contact.
 [[nodiscard]] CombinedRemote combined_remote(const Situation& situation,
                                              const BaseOptions& options);
 

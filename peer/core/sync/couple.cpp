@@ -68,8 +68,8 @@ void Couple::draw(Spring& spring, const Remote* owner, const Situation& situatio
     spring.force = spring.stiffness_n_per_m * spring.stretch;
 }
 
-/// What a tick has done: the body came nearer to where the springs draw it, and its drag took at
-/// least drag * moved^2 / tick out of it.
+/// Settles the accounts of a tick: the body came nearer to where the springs draw it, and its drag
+/// took at least drag * moved^2 / tick out of it.
 void Couple::settle_accounts(const glm::dvec3& moved, double drag, double tick_s)
 {
     const double square = glm::dot(moved, moved);

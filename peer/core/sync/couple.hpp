@@ -38,13 +38,13 @@ constexpr auto fields_of(base::Tag<CoupleOptions> /*struct*/)
 /// docs/design/algorithms.md has the equations.
 class Couple {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.7);
 
     Couple() : Couple(CoupleOptions{}) {}
     explicit Couple(const CoupleOptions& options) : options_{options} {}
 
-    /// Takes the memory for so many others.
+    /// Takes the memory for this number of others.
     void prepare(std::size_t others);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
@@ -52,7 +52,7 @@ public:
 
     [[nodiscard]] const CoupleOptions& options() const { return options_; }
 
-    /// To the copy of one of the others.
+    /// The spring to the copy of one of the others.
     struct Spring {
         std::optional<base::TimePoint> sent_at; // its newest word, on this peer's clock
         RecentAge ages;

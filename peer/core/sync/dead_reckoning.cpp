@@ -115,7 +115,7 @@ Outcome DeadReckoning::tick(scene::World& world, const Situation& situation)
         if (options_.blend_within) remote.pose->position = blended(*place, world, situation);
     }
     const Outcome outcome = base_.tick(world, situation, remote);
-    // The blend begins anew from where this hand has left the body.
+    // The blend begins again from where this hand has left the body.
     if (outcome.touched.touching || !remote.touching) course_.reset();
     has_news_ = false;
     return outcome;

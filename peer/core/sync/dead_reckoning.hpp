@@ -10,16 +10,18 @@
 
 namespace hapnet::peer {
 
-/// How far apart in time two consecutive states are taken to be: one tick, whatever was lost
-/// between them (the paper); as they arrived; as they were sent.
+/// The time between two consecutive states in the velocity's computation. Nominal: one tick,
+/// whatever was lost between them (the paper). Otherwise the time between their arrivals, or
+/// between their stamps.
 enum class VelocityRule : std::uint8_t { nominal, arrival, sender };
 constexpr auto names_of(base::Tag<VelocityRule> /*enum*/)
 {
     return base::names("nominal", "arrival", "sender");
 }
 
-/// How old a body's place was when its message arrived: nobody asks; so old as the path's mean
-/// delay makes it, which varies slowly; so old as this very message's stamp says; a fixed time.
+/// The age of a body's place when its message arrives. None: it counts as new. Otherwise it is the
+/// path's mean one-way delay, which varies slowly; the age by this very message's stamp; or a fixed
+/// time.
 struct Horizon {
     enum class Law : std::uint8_t { none, one_way, packet_age, fixed };
 
@@ -28,7 +30,7 @@ struct Horizon {
 
     friend bool operator==(const Horizon&, const Horizon&) = default;
 };
-/// Of the laws that are written by name; a fixed one is written as its time.
+/// The names of the laws. A fixed horizon has no name and is written as its time.
 inline constexpr auto horizon_names = base::names("none", "one-way", "packet-age");
 
 /// A horizon as it is written: "one-way", or a time.
@@ -42,13 +44,13 @@ struct DeadReckoningOptions {
     VelocityRule velocity = VelocityRule::nominal;
     Horizon horizon{};
     std::uint32_t horizon_memory = 500; // messages in the mean delay
-    /// Over what time a new prediction takes over from the last one (projective velocity blending;
-    /// E. Murphy: Believable dead reckoning for networked games, 2011); nullopt: at once.
+    /// The time in which a new prediction takes over from the last one (projective velocity
+    /// blending; E. Murphy: Believable dead reckoning for networked games, 2011); nullopt: at once.
     std::optional<base::Duration> blend_within{};
-    /// The farthest into the future from a message's sending; nullopt: without a limit.
+    /// The longest time that is predicted, from the sending of a message on; nullopt: no limit.
     std::optional<base::Duration> ahead_max{};
-    /// Of the estimated velocity. A hand reaches 0.3 m/s in the paper's task, which the nominal
-    /// rule multiplies by the number of ticks between two messages: 60 at 80 % loss.
+    /// The limit of the estimated velocity. A hand reaches 0.3 m/s in the paper's task, which the
+    /// nominal rule multiplies by the number of ticks between two messages: 60 at 80 % loss.
     double speed_max_m_per_s = 100.0;
     double lead_max_m = 1.0; // of the prediction before the message's place
     /// Across a longer gap between two messages, by their sender's stamps, there is no velocity.
@@ -93,7 +95,7 @@ constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
 /// as where a body at rest settles. Forces and velocities are as received.
 class DeadReckoning {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(1.1);
 
     DeadReckoning() : DeadReckoning(DeadReckoningOptions{}) {}

@@ -79,7 +79,7 @@ Outcome EstimatorPredictor::tick(scene::World& world, const Situation& situation
 EstimatorPredictor::Ahead EstimatorPredictor::ahead(const Situation& situation) const
 {
     if (!has_heard_) return {};
-    // How old the last sample is; from its arrival when the remote's clock is unknown.
+    // The age of the last sample; counted from its arrival when the remote's clock is unknown.
     const auto clock = situation.clock.estimate();
     const base::Duration age =
         clock ? (situation.now - hip_.at()) + clock->offset : situation.now - arrived_;

@@ -22,7 +22,7 @@ struct EstimatorPredictorOptions {
     /// The output changes by at most this: people notice steps from 0.5 N a tick on.
     double force_slew_n_per_s = 500.0;
     double hip_slew_m_per_s = 5.0;
-    /// After a longer gap between two messages the filters start anew.
+    /// The gap between two messages after which the filters start again.
     base::Duration gap_max{std::chrono::milliseconds{250}};
     BaseOptions base{};
 
@@ -61,7 +61,7 @@ constexpr auto fields_of(base::Tag<EstimatorPredictorOptions> /*struct*/)
 /// TiDeC, of which no equations are published, and like it leaves the body's pose alone.
 class EstimatorPredictor {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(1.1);
 
     EstimatorPredictor() : EstimatorPredictor(EstimatorPredictorOptions{}) {}

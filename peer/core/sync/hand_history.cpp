@@ -8,8 +8,8 @@ namespace hapnet::peer {
 
 namespace {
 
-// By itself: where GCC 12 puts two of three such conversions into one vector, it leaves the
-// rounding of those two out.
+// A function of its own: where GCC 12 puts two of three such conversions into one vector, it leaves
+// out the rounding of those two.
 [[gnu::noinline]] double as_sent(double component)
 {
     return static_cast<double>(static_cast<float>(component));
@@ -17,7 +17,8 @@ namespace {
 
 glm::dvec3 as_sent(const glm::dvec3& v) { return {as_sent(v.x), as_sent(v.y), as_sent(v.z)}; }
 
-/// Where a hand without a sample is said to be; a hand that is there never is, to the bit.
+/// True for the state that stands for a hand without a sample: exactly at the origin, at rest. A
+/// hand that is there never has it, to the bit.
 bool is_nowhere(const HandSample& sample)
 {
     return sample.place == glm::dvec3{0.0} && sample.velocity == glm::dvec3{0.0};

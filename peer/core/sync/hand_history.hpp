@@ -35,16 +35,16 @@ public:
 
     HandHistory() : entries_(static_cast<std::size_t>(ticks_max)) {}
 
-    /// False: it is known, or too old to be kept.
+    /// Returns false when the sample is already known, or too old to be kept.
     bool add(std::int64_t tick, const HandSample& sample);
     void clear();
 
     [[nodiscard]] bool is_empty() const { return newest_ == none; }
     [[nodiscard]] std::int64_t newest() const { return newest_; }
     [[nodiscard]] bool knows(std::int64_t tick) const;
-    /// What is missing between two that are known lies on the cubic that has the places and
-    /// velocities of both (Hermite); what is newer than all is held, at rest. Before the first it
-    /// is not present. `length`: of a tick.
+    /// Returns the hand at a tick. A missing sample between two known ones lies on the cubic that
+    /// has the places and velocities of both (Hermite). After the newest sample the hand stays
+    /// there at rest. Before the first one it is not present. `length`: the length of a tick.
     [[nodiscard]] HandSample at(std::int64_t tick, base::Duration length) const;
 
 private:

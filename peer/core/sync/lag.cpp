@@ -12,7 +12,7 @@ void Lag::hear(const ReceivedState& received)
     RemoteHand& hand = hands_[received.from];
     const auto tick = hand.heard.hear(received);
     if (!tick) return;
-    // What was overtaken is as good as any: it tells of another tick.
+    // A message that was overtaken is as useful as any: it tells of another tick.
     if (!hand.heard.history.add(*tick, HandSample::of(received.state))) return;
     if (!received.taken) return;
     if (const auto answered = answered_tick(received)) hand.ages_there.add(*tick - *answered);
@@ -53,7 +53,7 @@ void Lag::follow(const Situation& situation)
     lag_ = std::max(goal, lag_ - options_.catch_up * looks_every);
 }
 
-/// Whether everybody is heard whose hand may come into the first ticks.
+/// True if everybody is heard whose hand may come into the first ticks.
 bool Lag::is_ready(const Situation& situation) const
 {
     if (has_begun_ || situation.now - situation.start > waits_for) return true;
@@ -80,14 +80,14 @@ void Lag::play(scene::World& world, const Situation& situation)
     }
 }
 
-/// Where messages were missing copies differ. The one that yields goes to where the other rests, in
-/// as many ticks as base does.
+/// Makes copies agree that differ because messages were missing. The one that yields goes to where
+/// the other rests, in as many ticks as base does.
 void Lag::rest(const Situation& situation)
 {
     const auto leader = yields_to(situation);
     if (!leader || !hands_[*leader].heard.told) return;
     RestAgreement::Word word = *hands_[*leader].heard.told;
-    // Of two, both know the same ages, and so have about the same lag.
+    // In a pair both know the same ages, and so have about the same lag.
     constexpr std::int64_t about = 10; // ticks
     const bool is_pair = hands_.size() == 1;
     word.knows = word.tick - (is_pair ? lag_ticks() + about : HandHistory::ticks_max);

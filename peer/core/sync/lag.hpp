@@ -43,27 +43,27 @@ constexpr auto fields_of(base::Tag<LagOptions> /*struct*/)
 /// docs/design/algorithms.md has the equations.
 class Lag {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.25);
 
     Lag() : Lag(LagOptions{}) {}
     explicit Lag(const LagOptions& options) : options_{options} {}
 
-    /// Takes the memory for so many others.
+    /// Takes the memory for this number of others.
     void prepare(std::size_t others) { hands_.resize(others); }
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
 
     [[nodiscard]] const LagOptions& options() const { return options_; }
-    /// In ticks.
+    /// The lag in ticks.
     [[nodiscard]] double lag() const { return lag_; }
     /// The tick of the session that this copy has played last; -1: none.
     [[nodiscard]] std::int64_t played() const { return played_; }
 
-    /// So long the copy waits for somebody who was never heard.
+    /// The time for which the copy waits for a peer that was never heard.
     static constexpr base::Duration waits_for{std::chrono::seconds{1}};
-    /// So many ticks of the session are played in one, at most.
+    /// The greatest number of the session's ticks that are played in one tick.
     static constexpr int together_max = 2;
 
 private:

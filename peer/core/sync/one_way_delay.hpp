@@ -19,8 +19,8 @@ public:
 
     void add(base::Duration delay);
 
-    /// Of the first messages the arithmetic mean, then an exponential one; never negative, and
-    /// zero while nothing is known.
+    /// The arithmetic mean of the first messages, then an exponential mean. It is never negative,
+    /// and zero while nothing is known.
     [[nodiscard]] base::Duration mean() const;
     /// Moves by at most 0.1 ms a message toward the median (H. Robbins, S. Monro: A stochastic
     /// approximation method, 1951): a bound of what is usual, not a measurement.

@@ -18,22 +18,23 @@ namespace hapnet::peer {
 using BodySet = std::uint8_t;
 static_assert(wire::bodies_max <= 8);
 
-/// Says whose copy of a body the others take over while no hand moves it: that of the peer whose
-/// hand moved it last, since it has seen the motion begin without a delay; and some time later that
-/// of the lowest id, on which all agree whatever they have heard. Peers that moved it at nearly the
-/// same time cannot all know who was the last: of those it is the lowest id at once.
+/// Says whose copy of a body the others take over while no hand moves it. At first it is the copy
+/// of the peer whose hand moved it last, which has seen the motion begin without a delay. Some time
+/// later it is that of the lowest id, on which all agree whatever they have heard. Peers that moved
+/// it at nearly the same time cannot all know which was the last: among those it is the lowest id
+/// at once.
 class Ownership {
 public:
-    /// Touches so near each other count as at the same time: more than two messages take.
+    /// Touches less than this apart count as simultaneous: it is longer than two messages take.
     static constexpr base::Duration same_time{std::chrono::milliseconds{500}};
-    /// How long the last one's copy counts, from that touch on.
+    /// The time for which the copy of the last toucher counts, from that touch on.
     static constexpr base::Duration lasts{std::chrono::seconds{1}};
 
     /// A peer's hand moves these bodies.
     void touch(BodySet bodies, std::uint16_t peer, base::TimePoint now);
 
-    /// Of bodies that touch each other. `present`: the ids that may own, of which there is at least
-    /// one, ascending.
+    /// Returns the owner of bodies that touch each other. `present`: the ids that may own,
+    /// ascending. There is at least one.
     [[nodiscard]] std::uint16_t owner(BodySet bodies, std::span<const std::uint16_t> present,
                                       base::TimePoint now) const;
 

@@ -67,8 +67,8 @@ double PoseCorrection::keep_together(const Copy& copy)
     return given_j;
 }
 
-/// Not before the leader has told of a touch that is later than this hand's last: until then this
-/// copy knows more.
+/// Follows the leader's pose, but not before the leader has told of a touch that is later than this
+/// hand's last one: until then this copy knows more.
 double PoseCorrection::follow(const Copy& copy, std::size_t body, std::size_t leader)
 {
     const SharedPoses& poses = *copy.situation.poses;
@@ -105,8 +105,9 @@ double PoseCorrection::settle(const Copy& copy, std::size_t body)
     return error ? correct(copy, body, *error) : 0.0;
 }
 
-/// How far this copy's body was from its owner's when that one was as it was heard last, less what
-/// has been corrected since; nullopt: this copy is the owner's, or nothing is known.
+/// Returns the difference of this copy's body from the owner's at the time of the owner's last
+/// heard state, less the corrections since then; nullopt: this copy is the owner's, or nothing is
+/// known.
 std::optional<PoseCorrection::Motion> PoseCorrection::error_in_past(const Copy& copy,
                                                                     std::size_t body) const
 {

@@ -13,11 +13,12 @@
 
 namespace hapnet::peer {
 
-/// The part of remote-proxy that keeps together the copies of bodies that turn, and of several. A
-/// body that this hand leaves alone moves by a little in each tick: while others move it, to where
-/// it will be by now in the copy of the lowest id of those; once nobody does, by as much as its
-/// owner's copy was elsewhere at the same time in the past, of which both are known, so that the
-/// delay is not in the loop. SharedPoses takes away what is left after a while.
+/// The part of remote-proxy that keeps copies together if their bodies turn, or if there are
+/// several. A body that this hand does not move is shifted a little in each tick. While others move
+/// it, it goes to its predicted present place in the copy of the lowest id among those. Once no
+/// hand moves it, it makes up for the difference from its owner's copy at the same time in the
+/// past. Both poses of that time are known, so that the delay is not in the loop. After a while
+/// SharedPoses removes the rest of the difference.
 class PoseCorrection {
 public:
     struct Rates {
@@ -26,9 +27,9 @@ public:
     };
     PoseCorrection(std::size_t bodies, const Rates& rates);
 
-    /// Before the pushes of a tick are told.
+    /// Forgets the pushes of the tick before. Call it before the first add_push() of a tick.
     void begin_pushes();
-    /// What a proxy did to a body in the tick. `lever`: from its centre.
+    /// Adds the push of a proxy on a body in the tick. `lever`: from the body's centre.
     void add_push(std::size_t body, base::Force force, base::Displacement lever);
 
     /// A copy of the scene after the world's tick, and the others in it.

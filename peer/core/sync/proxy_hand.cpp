@@ -108,8 +108,8 @@ const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t tick_number)
     return found.tick_number <= tick_number ? &found : nullptr;
 }
 
-/// By least squares: what would a projection of the word of that time ago have told of this one?
-/// The prior leaves a slow hand where it was heard.
+/// Learns by least squares how well a projection of an earlier message predicts this one. The prior
+/// leaves a slow hand where it was heard.
 void ProxyHand::learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s)
 {
     const auto age_ticks = static_cast<std::uint32_t>(std::lround(age_s / tick_s));
@@ -140,8 +140,8 @@ void ProxyHand::forget()
     trust_ = 1.0;
 }
 
-/// As deep in the body as it is over there, also where that is turned otherwise, and with the
-/// body's motion there.
+/// Puts the proxy as deep into the body as the hand is over there, also where the body is turned
+/// differently there, and with the body's motion there.
 void ProxyHand::enter(const View& view)
 {
     is_there_ = true;

@@ -16,7 +16,8 @@
 
 namespace hapnet::peer {
 
-/// How a proxy stands for another hand. docs/design/remote-proxy.md has the equations.
+/// Options of a proxy, which stands for another hand. docs/design/remote-proxy.md has the
+/// equations.
 struct ProxyHandOptions {
     HandDynamics hand{}; // where the hello says nothing
     base::Duration anchor_filter{std::chrono::milliseconds{20}};
@@ -82,11 +83,12 @@ struct HandMotion {
     glm::dvec3 place{0.0};
     glm::dvec3 speed{0.0};
 
-    /// A short time under a constant force, the hand's damping and friction (Karnopp 1985), each
-    /// axis by itself.
+    /// Moves on by a short time under a constant force, the hand's damping and friction (Karnopp
+    /// 1985), each axis by itself.
     void step(const HandDynamics& hand, double friction_n, const glm::dvec3& force, double seconds);
 };
-/// Short against every hand's own period, also with the stiffest contact: a tick in so many parts.
+/// The number of steps in a tick. A step is short against every hand's own period, also with the
+/// stiffest contact.
 inline constexpr int hand_steps_per_tick = 4;
 
 /// The hand of another peer in this copy of the scene: a mass on a spring, with damping and
@@ -100,7 +102,7 @@ public:
     /// A state that was taken. Returns the work that its owner has put in since the one before, J:
     /// it may be negative.
     [[nodiscard]] double hear(const ReceivedState& received);
-    /// Its owner's run has ended: its work is counted from its next message on.
+    /// Forgets its owner's run, which has ended. Its work is counted from the next message on.
     void forget();
 
     /// The age of what was heard last.
@@ -108,12 +110,12 @@ public:
     /// The largest age of late, which is forgotten within some seconds; at most 400 ms.
     [[nodiscard]] base::Duration usual_age() const { return base::from_seconds(ages_.seconds()); }
     [[nodiscard]] double eta() const { return eta_; }
-    /// When it last touched a body, on this peer's clock.
+    /// The time at which it last touched a body, on this peer's clock.
     [[nodiscard]] const std::optional<base::TimePoint>& touched_at() const { return touched_at_; }
     [[nodiscard]] base::TimePoint sent_at() const { return sent_at_; } // on this peer's clock
     [[nodiscard]] const HandDynamics& dynamics() const { return hand_; }
     [[nodiscard]] const glm::dvec3& intention() const { return intention_; } // as last heard
-    /// Of the intention, smoothed.
+    /// The velocity of the intention, smoothed.
     [[nodiscard]] const glm::dvec3& intention_velocity() const { return velocity_; }
 
     /// Comes, stays or goes as its owner's hand does, and looks where to be drawn to.
@@ -131,11 +133,11 @@ public:
     [[nodiscard]] base::Position place() const { return {motion_.place}; }
 
     [[nodiscard]] double kinetic_energy_j() const;
-    /// Of what drives it, at full share.
+    /// The energy of its drive, which is a spring and a steady force, at full share.
     [[nodiscard]] double drive_energy_j() const;
-    /// Moves on by a tick against the force on it, with a share of its spring and force: what the
-    /// account and freshness allow. Returns the work of that force, J: negative when it has given
-    /// the copy energy.
+    /// Moves on by a tick against the force on it. `share` is the share of its spring and force
+    /// that the account and freshness allow. Returns the work of that force, J: negative when it
+    /// has given the copy energy.
     [[nodiscard]] double step(base::Force on_hand, double share, base::Duration tick);
 
     /// Dry friction of its finger on the body, where the scene's hands have any.
@@ -159,7 +161,7 @@ private:
     ProxyHandOptions options_;
     HandDynamics hand_; // of its owner
 
-    // What was heard.
+    // Values from the remote's messages.
     bool has_heard_ = false;
     std::uint32_t tick_number_ = 0; // of the newest word
     std::uint32_t work_uj_ = 0;
@@ -173,7 +175,7 @@ private:
     std::uint64_t heard_ = 0;  // so many words so far
     std::uint64_t older_ = 0;  // the one that heard_at() gave last
 
-    // What was learnt: means of products of predicted and true motion.
+    // Values that were learnt: means of products of predicted and true motion.
     double predicted_true_ = 0.0;
     double predicted_ = 0.0;
     double true_ = 0.0;

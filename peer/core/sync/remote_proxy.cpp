@@ -47,8 +47,8 @@ void RemoteProxy::hear(const ReceivedState& received)
 
 void RemoteProxy::forget(std::size_t of) { proxies_[of].forget(); }
 
-/// What may be under way before its receipt comes: in proportion to the largest age. It is lent
-/// once, and not again when ages fall and rise.
+/// Lends the energy that may be under way before its receipt comes, in proportion to the largest
+/// age. It is lent once, and not again when ages fall and rise.
 void RemoteProxy::lend()
 {
     base::Duration age{0};
@@ -78,7 +78,7 @@ void RemoteProxy::look(const scene::World& world, const Situation& situation)
     }
 }
 
-/// Of the body that its hand is on over there, where bodies turn or are several.
+/// Returns the view of the body that the other hand is on, where bodies turn or are several.
 ProxyHand::View RemoteProxy::view_of(std::size_t other, const scene::World& world,
                                      const Situation& situation) const
 {
@@ -179,7 +179,7 @@ bool RemoteProxy::is_anyone_touching(const Situation& situation) const
            });
 }
 
-/// Of those that are heard and this peer, the one with the lowest id; nullopt: this peer.
+/// Returns the one with the lowest id among those that are heard and this peer; nullopt: this peer.
 std::optional<std::size_t> RemoteProxy::lowest(const Situation& situation)
 {
     for (std::size_t i = 0; i < situation.lower_ids; ++i)
@@ -187,11 +187,11 @@ std::optional<std::size_t> RemoteProxy::lowest(const Situation& situation)
     return std::nullopt;
 }
 
-/// Whose pose counts; nullopt: this peer's. First that of the one who touched last. But the
-/// messages that told of a touch may have been lost, or it may be told after this hand's last touch
-/// and be older: then several take themselves for the last, or nobody does. So a while after no
-/// hand touches any more it is the lowest id's. All that takes is what everybody's newest message
-/// says, and hears sooner or later, whatever was lost: all copies come to the same decision.
+/// Returns the peer whose pose counts; nullopt: this peer. At first it is the one that touched
+/// last. But messages about a touch may have been lost, or an older touch may be reported after
+/// this hand's last one. Then several peers take themselves for the last, or none does. So a while
+/// after the last touch of any hand it is the lowest id. This decision needs only the newest
+/// message of each peer, which arrives sooner or later, so that all copies decide in the same way.
 std::optional<std::size_t> RemoteProxy::leader(const Situation& situation) const
 {
     std::optional<std::size_t> found;
@@ -210,8 +210,9 @@ std::optional<std::size_t> RemoteProxy::leader(const Situation& situation) const
     return is_quiet ? lowest(situation) : found;
 }
 
-/// How far this copy's body is from the leader's. While he moves it, from where it will be by now;
-/// afterwards in the past, of which both are known: so the delay is not in the loop.
+/// Returns the way from this copy's body to the leader's. While the leader moves it, its present
+/// place is predicted. Afterwards places at the same time in the past are compared, which are known
+/// of both copies, so that the delay is not in the loop.
 glm::dvec3 RemoteProxy::error_against(std::size_t leader, const Situation& situation,
                                       const scene::BodyState& body) const
 {
@@ -245,7 +246,7 @@ void RemoteProxy::correct(scene::World& world, const Situation& situation)
     if (way == glm::dvec3{0.0}) return;
     world.shift(situation.body, {way});
     corrected_ += way;
-    // Against a proxy it stretches the springs of their contact, which was nobody's work.
+    // Against a proxy it stretches the springs of their contact, which no hand's work has paid for.
     account_j_ -= std::max(0.0, -glm::dot(proxy_force_, way));
 }
 

@@ -47,29 +47,29 @@ constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
 /// algorithms derives the bound, and a property test holds sessions over random networks to it.
 class RemoteProxy {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.4);
 
     RemoteProxy() : RemoteProxy(RemoteProxyOptions{}) {}
     explicit RemoteProxy(const RemoteProxyOptions& options);
 
-    /// Takes the memory for so many others and the bodies of this world.
+    /// Takes the memory for this number of others and the bodies of this world.
     void prepare(std::size_t others, const scene::World& world);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
 
     [[nodiscard]] const RemoteProxyOptions& options() const { return options_; }
-    /// What the proxies may still give, J.
+    /// The energy that the proxies may still give, J.
     [[nodiscard]] double account_j() const { return account_j_; }
     [[nodiscard]] const std::vector<ProxyHand>& proxies() const { return proxies_; }
 
-    /// So long after the last touch that is known, the copy of who touched last counts; then that
-    /// of the lowest id. Longer than the largest age that an allowance is for.
+    /// The time after the last known touch for which the last toucher's copy counts. After it, the
+    /// copy of the lowest id counts. It is longer than the largest age that has an allowance.
     static constexpr base::Duration last_touch_counts_for{std::chrono::milliseconds{500}};
 
 private:
-    /// Who touched last, of the others.
+    /// The other peer whose hand touched last.
     struct Leader {
         std::size_t index = 0;
         base::TimePoint touched;

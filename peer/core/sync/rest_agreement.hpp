@@ -11,9 +11,9 @@
 
 namespace hapnet::peer {
 
-/// How copies that play the session tick by tick agree again after messages were lost. Where the
-/// body rests in this copy is compared with where it rests in the other's, at a tick of the session
-/// by which both had come to this rest: so copies that were made of the same hands are left alone,
+/// Makes copies that play the session tick by tick agree again after messages were lost. It
+/// compares the body's places at rest in both copies, at a tick of the session by which both had
+/// come to this rest. Copies that were computed from the same hands are therefore left alone,
 /// whatever the delay. Fed with the ticks of this copy and with the messages of the other.
 class RestAgreement {
 public:
@@ -28,8 +28,8 @@ public:
     /// This copy after that tick. True: a hand touches the body.
     bool play(std::int64_t tick, const scene::World& world, scene::BodyId body);
     void hear(const Word& word);
-    /// By how far the body is to be moved now, at once; nullopt: it is not, or not yet. `rest`: for
-    /// so many ticks it is to have rested in both copies.
+    /// Returns the displacement by which the body is to be moved now, at once; nullopt: none, or
+    /// not yet. `rest`: the number of ticks for which it must have rested in both copies.
     [[nodiscard]] std::optional<base::Displacement> take_way(std::int64_t rest);
 
 private:
@@ -45,7 +45,7 @@ private:
     std::size_t from_ = 0;
 };
 
-/// Which of the others' copies this one yields to; nullopt: none that is heard.
+/// Returns the other peer whose copy this one yields to; nullopt: none that is heard.
 [[nodiscard]] std::optional<std::size_t> yields_to(const Situation& situation);
 
 } // namespace hapnet::peer

@@ -23,7 +23,7 @@ void Rollback::hear(const ReceivedState& received)
     RemoteHand& hand = hands_[received.from];
     const auto tick = hand.heard.hear(received);
     if (!tick) return;
-    // What was overtaken fills a gap, unless the past is beyond it.
+    // A message that was overtaken fills a gap, unless the past already includes its tick.
     if (*tick > confirmed_ && hand.heard.history.add(*tick, HandSample::of(received.state)))
         has_news_ = true;
     if (!received.taken) return;
@@ -39,7 +39,7 @@ void Rollback::forget(std::size_t of)
     hands_[of].whole = confirmed_;
 }
 
-/// From the copy as it is, at the beginning and when it was changed from outside.
+/// Begins from `world` as it is: at the start, and when it was changed from outside.
 void Rollback::begin(const scene::World& world, std::int64_t now)
 {
     past_->restore(world);
@@ -61,7 +61,8 @@ void Rollback::set_past_hands(scene::World& world, const Situation& situation,
     for (std::size_t i = 0; i < hands_.size(); ++i) {
         const HandHistory& history = hands_[i].heard.history;
         HandSample sample = history.at(tick, situation.tick);
-        // One that has fallen silent, and for which the past has waited long enough.
+        // A hand that has fallen silent counts as absent once the past has waited long enough for
+        // it.
         if (tick > history.newest()) sample.present = false;
         world.set_hand(hand_by_rank(i, situation), sample.input());
     }
@@ -84,7 +85,8 @@ void Rollback::set_present_hands(scene::World& world, const Situation& situation
     }
 }
 
-/// After a tick of the present, against the forces that the modelled hands have met in it.
+/// Moves the modelled hands after a tick of the present, against the forces that they have met in
+/// it.
 void Rollback::move_models(const scene::World& world, const Situation& situation, std::int64_t tick)
 {
     const double tick_s = base::to_seconds(situation.tick);
@@ -106,7 +108,7 @@ void Rollback::move_models(const scene::World& world, const Situation& situation
     }
 }
 
-/// Until when the hands of all are known well enough to be the past.
+/// Returns the last tick for which the hands of all are known well enough to be the past.
 std::int64_t Rollback::known_until(const Situation& situation, std::int64_t now)
 {
     std::int64_t until = now;
@@ -158,8 +160,8 @@ void Rollback::predict(const Situation& situation, std::int64_t now)
     for (std::int64_t tick = confirmed_ + 1; tick <= now; ++tick) step_present(situation, tick);
 }
 
-/// What the own hand feels: its contact with the body as it is shown, the other hands being as far
-/// from it as they are in the present.
+/// Finds the force that the own hand feels: its contact with the body as it is shown, with the
+/// other hands as far from it as in the present.
 Outcome Rollback::feel(scene::World& world, const Situation& situation, std::int64_t now)
 {
     const scene::HandInput own = world.state().hands[own_hand];
@@ -200,15 +202,15 @@ void Rollback::smooth(const glm::dvec3& jump, double tick_s)
     offset_ += tick_s * offset_speed_;
 }
 
-/// Where messages were missing the pasts differ. The one that yields goes to where the other rests;
-/// the offset takes what is shown there.
+/// Makes pasts agree that differ because messages were missing. The one that yields goes to where
+/// the other rests; the offset takes what is shown there.
 base::Displacement Rollback::rest(const Situation& situation, const Outcome& outcome)
 {
     const auto leader = yields_to(situation);
     if (!leader || !hands_[*leader].heard.told) return {};
     RestAgreement::Word word = *hands_[*leader].heard.told;
-    // Of two, the other answers this hand's messages, by the clock. Of more, the age of a message
-    // between two others is not known.
+    // In a pair, the other answers this hand's messages, by the clock. Among more peers, the age of
+    // a message between two others is not known.
     word.knows = hands_.size() == 1 ? word.knows - SessionTicks::in_time / situation.tick
                                     : word.tick - resimulated_max;
     rest_.hear(word);

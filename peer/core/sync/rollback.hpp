@@ -57,13 +57,13 @@ constexpr auto fields_of(base::Tag<RollbackOptions> /*struct*/)
 /// this is a yardstick for the others. docs/design/algorithms.md has the equations.
 class Rollback {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.25);
 
     Rollback() : Rollback(RollbackOptions{}) {}
     explicit Rollback(const RollbackOptions& options) : options_{options} {}
 
-    /// Takes the memory for so many others and for two copies of the world.
+    /// Takes the memory for this number of others and for two copies of the world.
     void prepare(std::size_t others, const scene::World& world);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
@@ -79,11 +79,11 @@ public:
         return *past_;
     }
 
-    /// So long the past waits for somebody who was never heard.
+    /// The time for which the past waits for a peer that was never heard.
     static constexpr base::Duration waits_for{std::chrono::seconds{1}};
     /// No more ticks than that are computed again.
     static constexpr std::int64_t resimulated_max = 1000;
-    /// So long a body rests before its places are compared, at least.
+    /// The least time for which a body rests before its places are compared.
     static constexpr base::Duration rests_for{std::chrono::milliseconds{100}};
 
 private:

@@ -12,17 +12,18 @@
 
 namespace hapnet::peer {
 
-/// Numbers the ticks of one peer so that all peers number theirs alike, whatever their clocks say
-/// to a few milliseconds: the first tick of those who were there at the start is number 0. Counting
-/// is exact where clocks are not. Only who joins late, or has missed many ticks, is numbered by the
-/// clock, from then on by counting again.
+/// Numbers the ticks of one peer so that all peers use the same numbers, although their clocks
+/// differ by a few milliseconds. The first tick of the peers that were there at the start is number
+/// 0. Counting is exact where clocks are not. Only a peer that joins late, or has missed many
+/// ticks, is numbered once by the clock, and from then on by counting again.
 class SessionTicks {
 public:
-    /// What is less late than this was there at the start: agreed starts differ by less.
+    /// The tolerance between the count of ticks and the clock. A peer that is later by less was
+    /// present at the start: agreed starts differ by less.
     static constexpr base::Duration in_time{std::chrono::milliseconds{50}};
 
-    /// Of a peer's ticks this is the `count`-th, from 0; by the clock it is `since_start` from the
-    /// session's start.
+    /// Returns the session's number of a peer's tick. The peer has played `count` ticks before it,
+    /// and the clock says `since_start` from the session's start.
     [[nodiscard]] std::int64_t number(std::int64_t count, base::Duration since_start,
                                       base::Duration tick)
     {

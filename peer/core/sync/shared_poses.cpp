@@ -46,7 +46,7 @@ scene::BodyState between(const scene::BodyState& from, const scene::BodyState& t
     return state;
 }
 
-/// Whether a copy at rest is where its owner's is at rest.
+/// True if a copy at rest is where its owner's is at rest.
 bool agree(const scene::BodyState& own, const scene::BodyState& there)
 {
     const double alike =
@@ -148,7 +148,7 @@ void SharedPoses::find_groups(base::TimePoint now)
             if (touching_[i][k] && now - *touching_[i][k] < contact_lasts)
                 groups_[i] = static_cast<BodySet>(groups_[i] | bit_of_body(k));
     }
-    // What touches through another belongs to it, too (Warshall 1962).
+    // A body that touches one through another belongs to its group, too (Warshall 1962).
     for (std::size_t through = 0; through < bodies_.size(); ++through) {
         for (std::size_t i = 0; i < bodies_.size(); ++i)
             if (has_body(groups_[i], through))
@@ -171,7 +171,7 @@ void SharedPoses::follow(scene::World& world, const Situation& situation, std::s
     if (there != nullptr) put(world, situation, body, target_of(world, body, *there));
 }
 
-/// Those who may own a body: this peer and whoever is heard.
+/// Returns the peers that may own a body: this peer and those that are heard.
 SharedPoses::Present SharedPoses::present_in(const Situation& situation) const
 {
     Present present;
@@ -267,7 +267,7 @@ void SharedPoses::place(scene::World& world, std::size_t body, const scene::Body
     }
 }
 
-/// Whether it, or its way, may touch this hand or a body that this hand moves.
+/// True if it, or its way, may touch this hand or a body that this hand moves.
 bool SharedPoses::is_near_hand(const scene::World& world, std::size_t body, double within_m) const
 {
     const glm::dvec3 place = world.position(bodies_[body].id).value;

@@ -15,20 +15,20 @@
 
 namespace hapnet::peer {
 
-/// Whose copy counts of bodies that turn, and of several: those that touch each other are one
-/// group, and move together. It finds whose hands move a group, and brings this copy's bodies that
-/// no hand moves to where their owner has them (Ownership).
+/// Decides which peer's copy counts, for bodies that turn and for several bodies. Bodies that touch
+/// each other are one group, and move together. It finds whose hands move a group, and brings this
+/// copy's bodies that no hand moves to where their owner has them (Ownership).
 class SharedPoses {
 public:
-    /// Two that touched so long ago still count as touching: what rests on something leaves it for
-    /// a tick now and then.
+    /// The time after a touch for which two bodies still count as touching: a resting body leaves
+    /// its support for a tick now and then.
     static constexpr base::Duration contact_lasts{std::chrono::milliseconds{100}};
-    /// What is put elsewhere comes no faster near this hand, or near a body that it moves. A remote
-    /// hand carries a body at 0.3 m/s at most, in the paper's task.
+    /// The greatest speed at which a body that is put elsewhere may approach this hand, or a body
+    /// that the hand moves. A remote hand carries a body at 0.3 m/s at most, in the paper's task.
     static constexpr double approach_m_per_s = 0.5;
 
-    /// A copy so near another and at rest stays as it is, and may sleep. A hundredth of what counts
-    /// as agreement, and more than messages round.
+    /// A copy this near another and at rest stays where it is, and may sleep. The distance is a
+    /// hundredth of the limit of agreement, and more than messages round.
     static constexpr double same_place_m = 2e-6;
     static constexpr double same_angle_rad = 2e-5;
 
@@ -39,49 +39,49 @@ public:
     [[nodiscard]] std::span<const SharedBody> bodies() const { return bodies_; }
     [[nodiscard]] std::optional<std::size_t> index_of(scene::BodyId id) const;
 
-    /// Another whose hand touches a body.
+    /// Another peer whose hand touches a body.
     struct Toucher {
         const Remote* other = nullptr;
         std::size_t index = 0; // of the other
         std::size_t body = 0;
     };
-    /// Those of a tick, in the order of their ids.
+    /// The remote hands that touch something in a tick, in the order of their ids.
     struct Touchers {
         std::array<Toucher, 7> all{};
         std::size_t count = 0;
         [[nodiscard]] std::span<const Toucher> list() const { return {all.data(), count}; }
     };
-    /// As they were last heard.
+    /// The remote hands that touch bodies, as they were last heard.
     [[nodiscard]] Touchers touchers(const Situation& situation) const;
 
-    /// After the world's tick: whose hands moved which bodies.
+    /// Finds whose hands moved which bodies. Call it after the world's tick.
     void find_movers(const scene::World& world, const Situation& situation,
                      const Touchers& touchers);
-    /// Whose hands moved a body in the last tick, by themselves or by way of others.
+    /// The peers whose hands moved a body in the last tick, directly or by way of other bodies.
     enum class Mover : std::uint8_t { none, own, others };
     [[nodiscard]] Mover mover(std::size_t body) const { return movers_[body]; }
     /// The one of the others with the lowest id whose hand moves a body; nullptr: none does.
     [[nodiscard]] const Toucher* mover_among(const Touchers& touchers, std::size_t body) const;
-    /// Whose copy of a body counted in the last tick, as this peer sees it: its own while its hand
-    /// moves it, that of the lowest other while only others do, and else its owner's (Ownership).
-    /// 0 before the first.
+    /// The peer whose copy of a body counted in the last tick, as this peer sees it: its own while
+    /// its hand moves it, that of the lowest other while only others do, and else its owner's
+    /// (Ownership). 0 before the first.
     [[nodiscard]] std::uint16_t owner(std::size_t body) const { return owners_[body]; }
 
     /// Puts a body where one of the others has it.
     void follow(scene::World& world, const Situation& situation, std::size_t body,
                 const Remote& other) const;
-    /// A body that nobody moves: after a while it goes to where its owner has it.
+    /// Moves a body that no hand moves, after a while, to where its owner has it.
     void settle(scene::World& world, const Situation& situation, std::size_t body);
-    /// Whether that while is over.
+    /// True if that while is over, and the body goes there.
     [[nodiscard]] bool is_settling(std::size_t body) const { return blends_[body].has_value(); }
     /// Puts all bodies where one of the others has them, which has told of all.
     void take_over(scene::World& world, const Remote& other) const;
-    /// As this copy's body can be: turned only as it may.
+    /// Returns the target as this copy's body can take it: turned only as it may be.
     [[nodiscard]] scene::BodyState target_of(const scene::World& world, std::size_t body,
                                              const wire::BodyState& there) const;
 
 private:
-    /// The way of a body that nobody moves to where its owner has it.
+    /// The way of a body that no hand moves to where its owner has it.
     struct Blend {
         std::uint16_t owner = 0;
         base::TimePoint start;

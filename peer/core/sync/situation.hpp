@@ -25,7 +25,7 @@ public:
     RemoteClock() = default; // not known
     /// Follows ClockSync::trusted().
     explicit RemoteClock(const ClockSync& sync) : sync_{&sync} {}
-    /// One that was worked out before.
+    /// Takes an estimate that was computed before.
     explicit RemoteClock(const std::optional<ClockEstimate>& estimate) : estimate_{estimate} {}
 
     [[nodiscard]] std::optional<ClockEstimate> estimate() const
@@ -45,10 +45,11 @@ struct ReceivedState {
     base::TimePoint arrived;
     /// The tick of the sender that it tells of, from 1 in the session: see TickCount.
     std::uint32_t tick_number = 0;
-    /// From one message of the sender to the next, lost ones counted: a tick where each has one.
+    /// The time from one message of the sender to the next, also of lost ones: a tick where each
+    /// tick has a message.
     base::Duration span{std::chrono::milliseconds{1}};
-    /// False: it is older than one that was taken, or its duplicate. It tells of the network's
-    /// delay and of nothing else.
+    /// False: the message is older than one that was taken, or its duplicate. It tells most
+    /// algorithms only of the network's delay.
     bool taken = true;
     RemoteClock clock{};
     base::Duration tick{std::chrono::milliseconds{1}};

@@ -11,8 +11,8 @@
 
 namespace hapnet::peer {
 
-// Algorithms as TOML: `algorithm = "dead-reckoning"` and the keys of its parameters. What is left
-// out has its named default. docs/design/algorithms.md lists them.
+// Algorithms as TOML: `algorithm = "dead-reckoning"` and the keys of its parameters. A missing
+// parameter has its named default. docs/design/algorithms.md lists them.
 
 /// Reads the table at `node`, or the name of an algorithm or of a file of one; nullopt when a
 /// complaint was made.
@@ -24,15 +24,17 @@ namespace hapnet::peer {
 [[nodiscard]] base::Result<Algorithm> parse_algorithm(std::string_view text,
                                                       const std::string& source);
 
-/// The algorithm of that name ("base", "sep", "dead-reckoning") with all defaults, or else the file
-/// that `open` gives the text of. What ends in ".so" is a shared object, and is not loaded here.
+/// Returns the algorithm of that name ("base", "sep", "dead-reckoning") with all defaults, or that
+/// of a file whose text `open` gives. A name that ends in ".so" is a shared object, and is not
+/// loaded here.
 [[nodiscard]] base::Result<Algorithm> load_algorithm(const std::string& file_or_name,
                                                      const base::OpenFile& open);
 
 /// TOML that reads back as the same algorithm; of every parameter, also the defaults.
 [[nodiscard]] std::string print_algorithm(const Algorithm& algorithm);
 
-/// The same with a few words about every parameter, for a person who wants to change it.
+/// The algorithm's text with a few words about every parameter, for a person who wants to change
+/// it.
 [[nodiscard]] std::string explain_algorithm(const Algorithm& algorithm);
 
 } // namespace hapnet::peer

@@ -35,7 +35,8 @@ glm::dvec3 Wave::outgoing(const glm::dvec3& velocity, const glm::dvec3& incoming
     return size > wave_max_ ? (wave_max_ / size) * wave : wave;
 }
 
-/// What this copy sent in the message with that stamp; zero: it is too long ago.
+/// Returns the wave that this copy sent in the message with that stamp; zero: the message is too
+/// old.
 glm::dvec3 Wave::sent_at(Channel& channel, base::TimePoint at) const
 {
     std::uint64_t& index = channel.oldest_of_use;

@@ -24,21 +24,21 @@ constexpr auto fields_of(base::Tag<WaveOptions> /*struct*/)
                                     "renders a stiffness of b/D"));
 }
 
-/// Each two copies of the body are joined by a channel of waves (Niemeyer and Slotine 1991, 2004):
+/// A channel of waves joins each two copies of the body (Niemeyer and Slotine 1991, 2004). It is
 /// passive for any delay. A wave acts for one tick and once; where none arrives, the channel is a
-/// damper, so that loss and jitter weaken it and bring in no energy (Hirche and Buss). The waves
-/// are in no message: a receiver finds them from the sender's velocity and from which of its own
-/// waves the sender had got, as the echo tells. So both sides are to play it, with the same
+/// damper, so that loss and jitter weaken it and bring in no energy (Hirche and Buss). No message
+/// contains the waves: a receiver computes them from the sender's velocity and from the waves that
+/// the sender had got, which the echo tells. Both sides must therefore play it, with the same
 /// impedance. docs/design/algorithms.md has the equations.
 class Wave {
 public:
-    /// What it may bring into a hand at an Omni.
+    /// The energy that it may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(1.2);
 
     Wave() : Wave(WaveOptions{}) {}
     explicit Wave(const WaveOptions& options);
 
-    /// Takes the memory for so many others.
+    /// Takes the memory for this number of others.
     void prepare(std::size_t others);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
@@ -51,7 +51,7 @@ private:
         base::TimePoint at;
         glm::dvec3 wave{0.0};
     };
-    /// To the copy of one of the others.
+    /// The channel to the copy of one of the others.
     struct Channel {
         bool is_open = false;               // it has been heard
         std::optional<glm::dvec3> incoming; // for the next tick
@@ -60,8 +60,8 @@ private:
         std::uint64_t oldest_of_use = 0;    // of these: echoes do not go back
     };
     [[nodiscard]] glm::dvec3 sent_at(Channel& channel, base::TimePoint at) const;
-    /// That leaves a copy with this velocity and incoming wave; no larger than what twice the
-    /// greatest force of a contact makes. Both ends reckon it alike.
+    /// Returns the wave that leaves a copy with this velocity and incoming wave. It is limited to
+    /// that of twice the greatest force of a contact. Both ends compute it in the same way.
     [[nodiscard]] glm::dvec3 outgoing(const glm::dvec3& velocity, const glm::dvec3& incoming) const;
 
     static constexpr std::size_t ring_max = 4096; // ticks

@@ -38,7 +38,7 @@ public:
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
 
-    /// nullopt when nothing was added.
+    /// Returns nullopt when nothing was added.
     [[nodiscard]] std::optional<Moments> moments() const;
 
 private:

@@ -55,7 +55,7 @@ public:
     /// The values in the order in which they were added.
     [[nodiscard]] const std::vector<Duration>& values() const { return values_; }
 
-    /// nullopt when nothing was added.
+    /// Returns nullopt when nothing was added.
     [[nodiscard]] std::optional<Quantiles> quantiles() const;
 
 private:

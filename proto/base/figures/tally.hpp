@@ -23,7 +23,7 @@ struct Tally {
         max = std::max(max, value);
     }
 
-    /// nullopt when nothing was added.
+    /// Returns nullopt when nothing was added.
     [[nodiscard]] std::optional<double> mean() const
     {
         if (count == 0) return std::nullopt;

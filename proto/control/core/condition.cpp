@@ -25,8 +25,8 @@ std::vector<std::string_view> keys_of(const Json& object)
     return keys;
 }
 
-/// What the path leads to: null where it goes on below a null, whose parts are still to come. The
-/// error names the keys where it leads astray.
+/// Finds the value at a path. The value is null where the path goes on below a null, whose parts
+/// are still to come. The error names the keys at the point where the path is wrong.
 base::Result<const Json*> find(std::string_view path, const Json& statistics)
 {
     const Json* place = &statistics;

@@ -16,7 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How often a condition that somebody waits for is looked at. Each look costs about 0.1 ms.
+/// The interval at which a condition is checked that a client waits for. Each check costs about 0.1
+/// ms.
 constexpr base::Duration look_every = 100ms;
 
 } // namespace

@@ -46,7 +46,7 @@ public:
     /// If more bytes than this are unread, frames are left out: the newest frame is the most
     /// useful.
     static constexpr std::size_t unread_frames_bytes_max = std::size_t{64} << 10;
-    /// A client that takes nothing of what it is sent for so long is given up.
+    /// The time after which a client is given up that takes nothing of what it is sent.
     static constexpr base::Duration patience = std::chrono::seconds{10};
 
     /// A line of more than `line_max` bytes is refused, and the client heard no more.

@@ -17,7 +17,7 @@
 
 namespace hapnet::control {
 
-// What clients of a control socket send, as far as it is the same for every program.
+// The requests of a control socket's clients that are the same for every program.
 
 /// Answered once the condition holds, or its time is over.
 struct WaitRequest {
@@ -40,9 +40,9 @@ struct KeepRequest {
     std::optional<base::Duration> last;
 };
 
-/// How deep a request may be nested, and how many values it may have in all; an honest one needs 3
-/// and some hundred. More is refused before it is kept: what stands in the tree is found by looking
-/// at all of it.
+/// The limits of a request's nesting and of its number of values. An honest request needs a nesting
+/// of 3 and some hundred values. Larger ones are refused before they are kept, because a look-up in
+/// the tree searches all of it.
 inline constexpr std::size_t nesting_max = 16;
 inline constexpr std::size_t values_max = 512;
 

@@ -53,7 +53,7 @@ void write_new(const std::string& path, std::string text)
     fail(error);
 }
 
-/// What `parse` makes of the text of a file that only its owner can read.
+/// Parses the text of a file that only its owner can read, and returns the result of `parse`.
 template <typename Parse>
 std::invoke_result_t<Parse, std::string_view> read_secret(const std::string& path, Parse parse)
 {
