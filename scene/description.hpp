@@ -161,8 +161,8 @@ struct FieldDescription {
     friend bool operator==(const FieldDescription&, const FieldDescription&) = default;
 };
 
-/// The spheres of the hands (haptic interface points), all alike: a spring and a damper between the
-/// sphere and what it touches.
+/// The spheres of the hands (haptic interface points). All have the same values: a spring and a
+/// damper between the sphere and what it touches.
 struct HandDescription {
     double radius_m = 0.005;
     double stiffness_n_per_m = 500.0;

@@ -36,7 +36,7 @@ struct Apply {
 };
 
 /// Returns to the profile with which the emulator was started, at the present time of its timeline:
-/// as if nobody had ever changed anything.
+/// as if no change had ever been made.
 struct Reset {};
 
 using Command = std::variant<Set, Apply, Reset>;

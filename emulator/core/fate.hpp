@@ -99,7 +99,7 @@ inline constexpr std::size_t loss_laws_max = 8;
 /// The fate of a datagram: delivered, or dropped for a cause. A pure function of the seed, the
 /// direction, the conditions and the numbers of the datagrams, and for laws that depend on time of
 /// the arrivals; what the queues make of it is not part of it. A datagram that all laws deliver is
-/// still dropped while there is nobody on the other side: no_destination.
+/// still dropped while no program is on the other side: no_destination.
 struct Fate {
     std::optional<DropCause> drop{}; // nullopt: it is delivered
     std::uint8_t regime = 0;         // that it met, counted from 1; 0: there are none

@@ -110,7 +110,7 @@ public:
         return pipeline_.regime_course(until);
     }
     /// Returns the departures since the last call. The first call begins to count, so that a link
-    /// costs no more while nobody watches.
+    /// costs no more while no viewer is there.
     [[nodiscard]] Pulse take_pulse() { return std::exchange(pulse_, Pulse{}).value_or(Pulse{}); }
 
 private:
